@@ -10,6 +10,7 @@
 #include "cli.hpp"
 #include "faces.hpp"
 #include "knead/scene/shell_fields.hpp"
+#include "knead/session/session_info.hpp"
 #include "picture.hpp"
 #include "run_script.hpp"
 #include "say.hpp"
@@ -19,6 +20,15 @@ namespace {
 
 std::string json_string(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// What programs read of notes: of those that have a code.
+std::string coded_notes_json(const std::vector<Note>& notes) {
+  std::string text;
+  for (const Note& note : notes) {
+    if (note.diagnostic) text += (text.empty() ? "\n " : ",\n ") + note_json(note);
+  }
+  return text.empty() ? text : ",\n\"coded_notes\":[" + text + "]";
 }
 
 std::string report_json(const SessionState& state, const Outcome& o, const std::string& probes) {
@@ -55,7 +65,7 @@ std::string report_json(const SessionState& state, const Outcome& o, const std::
   }
   text += "],\n\"notes\":[";
   for (std::size_t k = 0; k < o.notes.size(); ++k) text += (k == 0 ? "\n " : ",\n ") + json_string(o.notes[k]);
-  return text + "]" + modes_json(state) + probes + "}\n";
+  return text + "]" + coded_notes_json(o.notes) + modes_json(state) + probes + "}\n";
 }
 
 /// The readings of the scene's probes: the entries of each list.

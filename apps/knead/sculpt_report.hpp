@@ -15,7 +15,7 @@ struct Outcome {
   double time = 0, energy_before = 0, energy_after = 0, residual = 0, largest_displacement = 0, gap = 0;
   int moved = 0, surfaces = 0, bodies = 0;
   std::vector<RepeatedSurface> places;
-  std::vector<std::string> notes;  ///< of the session, and on edges that are open
+  std::vector<Note> notes;  ///< of the session, and on edges that are open
 };
 
 /// \param opened how many surfaces the file had: those that follow were converted, and are written as B-splines

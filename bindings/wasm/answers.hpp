@@ -22,8 +22,12 @@ inline int fail_in(std::string& text, const Error& error) {
                     {{"kind", kind},
                      {"what", error.what},
                      {"where", error.where},
+                     {"place", ""},
                      {"remedy", error.remedy},
-                     {"message", error.message()}}}});
+                     {"message", error.message()},
+                     {"code", "none"},
+                     {"values", nullptr},
+                     {"fixes", nlohmann::json::array()}}}});
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "brep/surfaces/surface_foot.hpp"
 #include "face_loops.hpp"
 #include "face_region.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
@@ -30,9 +31,17 @@ Expected<std::vector<Index>> surfaces_at(const Model& model, Index edge) {
     const auto around = edges_around(face);
     if (std::ranges::find(around, edge) == around.end()) continue;
     if (model.spline_under(face) == nullptr) {
+      const auto of_support = [&](const std::string Record::*part) {
+        return face.support == none ? std::string() : model.supports[face.support].*part;
+      };
       return input_error(
           "the face " + face.id + " would have to follow the edge, but lies on " + model.label_under(face), id,
-          "convert that surface to a B-spline surface, or hold the edge");
+          "convert that surface to a B-spline surface, or hold the edge",
+          {ErrorCode::edge_face_not_spline,
+           {{"edge", id},
+            {"face", face.id},
+            {"surface", of_support(&Record::id)},
+            {"form", of_support(&Record::kind)}}});
     }
     const Index surface = model.supports[face.support].spline;
     if (std::ranges::find(result, surface) == result.end()) result.push_back(surface);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "joined_shapes.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/sculpt/active_form.hpp"
 #include "knead/sculpt/loads.hpp"
 #include "shell_model.hpp"
@@ -118,7 +119,8 @@ template <int D>
 Expected<std::unique_ptr<Model>> form_model(const Scene& scene, const EvolutionPolicy& evolution) {
   const SceneShape<D>& shape = *selected_shapes<D>(scene).front();
   if (shape.mode == RestMode::none) {
-    return has_none<D>("place without a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
+    auto refused = has_none<D>("place without a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
+    return std::unexpected(std::move(refused.error()).with({ErrorCode::rest_shape_needed}));
   }
   return FormModel<D>::create(model_input<D>(scene, evolution), shape.current->control_points());
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dead_loads.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/scene/formula_field.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/scene/places.hpp"
@@ -196,7 +197,8 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_m
   for (const SceneForce& f : scene.forces) {
     const std::vector<int> selection = scene.selection();
     if (std::holds_alternative<MomentForce>(f.force) && std::ranges::find(selection, f.surface) != selection.end()) {
-      return input_error("a moment acts on shells only", f.name, R"(give {"do":"material","model":"shell"})");
+      return input_error("a moment acts on shells only", f.name, R"(give {"do":"material","model":"shell"})",
+                         {ErrorCode::shell_needed});
     }
   }
   auto points = active_point_forces(scene);

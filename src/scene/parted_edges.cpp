@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knead/base/error_code.hpp"
 #include "knead/brep/shared_edge.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -172,7 +173,9 @@ Expected<void> check_parted(const std::vector<PartedEdge>& edges) {
       worst->id,
       fmt::format(
           R"(before it moves hold it, {{"do":"hold","mode":"trim"}}, or let it follow, {{"do":"edge","edge":"{}","hold":"follow"}}; or let it open: {{"do":"select","surface":"{}"}}, {{"do":"hold","mode":"free"}})",
-          worst->id, on));
+          worst->id, on),
+      {ErrorCode::edge_left_open,
+       {{"edge", worst->id}, {"surface", on}, {"faces", worst->faces}, {"distance", worst->distance}}});
 }
 
 std::string note_on(const PartedEdge& edge) {

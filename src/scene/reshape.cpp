@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "knead/base/error_code.hpp"
 #include "knead/scene/lattice.hpp"
 #include "knead/scene/mask.hpp"
 #include "knead/spline/extremum.hpp"
@@ -36,7 +37,8 @@ Expected<void> replace(const std::vector<Shape2*>& shapes, const SurfaceChange& 
 Expected<void> check_pins(const SceneSurface& surface) {
   if (surface.pins.empty()) return {};
   return input_error("control points are pinned by their numbers, which change with the net", surface.id,
-                     "release them first, or pin surface points (at) instead");
+                     "release them first, or pin surface points (at) instead",
+                     {ErrorCode::pins_by_number, {{"surface", surface.id}}});
 }
 
 /// The mask follows a change of the basis.

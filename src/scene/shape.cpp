@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "knead/base/error_code.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
@@ -44,7 +45,8 @@ template <int D>
 Expected<void> halve(SceneShape<D>& s) {
   if (!s.pins.empty()) {
     return input_error("control points are pinned by their numbers, which change with the net", s.id,
-                       "release them first, or pin points (at) instead");
+                       "release them first, or pin points (at) instead",
+                       {ErrorCode::pins_by_number, {{"surface", s.id}}});
   }
   if (s.velocity.rows() > 0) {  // a spline on the present basis, as the shapes are
     auto field = s.current->with_control_points(s.velocity);

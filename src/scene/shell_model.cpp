@@ -5,6 +5,7 @@
 
 #include "constraints.hpp"
 #include "dead_loads.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/scene/anchors.hpp"
 #include "knead/sculpt/active_shell.hpp"
 #include "knead/sculpt/loads.hpp"
@@ -18,7 +19,8 @@ Expected<void> check_scope(const SceneSurface& s) {
     return input_error("it is no shell, but is selected with shells", s.id, "give all of them the same kind of model");
   }
   if (s.mode == RestMode::none)
-    return input_error("a shell needs a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
+    return input_error("a shell needs a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})",
+                       {ErrorCode::rest_shape_needed});
   return {};
 }
 

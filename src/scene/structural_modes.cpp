@@ -1,5 +1,6 @@
 #include "structural_modes.hpp"
 
+#include "knead/base/error_code.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/solve/shell_statics.hpp"
 #include "shell_model.hpp"
@@ -35,7 +36,7 @@ Expected<std::vector<Eigenmode>> linear_buckling(const Scene& scene, int count) 
   const SceneSurface& s = selected_surface_of(scene);
   if (!is_nonlinear(s.elasticity)) {
     return input_error("the linear model does not buckle", "model",
-                       R"(give {"do":"material","model":"shell"} with young and thickness)");
+                       R"(give {"do":"material","model":"shell"} with young and thickness)", {ErrorCode::shell_needed});
   }
   const auto problem = shell_problem(scene);
   if (!problem) return std::unexpected(problem.error());

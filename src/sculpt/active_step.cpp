@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "active_run.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/base/interruption.hpp"
 #include "surface_forces.hpp"
 
@@ -184,12 +185,14 @@ Expected<ActiveStep> ActiveSpline<D>::Run::accept() {
   const bool dynamic = m.settings.evolution == Evolution::dynamic;
   if (!y.allFinite() || !summary.finite) {
     return numerical_error("the step gives no finite result and was refused", "step",
-                           "use a larger lambda, a smaller stiffness, smaller loads or larger material coefficients");
+                           "use a larger lambda, a smaller stiffness, smaller loads or larger material coefficients",
+                           {ErrorCode::step_not_finite});
   }
   if (const double largest = y.rowwise().norm().maxCoeff(); largest > run_away * std::max(m.extent, 1e-300)) {
     return numerical_error(
         fmt::format("the step runs away ({:.1e} sizes of the model) and was refused", largest / m.extent), "step",
-        dynamic ? "use a smaller time_step or smaller loads" : "hold something, use a larger lambda, or smaller loads");
+        dynamic ? "use a smaller time_step or smaller loads" : "hold something, use a larger lambda, or smaller loads",
+        {ErrorCode::step_runs_away, {{"sizes", largest / m.extent}}});
   }
   const Points x = before + y;
   ActiveStep result;

@@ -9,6 +9,7 @@
 
 #include "constraint_list_space.hpp"
 #include "constraint_rows.hpp"
+#include "knead/base/error_code.hpp"
 
 namespace knead {
 namespace {
@@ -106,7 +107,7 @@ Expected<ConstraintSpace> constraint_space(const ConstraintList& list, const Poi
     for (const std::string& hold : holds) names += (names.empty() ? "" : ", ") + hold;
     return input_error(fmt::format("the constraint contradicts {} by {:.3g}",
                                    names.empty() ? "what else is held" : names, amount * size),
-                       c.name, "release one of them");
+                       c.name, "release one of them", {ErrorCode::constraint_contradicts});
   }
   return space;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "elastic_descent.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/base/interruption.hpp"
 
 namespace knead {
@@ -210,12 +211,14 @@ template <int D>
 Expected<ActiveStep> ElasticRun<D>::accept() {
   if (!summary.finite || !y.allFinite()) {
     return numerical_error("the step gives no finite result and was refused", "step",
-                           "hold something, use a larger lambda, a smaller stiffness or smaller loads");
+                           "hold something, use a larger lambda, a smaller stiffness or smaller loads",
+                           {ErrorCode::step_not_finite});
   }
   if (const double largest = y.rowwise().norm().maxCoeff(); largest > run_away * std::max(m.extent, 1e-300)) {
     return numerical_error(
         fmt::format("the step runs away ({:.1e} sizes of the model) and was refused", largest / m.extent), "step",
-        "hold something, use a larger lambda or a smaller time_step, or smaller loads");
+        "hold something, use a larger lambda or a smaller time_step, or smaller loads",
+        {ErrorCode::step_runs_away, {{"sizes", largest / m.extent}}});
   }
   ActiveStep result;
   result.control_points = state.control_points;
@@ -316,7 +319,8 @@ Expected<ActiveStep> elastic_step(const ElasticModel<D>& model, const ActiveStat
   ElasticRun<D> run(model, state, tools, loads, following);
   if (run.drifts()) {
     return numerical_error("nothing holds the shape against the forces", "constraints",
-                           "hold a side or pin points, so that the forces cannot move all of it");
+                           "hold a side or pin points, so that the forces cannot move all of it",
+                           {ErrorCode::nothing_held});
   }
   run.balance();
   if (Interruption::asked_for()) return interrupted_error();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/decompositions.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/base/interruption.hpp"
 #include "nested_nets.hpp"
 
@@ -123,7 +124,8 @@ Expected<ChosenInverse> invert(const NetOperator<D>& a, ConstraintSpace space, s
   // Such a displacement costs no energy: there would be no equilibrium.
   if (undamped && space.free_count() > 0 && !holds_in_place(space, settings.held)) {
     return numerical_error("nothing holds the model in place, so it has no position of balance", "evolve",
-                           "hold an edge or pin points, or use another mode or a positive lambda");
+                           "hold an edge or pin points, or use another mode or a positive lambda",
+                           {ErrorCode::nothing_held});
   }
   const std::string points = fmt::format("{} control points", space.size());
   StepEngine engine{false, true, "asked for"};

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "element_hessian.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/base/interruption.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "tool_load_grip.hpp"
@@ -63,7 +64,7 @@ Expected<std::vector<double>> span_lengths(const Spline<D>& spline, std::size_t 
 
 std::unexpected<Error> too_small(double detail) {
   return input_error(fmt::format("a tool of size {:.3g} is too small for this surface", detail), "tool",
-                     "use a larger tool, or sculpt a smaller surface");
+                     "use a larger tool, or sculpt a smaller surface", {ErrorCode::tool_too_small, {{"size", detail}}});
 }
 
 /// Pieces per span, so that Gauss points lie closer than detail / points_per_detail.

@@ -5,6 +5,7 @@
 
 #include "brush_path.hpp"
 #include "executor.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
@@ -179,7 +180,8 @@ Expected<void> Executor::lead_brush() {
   }
   if (run.reaches()) return {};
   return input_error("the brush reaches no control point: the spans of the net are longer than its radius", "radius",
-                     R"(use a larger one, or let the net be refined: {"do":"refine","permission":"auto"})");
+                     R"(use a larger one, or let the net be refined: {"do":"refine","permission":"auto"})",
+                     {ErrorCode::brush_too_small});
 }
 
 /// How far the point that is grabbed would go with this displacement of the control points, of the way that it should.
@@ -330,7 +332,8 @@ Expected<void> Executor::displace_from_brush(const Points& displacement) {
     if (is > *state.limit * (1 + limit_share) && is > was) {
       return input_error(fmt::format("the surface would be {:.6g} from where it was opened, and {:.6g} is the limit",
                                      is, *state.limit),
-                         "brush", R"(move it less, or end the limit: {"do":"limit"})");
+                         "brush", R"(move it less, or end the limit: {"do":"limit"})",
+                         {ErrorCode::beyond_limit, {{"distance", is}, {"limit", *state.limit}}});
     }
   }
   return {};

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "executor.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "scene/smooth_seams.hpp"
 
@@ -60,9 +61,19 @@ void Executor::note_creases(std::span<const SeamReport> seams) {
     const auto kink = edge ? kink_along(shapes, *edge) : std::unexpected(edge.error());
     if (!kink || kink->angle <= accepted_angle) continue;
     const std::string why = report.reason.starts_with("C0: ") ? report.reason.substr(4) : report.reason;
-    state.notes.push_back(fmt::format(
-        R"({} and has a crease of {:.2g} degrees now at ({:.6g}, {:.6g}, {:.6g}): it keeps its position only, as {}; undo and let it stay smooth with {{"do":"seams","smooth":true}})",
-        begin, kink->angle * 180 / std::numbers::pi, kink->at.x(), kink->at.y(), kink->at.z(), why));
+    const Diagnostic crease{ErrorCode::seam_creased,
+                            {{"first", name(report.seam.a)},
+                             {"second", name(report.seam.b)},
+                             {"angle", kink->angle * 180 / std::numbers::pi},
+                             {"x", kink->at.x()},
+                             {"y", kink->at.y()},
+                             {"z", kink->at.z()},
+                             {"reason", why}}};
+    state.notes.emplace_back(
+        fmt::format(
+            R"({} and has a crease of {:.2g} degrees now at ({:.6g}, {:.6g}, {:.6g}): it keeps its position only, as {}; undo and let it stay smooth with {{"do":"seams","smooth":true}})",
+            begin, kink->angle * 180 / std::numbers::pi, kink->at.x(), kink->at.y(), kink->at.z(), why),
+        crease);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "knead/base/error_code.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/spline/extremum.hpp"
 
@@ -30,23 +31,26 @@ Expected<SceneSurface*> Executor::selected() {
                        "select a surface first");
   }
   if (document.is_fresh() && state.surfaces.empty()) {
-    return input_error("there is no surface yet", {}, R"(make one first: {"do":"new","size":[1,1],"net":[8,8]})");
+    return input_error("there is no surface yet", {}, R"(make one first: {"do":"new","size":[1,1],"net":[8,8]})",
+                       {ErrorCode::no_surface});
   }
   if (state.surfaces.empty() && !state.bodies.empty()) {
     return input_error(
         "the file has no B-spline surface", document.name(),
-        fmt::format(R"(select one of its curves: {{"do":"select","body":"{}"}})", common_of(state.bodies[0]).id));
+        fmt::format(R"(select one of its curves: {{"do":"select","body":"{}"}})", common_of(state.bodies[0]).id),
+        {ErrorCode::no_spline_surface, {{"body", common_of(state.bodies[0]).id}}});
   }
   if (state.surfaces.empty()) {
     const auto others =
         document.model() == nullptr ? std::vector<brep::OtherSurface>() : brep::other_surfaces(*document.model());
+    if (others.empty()) return input_error("the file has no B-spline surface that could be sculpted", document.name());
     return input_error("the file has no B-spline surface that could be sculpted", document.name(),
-                       others.empty() ? ""
-                                      : fmt::format(R"(make one of another surface: {{"do":"convert","surface":"{}"}})",
-                                                    others[0].id));
+                       fmt::format(R"(make one of another surface: {{"do":"convert","surface":"{}"}})", others[0].id),
+                       {ErrorCode::no_spline_surface, {{"surface", others[0].id}}});
   }
   return input_error(fmt::format("none of the {} surfaces is selected", state.surfaces.size()), {},
-                     fmt::format(R"(select one first: {{"do":"select","surface":"{}"}})", state.surfaces.front().id));
+                     fmt::format(R"(select one first: {{"do":"select","surface":"{}"}})", state.surfaces.front().id),
+                     {ErrorCode::none_selected, {{"surface", state.surfaces.front().id}}});
 }
 
 Expected<SceneSurface*> Executor::selected_alone() {
@@ -54,7 +58,8 @@ Expected<SceneSurface*> Executor::selected_alone() {
   if (!surface || state.together.empty()) return surface;
   return input_error(
       fmt::format("{} surfaces are selected", state.together.size() + 1), "select",
-      fmt::format(R"(select only the one that is meant: {{"do":"select","surface":"{}"}})", (*surface)->id));
+      fmt::format(R"(select only the one that is meant: {{"do":"select","surface":"{}"}})", (*surface)->id),
+      {ErrorCode::several_selected, {{"surface", (*surface)->id}}});
 }
 
 Expected<int> Executor::find_surface(const std::string& id) const {
@@ -70,7 +75,8 @@ Expected<int> Executor::find_surface(const std::string& id) const {
     const auto other = std::ranges::find(others, id, &brep::OtherSurface::id);
     if (other != others.end()) {
       return input_error(fmt::format("{} is a {}, not a B-spline surface", id, other->form), "surface",
-                         fmt::format(R"(convert it first: {{"do":"convert","surface":"{}"}})", id));
+                         fmt::format(R"(convert it first: {{"do":"convert","surface":"{}"}})", id),
+                         {ErrorCode::not_a_spline, {{"surface", id}, {"form", other->form}}});
     }
   }
   if (!document.is_fresh()) {
@@ -146,7 +152,7 @@ Expected<void> Executor::check_constraints_on(std::span<const int> changed) {
 Expected<void> Executor::change_basis(SceneSurface& surface, const SurfaceChange& change) {
   if (state.limit) {
     return input_error("a limit is measured on the weights and knots that the surface was opened with", "limit",
-                       R"(end it first: {"do":"limit"})");
+                       R"(end it first: {"do":"limit"})", {ErrorCode::limit_keeps_basis});
   }
   // `opened` is unchanged: deviations are measured from it.
   if (auto done = knead::change_basis(surface, change); !done) return done;

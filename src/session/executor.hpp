@@ -242,7 +242,7 @@ struct Executor {
   [[nodiscard]] double motion(double enough) const;
   [[nodiscard]] double static_motion() const;
   Expected<void> move_less(double share);
-  void note_motion(std::string_view begins, const std::string& note);
+  void note_motion(std::string_view begins, const std::string& note, Diagnostic read = {});
   /// `count` steps of the selected curve or volume.
   Expected<void> run_body(int count, const EvolutionPolicy& evolution);
   [[nodiscard]] bool imprints(const ActiveStep& step) const;

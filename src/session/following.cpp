@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "command_fields.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/shared_edge.hpp"
 #include "knead/scene/followed.hpp"
@@ -39,6 +40,12 @@ Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, 
       error.remedy = fmt::format(
           R"(convert it, {{"do":"convert","surfaces":[{}]}}, and select all of its surfaces, {{"do":"select","surfaces":[{}]}}, or hold the edge)",
           list_of(others), list_of(all));
+      if (error.diagnostic) {
+        Diagnostic more = *error.diagnostic;
+        more.values.emplace_back("surfaces", all);
+        more.values.emplace_back("others", others);
+        error = std::move(error).with(std::move(more));
+      }
     }
     return std::unexpected(error);
   }
@@ -82,9 +89,11 @@ Expected<void> Executor::follow_edge(const std::string& id) {
   const std::vector<std::string>& surfaces = found->course->surfaces();
   for (const std::string& surface : surfaces) {
     if (is_selected(surface)) continue;
-    return input_error(fmt::format("the face on {} would have to follow the edge, but it is not selected", surface), id,
-                       fmt::format(R"(select all of its surfaces, {{"do":"select","surfaces":[{}]}}, or hold the edge)",
-                                   list_of(surfaces)));
+    return input_error(
+        fmt::format("the face on {} would have to follow the edge, but it is not selected", surface), id,
+        fmt::format(R"(select all of its surfaces, {{"do":"select","surfaces":[{}]}}, or hold the edge)",
+                    list_of(surfaces)),
+        {ErrorCode::edge_face_not_selected, {{"edge", id}, {"surface", surface}, {"surfaces", surfaces}}});
   }
   return {};
 }
@@ -130,7 +139,8 @@ Expected<void> Executor::check_followed(const Scene& before) {
           fmt::format("the faces at the edge {} would part by {:.2g} at ({:.6g}, {:.6g}, {:.6g}), more than the "
                       "tolerance of {:.2g}; this was refused",
                       edge.id, apart->distance, p.x(), p.y(), p.z(), apart->tolerance),
-          "edge", R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it)");
+          "edge", R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it)",
+          {ErrorCode::edge_would_part, {{"edge", edge.id}}});
     }
     if (apart->angle > accepted_bend(*apart)) {
       const Point& p = apart->kink_place;
@@ -138,7 +148,8 @@ Expected<void> Executor::check_followed(const Scene& before) {
           fmt::format("the faces at the smooth edge {} would meet at {:.2g} degrees at ({:.6g}, {:.6g}, {:.6g}), more "
                       "than the {:.2g} that are accepted; this was refused",
                       edge.id, in_degrees(apart->angle), p.x(), p.y(), p.z(), in_degrees(accepted_bend(*apart))),
-          "edge", R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it "clamped")");
+          "edge", R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it "clamped")",
+          {ErrorCode::edge_would_part, {{"edge", edge.id}}});
     }
     const auto stuck = stuck_vertex(state, *edge.course);
     if (!stuck) return std::unexpected(stuck.error());

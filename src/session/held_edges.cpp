@@ -6,6 +6,7 @@
 #include <ranges>
 
 #include "executor.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/scene/trims.hpp"
 
 namespace knead {
@@ -39,10 +40,17 @@ Error opened_edge(const MovedTrim& worst, const std::string& surface, const std:
                        worst.id, surface, between, worst.turn * 180 / std::numbers::pi, place_of(worst));
   }
   if (ids.size() > 1) what += fmt::format("; {} other edge{} likewise", ids.size() - 1, ids.size() == 2 ? "" : "s");
-  return {ErrorKind::numerical, what + "; this was refused", "edge",
-          fmt::format(
-              R"(move less of the surface, or let what moves follow: {}; {{"do":"hold","mode":"free"}} lets it open)",
-              all_follow(ids))};
+  const bool opens = worst.distance > 0;
+  return Error(
+             ErrorKind::numerical, what + "; this was refused", "edge",
+             fmt::format(
+                 R"(move less of the surface, or let what moves follow: {}; {{"do":"hold","mode":"free"}} lets it open)",
+                 all_follow(ids)))
+      .with({opens ? ErrorCode::edge_would_open : ErrorCode::edge_would_turn,
+             {{"edge", worst.id},
+              {"surface", surface},
+              {opens ? "distance" : "angle", opens ? worst.distance : worst.turn * 180 / std::numbers::pi},
+              {"edges", ids}}});
 }
 
 }  // namespace

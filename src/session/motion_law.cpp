@@ -214,9 +214,9 @@ Expected<void> Executor::move_less(double share) {
 }
 
 /// A note of which only the last stands.
-void Executor::note_motion(std::string_view begins, const std::string& note) {
+void Executor::note_motion(std::string_view begins, const std::string& note, Diagnostic read) {
   std::erase_if(state.notes, [&](const std::string& n) { return n.starts_with(begins); });
-  state.notes.push_back(std::string(begins) + note);
+  state.notes.emplace_back(std::string(begins) + note, std::move(read));
 }
 
 Expected<void> Executor::keep_law() {

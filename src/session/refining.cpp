@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "executor.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
@@ -100,7 +101,8 @@ Expected<bool> Executor::refine_under(const Tool& tool, bool limited) {
                       "refines by itself",
                       tool.name, m, n, s.id, limit),
           tool.name,
-          R"(take a larger tool, refine where it matters, {"do":"refine","region":[[0.4,0.6],[0.4,0.6]]}, or go on with a coarse net: {"do":"refine","permission":"never"})");
+          R"(take a larger tool, refine where it matters, {"do":"refine","region":[[0.4,0.6],[0.4,0.6]]}, or go on with a coarse net: {"do":"refine","permission":"never"})",
+          {ErrorCode::net_too_large, {{"tool", tool.name}, {"surface", s.id}}});
     });
     if (!done) return std::unexpected(done.error());
   }

@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "described_text.hpp"
+#include "diagnostic_info.hpp"
 #include "info_values.hpp"
 #include "knead/sculpt/describe_shape.hpp"
 #include "restated.hpp"
@@ -196,7 +197,7 @@ struct SessionInfo {
   RefinePermission refine = RefinePermission::never;
   std::vector<SeamInfo> seams;
   std::vector<ReadingInfo> readings;
-  std::vector<std::string> notes;
+  std::vector<NoteInfo> notes;
   int steps = 0;
   std::optional<StepRecord> last;
   std::vector<VibrationInfo> modes;
@@ -230,19 +231,6 @@ static void describe(SessionInfo& s, Fields& fields) {
   fields.add("buckling", s.buckling, {.help = "likewise of `buckling`"});
   fields.add("undo", s.undo);
   fields.add("redo", s.redo);
-}
-
-struct ErrorInfo {
-  std::string kind, what, where, remedy, message;
-};
-
-static void describe(ErrorInfo& e, Fields& fields) {
-  fields.name("engine error info", "What went wrong, where, and what would be right.");
-  fields.add("kind", e.kind, {.help = "usage, input or numerical"});
-  fields.add("what", e.what);
-  fields.add("where", e.where);
-  fields.add("remedy", e.remedy);
-  fields.add("message", e.message, {.help = "all of it as one line"});
 }
 
 namespace {
@@ -332,7 +320,7 @@ std::string session_json(const Session& session) {
   info.refine = state.permission;
   for (const SeamReport& seam : state.seam_reports) info.seams.push_back({seam.continuity, seam.seam.gap, seam.reason});
   info.readings = readings_of(state);
-  info.notes = state.notes;
+  for (const Note& note : state.notes) info.notes.push_back(info_of(note));
   info.steps = static_cast<int>(state.steps.size());
   if (!state.steps.empty()) info.last = state.steps.back();
   for (const ModeRecord& mode : state.modes) info.modes.push_back({mode.value, mode.residual});
@@ -345,13 +333,6 @@ std::string session_json(const Session& session) {
 std::string steps_json(const SessionState& state, std::size_t first) {
   return json_of(std::vector<StepRecord>(
       state.steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, state.steps.size())), state.steps.end()));
-}
-
-std::string error_json(const Error& error) {
-  const char* kind = error.kind == ErrorKind::numerical ? "numerical"
-                     : error.kind == ErrorKind::usage   ? "usage"
-                                                        : "input";
-  return "{\"error\":" + json_of(ErrorInfo{kind, error.what, error.where, error.remedy, error.message()}) + "}";
 }
 
 std::string session_typescript() {

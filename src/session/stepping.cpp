@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "executor.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/base/interruption.hpp"
 #include "knead/scene/anchors.hpp"
 #include "knead/scene/followed.hpp"
@@ -91,7 +92,8 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
   if (!selection) return std::unexpected(selection.error());
   if (increments && !shells()) {
     return input_error("only the load of a shell is increased in parts", "increments",
-                       R"(leave it out, or give {"do":"material","model":"shell"} with young and thickness)");
+                       R"(leave it out, or give {"do":"material","model":"shell"} with young and thickness)",
+                       {ErrorCode::shell_needed});
   }
   if (state.permission == RefinePermission::automatic) {
     if (auto refined = refine_seams(); !refined) return refined;
@@ -176,17 +178,20 @@ Expected<void> Executor::run_body(int count, const EvolutionPolicy& evolution) {
 void Executor::note_loose() {
   if (!law || unruled || !(law->reach > 0)) return;
   std::string loose;
+  std::vector<std::string> ids;
   for (const int k : state.selection()) {
     const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
     if (holds_anything(s)) return;
     loose += (loose.empty() ? "" : ", ") + s.id;
+    ids.push_back(s.id);
   }
-  const std::string note = fmt::format(
-      "nothing holds {}: what presses on it moves all of it; hold its edges, {{\"do\":\"hold\",\"mode\":\"trim\"}}, or "
-      "its "
-      "outer rows, {{\"do\":\"hold\",\"rows\":2}}",
-      loose);
-  if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
+  Note note(fmt::format("nothing holds {}: what presses on it moves all of it; hold its edges, "
+                        "{{\"do\":\"hold\",\"mode\":\"trim\"}}, or "
+                        "its "
+                        "outer rows, {{\"do\":\"hold\",\"rows\":2}}",
+                        loose),
+            {ErrorCode::surface_loose, {{"surfaces", ids}}});
+  if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(std::move(note));
 }
 
 Expected<void> Executor::check_limit() const {

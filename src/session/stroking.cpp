@@ -6,6 +6,7 @@
 #include <map>
 
 #include "executor.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/scene/anchors.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
@@ -114,7 +115,8 @@ Expected<void> Executor::begin_stroke(const std::string& name, double share) {
   if (!tool) return std::unexpected(tool.error());
   if (state.scaling == ScalingMode::raw) {
     return input_error("strokes that leave their groove as they go need a model in normalised units", "plastic",
-                       R"(give {"do":"scaling","mode":"normalised"}, or "plastic":"release")");
+                       R"(give {"do":"scaling","mode":"normalised"}, or "plastic":"release")",
+                       {ErrorCode::scaling_is_raw});
   }
   if (state.permission == RefinePermission::automatic) {
     if (auto refined = refine_seams(); !refined) return refined;

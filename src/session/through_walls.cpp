@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "commands.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/brep/trim_loops.hpp"
 #include "knead/scene/display.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -159,14 +160,20 @@ Expected<void> Executor::meet_faces(std::span<const std::shared_ptr<const Surfac
   const Point& at = contact->place;
   const std::string place =
       fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}), {:.4g} deep", to, at.x(), at.y(), at.z(), deep);
+  const auto read = [&](ErrorCode code) -> Diagnostic {
+    return {code, {{"surface", s.id}, {"other", to}, {"x", at.x()}, {"y", at.y()}, {"z", at.z()}, {"depth", deep}}};
+  };
   if (through == Through::note) {
-    note_motion("through another face", fmt::format(": {} comes to {}, and goes on; press less deep, or say "
-                                                    "\"allow\":\"through\"",
-                                                    s.id, place));
+    note_motion("through another face",
+                fmt::format(": {} comes to {}, and goes on; press less deep, or say "
+                            "\"allow\":\"through\"",
+                            s.id, place),
+                read(ErrorCode::through_face));
     return {};
   }
   note_motion("stopped at another face",
-              fmt::format(": {} would come through {}; \"allow\":\"through\" lets it", s.id, place));
+              fmt::format(": {} would come through {}; \"allow\":\"through\" lets it", s.id, place),
+              read(ErrorCode::stopped_at_face));
   stopped_at_face = true;
   return stop_at_face(motions, contact->room);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "command_fields.hpp"
+#include "knead/base/error_code.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/spline/evaluate.hpp"
 
@@ -40,14 +41,17 @@ Error fold_error(const SceneSurface& s, const Eigen::Vector2d& at) {
   const std::string place = fmt::format("{} at [{:.4f}, {:.4f}]", s.id, at.x(), at.y());
   if (const TrimEdge* edge = held_beside(s, at)) {
     const bool side = edge->neighbours.empty();  // where nothing could follow
-    return {ErrorKind::numerical,
-            fmt::format("the step folds {} beside the edge {}, which is held, and was refused", place, edge->id),
-            "step",
-            fmt::format(R"(press less deep or farther from it, or {}: {{"do":"edge","edge":"{}","hold":"{}"}})",
-                        side ? "let it go" : "let the edge follow", edge->id, side ? "free" : "follow")};
+    return Error(ErrorKind::numerical,
+                 fmt::format("the step folds {} beside the edge {}, which is held, and was refused", place, edge->id),
+                 "step",
+                 fmt::format(R"(press less deep or farther from it, or {}: {{"do":"edge","edge":"{}","hold":"{}"}})",
+                             side ? "let it go" : "let the edge follow", edge->id, side ? "free" : "follow"))
+        .with({ErrorCode::step_folds_beside_edge,
+               {{"surface", s.id}, {"edge", edge->id}, {"hold", side ? "free" : "follow"}}});
   }
-  return {ErrorKind::numerical, fmt::format("the step folds {} and was refused", place), "step",
-          "press less deep, go there in several steps with a larger lambda, or use a stiffer material"};
+  return Error(ErrorKind::numerical, fmt::format("the step folds {} and was refused", place), "step",
+               "press less deep, go there in several steps with a larger lambda, or use a stiffer material")
+      .with({ErrorCode::step_folds, {{"surface", s.id}}});
 }
 
 }  // namespace
@@ -68,7 +72,7 @@ Expected<const VisibleRegion*> Executor::visible(SceneSurface& surface) {
       Error error = region.error();
       error.what = fmt::format("the edges of the faces on {} cannot be followed: {}", surface.id, error.what);
       error.remedy = R"(hold something else: {"do":"hold","rows":2}, or {"do":"hold","mode":"free"})";
-      return std::unexpected(error);
+      return std::unexpected(std::move(error).with({ErrorCode::edges_unknown, {{"surface", surface.id}}}));
     }
     known = std::make_shared<const VisibleRegion>(std::move(*region));
   }
@@ -239,6 +243,10 @@ bool Executor::holds_edges() const {
 
 Error Executor::all_held(const std::string& tool) const {
   std::string by, remedy;
+  Diagnostic diagnostic{ErrorCode::nothing_free, {{"tool", tool}}};
+  const auto say = [&](ErrorCode code, const NamedValue& surface, const NamedValue& more) {
+    if (code > diagnostic.code) diagnostic = {code, {{"tool", tool}, surface, more}};
+  };
   for (int k : state.selection()) {
     const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
     const auto [m, n] = s.current->net();
@@ -246,19 +254,23 @@ Error Executor::all_held(const std::string& tool) const {
     if (s.hold_rows > 0) {
       what = fmt::format("hold of {} rows on its net of {} x {}", s.hold_rows, m, n);
       remedy = R"(hold the edges of the face instead, {"do":"hold","mode":"trim"}, or fewer rows, or refine first)";
+      say(ErrorCode::nothing_free_in_rows, {"surface", s.id}, {"rows", static_cast<double>(s.hold_rows)});
     } else if (holds_trims(s.constraints)) {
       what = fmt::format("hold of the edges of its faces on its net of {} x {}", m, n);
       remedy = state.permission == RefinePermission::never
                    ? R"(permit refining, {"do":"refine","permission":"trims"}, or free an edge)"
                    : "press farther from the edges, or free the one that is near";
+      say(ErrorCode::nothing_free_at_edges, {"surface", s.id},
+          {"permission", state.permission == RefinePermission::never ? "never" : "trims"});
     } else {
       what = "pins, frozen regions and held lines";
       remedy = "release some of it";
     }
     by += fmt::format("{}{}: {}", by.empty() ? "" : "; ", s.id, what);
   }
-  return {ErrorKind::numerical, fmt::format("nothing is free to move under the tool {} ({})", tool, by), "step",
-          remedy + R"(; or go on regardless with "allow":"held")"};
+  return Error(ErrorKind::numerical, fmt::format("nothing is free to move under the tool {} ({})", tool, by), "step",
+               remedy + R"(; or go on regardless with "allow":"held")")
+      .with(std::move(diagnostic));
 }
 
 }  // namespace knead

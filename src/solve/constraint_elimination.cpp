@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "knead/base/error_code.hpp"
+
 namespace knead::detail {
 namespace {
 
@@ -122,7 +124,7 @@ Expected<void> ConstraintElimination::eliminate(const Terms& terms, const double
     for (int k = 0; k < width_; ++k) {
       if (std::abs(row.value[k]) > contradictory_above * row.size * std::max(row.scale, 1e-300)) {
         return input_error(fmt::format("the constraint contradicts {}", names_of(row.sources, name)), names_[at(name)],
-                           "release one of them");
+                           "release one of them", {ErrorCode::constraint_contradicts});
       }
     }
     return {};

@@ -68,7 +68,8 @@ TEST(Help, SculptNamesEveryFieldOfTheReport) {
                             "increments",
                             "note",
                             "seams",
-                            "notes"}) {
+                            "notes",
+                            "coded_notes"}) {
     EXPECT_NE(help.find('"' + std::string(field) + '"'), std::string::npos) << field;
   }
 }

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <sstream>
 #include <string>
 
 #include "house/rules.hpp"
@@ -17,6 +19,30 @@ TEST(House, KeepsItsRules) {
 }
 
 TEST(House, IsReallyInspected) { EXPECT_TRUE(fs::exists(fs::path(KNEAD_SOURCE_DIR) / "include/knead/base/error.hpp")); }
+
+std::string contents(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+TEST(House, ListsAndTestsEveryCodeOfErrors) {
+  const fs::path root = KNEAD_SOURCE_DIR;
+  const std::string header = contents(root / "include/knead/base/error_code.hpp"),
+                    page = contents(root / "docs/errors.md");
+  std::string tests;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "tests")) {
+    if (entry.path().extension() == ".cpp") tests += contents(entry.path());
+  }
+  const std::regex enumerator(R"(\n  (\w+), )");
+  int count = 0;
+  for (std::sregex_iterator it(header.begin(), header.end(), enumerator), end; it != end; ++it, ++count) {
+    const std::string name = (*it)[1];
+    EXPECT_NE(page.find("| `" + name + "` |"), std::string::npos) << "docs/errors.md does not list " << name;
+    EXPECT_TRUE(name == "none" || tests.contains("ErrorCode::" + name)) << "no test expects " << name;
+  }
+  EXPECT_GT(count, 30);
+}
 
 /// A small tree of sources that is written, inspected and removed.
 class Tree : public testing::Test {

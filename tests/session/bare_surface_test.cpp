@@ -6,6 +6,7 @@
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/revolution.hpp"
 #include "support.hpp"
+#include "support/error_codes.hpp"
 #include "support/surfaces.hpp"
 
 namespace knead {
@@ -95,6 +96,7 @@ TEST(BareSurface, IsFreeWhereAskedAndThatIsNoted) {
   run(session, {held, select(session), R"({"do":"hold","mode":"free"})", ball, press});
   EXPECT_GT(motion(session)[0], 1);
   EXPECT_TRUE(notes(session, "nothing holds " + id_of(session)));
+  EXPECT_TRUE(testing::has_note(session.state().notes, ErrorCode::surface_loose));
 }
 
 TEST(BareSurface, LetsASideGoByItsName) {

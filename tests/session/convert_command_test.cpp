@@ -5,7 +5,9 @@
 #include "knead/brep/shared_edge.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/scene/trims.hpp"
+#include "knead/session/fixes.hpp"
 #include "session/running.hpp"
+#include "support/error_codes.hpp"
 
 namespace knead {
 namespace {
@@ -67,15 +69,26 @@ TEST(Convert, WithoutItTheErrorNamesTheFaceAndTheCommand) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find(TwoSheets::name(sheets.faces[1])), std::string::npos) << refused.error().what;
   EXPECT_NE(refused.error().what.find("#20 PLANE"), std::string::npos) << refused.error().what;
+  EXPECT_EQ(testing::code_of(refused.error()), ErrorCode::edge_face_not_spline);
+  const std::vector<Fix> fixes = fixes_for(*refused.error().diagnostic);
+  ASSERT_EQ(fixes.size(), 1U);
+  Session fixed = opened(sheets);
+  for (const Command& command : fixes[0].commands) {
+    const auto done = fixed.execute(command);
+    ASSERT_TRUE(done) << done.error().message();
+  }
+  EXPECT_EQ(fixed.state().followed.size(), 1U);
   EXPECT_NE(refused.error().remedy.find(R"({"do":"convert","surfaces":["#20"]})"), std::string::npos)
       << refused.error().remedy;
   EXPECT_NE(refused.error().remedy.find(both), std::string::npos) << refused.error().remedy;
   const auto select = run(session, both);
   ASSERT_FALSE(select);
   EXPECT_NE(select.error().remedy.find(convert), std::string::npos) << select.error().message();
+  EXPECT_EQ(testing::code_of(select.error()), ErrorCode::not_a_spline);
   const auto alone = run(session, convert + R"(,{"do":"select","surface":"#10"},)" + free_edge(sheets));
   ASSERT_FALSE(alone);
   EXPECT_NE(alone.error().what.find("not selected"), std::string::npos) << alone.error().message();
+  EXPECT_EQ(testing::code_of(alone.error()), ErrorCode::edge_face_not_selected);
 }
 
 TEST(Convert, NeighboursOfTheSelectionAreFound) {

@@ -1,5 +1,6 @@
 // Seams that were smooth and are coupled in position only: what is said of them, and what keeps them smooth.
 #include "pieces.hpp"
+#include "support/error_codes.hpp"
 
 #include <numbers>
 
@@ -49,6 +50,7 @@ TEST(Creasing, IsSaidWithItsPlaceAndItsReasonAndEndsWhereSeamsStaySmooth) {
   EXPECT_GT(crease, 1);
   EXPECT_LT(gap, 1e-12 * 200);
   ASSERT_GE(said.size(), 1U);
+  EXPECT_TRUE(testing::has_note(session.state().notes, ErrorCode::seam_creased));
   EXPECT_NE(said[0].find("in no fixed ratio"), std::string::npos) << said[0];
   EXPECT_NE(said[0].find(R"({"do":"seams","smooth":true})"), std::string::npos) << said[0];
   run(session, {R"({"do":"undo"})", R"({"do":"seams","smooth":true})", pressed});

@@ -4,9 +4,11 @@
 #include <filesystem>
 
 #include "knead/exchange/format.hpp"
+#include "knead/session/fixes.hpp"
 #include "knead/session/session_info.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "support.hpp"
+#include "support/error_codes.hpp"
 
 namespace knead {
 namespace {
@@ -138,6 +140,16 @@ TEST(CurveFile, OfOneCurveAloneHasItSelected) {
                 R"({"do":"step","count":4})"});
   EXPECT_GT(largest_displacement(session.state().bodies[0]), 0.1);
   EXPECT_NE(*session.save(), *made.save());
+}
+
+TEST(CurveFile, WithoutASurfaceOffersOneOfItsCurves) {
+  Session made = fresh();
+  run(made, {R"({"do":"new","shape":"curve","size":5,"net":8})", R"({"do":"new","shape":"curve","size":5,"net":8})"});
+  Session session(document_of(*made.save()));
+  const Error error = refusal(session, R"({"do":"limit","distance":1,"relative":true})");
+  EXPECT_EQ(testing::code_of(error), ErrorCode::no_spline_surface) << error.message();
+  for (const Fix& fix : fixes_for(*error.diagnostic)) EXPECT_TRUE(session.act(fix.commands));
+  EXPECT_TRUE(session.state().body);
 }
 
 TEST(CurveFile, CurvesOfEdgesAreNotFree) {

@@ -3,6 +3,7 @@
 #include "knead/brep/shared_edge.hpp"
 #include "knead/scene/followed.hpp"
 #include "session/running.hpp"
+#include "support/error_codes.hpp"
 
 namespace knead {
 namespace {
@@ -156,6 +157,7 @@ TEST(FollowCommands, WhatPartsTheFacesIsRefused) {
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().kind, ErrorKind::numerical);
   EXPECT_NE(done.error().what.find("part by 0.1"), std::string::npos) << done.error().message();
+  EXPECT_EQ(testing::code_of(done.error()), ErrorCode::edge_would_part);
   EXPECT_EQ(session.largest_displacement(0), 0);
 }
 

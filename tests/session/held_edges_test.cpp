@@ -8,6 +8,7 @@
 #include "knead/scene/parted_edges.hpp"
 #include "knead/scene/trims.hpp"
 #include "session/running.hpp"
+#include "support/error_codes.hpp"
 #include "support/made_files.hpp"
 
 namespace knead {
@@ -41,6 +42,7 @@ TEST(HeldEdges, APointThatWouldOpenOneStays) {
   const std::string id = TwoSheets::name(sheets.edge);
   EXPECT_EQ(error.kind, ErrorKind::numerical);
   EXPECT_TRUE(says(error.what, "open by 0.25 at (1, 0, 0)")) << error.message();
+  EXPECT_EQ(testing::code_of(error), ErrorCode::edge_would_open);
   EXPECT_TRUE(says(error.what, TwoSheets::name(sheets.outer)) || says(error.what, id)) << error.message();
   EXPECT_TRUE(says(error.what, "1 other edge likewise")) << error.message();
   EXPECT_TRUE(says(error.remedy, R"({"do":"edge","edge":")" + id + R"(","hold":"follow"})")) << error.remedy;
@@ -83,6 +85,7 @@ TEST(HeldEdges, TangentPlanesThatAreHeldDoNotTurn) {
   const Error error = refused(session, left + R"(,{"do":"hold","mode":"trim-g1"},{"do":"elevate","by":[1,1]},
       {"do":"points","which":[4],"by":[0,0,0.2]})");
   EXPECT_TRUE(says(error.what, "are held, and would turn by")) << error.message();
+  EXPECT_EQ(testing::code_of(error), ErrorCode::edge_would_turn);
   EXPECT_EQ(session.largest_displacement(0), 0);
 }
 
@@ -127,6 +130,7 @@ TEST(PartedEdges, WhatWasNeverHeldIsNotWrittenOpen) {
   ASSERT_FALSE(bytes);
   EXPECT_EQ(bytes.error().kind, ErrorKind::numerical);
   EXPECT_TRUE(says(bytes.error().what, "would be left 0.25 from the face")) << bytes.error().message();
+  EXPECT_EQ(testing::code_of(bytes.error()), ErrorCode::edge_left_open);
   EXPECT_TRUE(says(bytes.error().what, "at (1, 0, 0)")) << bytes.error().message();
   EXPECT_TRUE(says(bytes.error().remedy, R"({"do":"hold","mode":"free"})")) << bytes.error().remedy;
   // As the remedy says.

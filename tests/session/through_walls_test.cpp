@@ -7,6 +7,7 @@
 #include "knead/brep/face_conversion.hpp"
 #include "knead/exchange/format.hpp"
 #include "support.hpp"
+#include "support/error_codes.hpp"
 #include "support/made_files.hpp"
 #include "support/surfaces.hpp"
 
@@ -21,8 +22,11 @@ constexpr const char* stopping = "stopped at another face";
 
 /// The note that begins so; empty: there is none.
 std::string note(const Session& session, const std::string& begin) {
-  for (const std::string& n : session.state().notes) {
-    if (n.starts_with(begin)) return n;
+  for (const Note& n : session.state().notes) {
+    if (!n.starts_with(begin)) continue;
+    EXPECT_TRUE(n.diagnostic);
+    EXPECT_EQ(n.diagnostic->code, begin == stopping ? ErrorCode::stopped_at_face : ErrorCode::through_face);
+    return n;
   }
   return {};
 }

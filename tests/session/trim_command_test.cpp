@@ -3,8 +3,10 @@
 #include "exchange/face_builder.hpp"
 #include "knead/scene/held_points.hpp"
 #include "knead/scene/trims.hpp"
+#include "knead/session/fixes.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "session/running.hpp"
+#include "support/error_codes.hpp"
 
 namespace knead {
 namespace {
@@ -123,10 +125,12 @@ TEST(TrimCommands, AFoldBesideAHeldEdgeNamesIt) {
   for (const auto& [edge, by] : {std::pair{d.hole, "[-0.2,0,0]"}, {d.edge, "[0.2,0,0]"}}) {
     const Error error = refused("", "[0.8,0.5]", by);
     EXPECT_NE(error.what.find("beside the edge " + edge + ", which is held"), std::string::npos) << error.message();
+    EXPECT_EQ(testing::code_of(error), ErrorCode::step_folds_beside_edge);
     EXPECT_NE(error.remedy.find(R"({"do":"edge","edge":")" + edge + R"(","hold":"follow"})"), std::string::npos);
   }
   const Error freed = refused(R"({"do":"edge","edge":")" + d.hole + R"(","hold":"free"},)", "[0.8,0.5]", "[-0.2,0,0]");
   EXPECT_NE(freed.what.find("folds #10"), std::string::npos) << freed.message();
+  EXPECT_EQ(testing::code_of(freed), ErrorCode::step_folds);
   EXPECT_EQ(freed.what.find(d.hole + ","), std::string::npos) << "it is not held";
 }
 
@@ -184,6 +188,11 @@ TEST(TrimCommands, WhereNothingMayBeRefinedAndNothingIsFreeThatIsAnErrorWithTheR
   EXPECT_EQ(done.error().kind, ErrorKind::numerical);
   EXPECT_NE(done.error().message().find("nothing is free"), std::string::npos);
   EXPECT_NE(done.error().remedy.find("permission"), std::string::npos);
+  EXPECT_EQ(testing::code_of(done.error()), ErrorCode::nothing_free_at_edges);
+  const std::vector<Fix> fixes = fixes_for(*done.error().diagnostic);
+  ASSERT_EQ(fixes.size(), 1U);
+  for (const Command& command : fixes[0].commands) ASSERT_TRUE(session.execute(command));
+  EXPECT_TRUE(run(session, pressed)) << "what is offered helps";
 }
 
 TEST(TrimCommands, AStepOverWhatIsHeldCanBeAllowed) {

@@ -3,9 +3,17 @@ import { fileURLToPath } from 'node:url';
 
 import { adviceOn, inOneLine, looseIn, throughIn } from '@studio/document/words';
 import { Engine } from '@studio/engine/engine';
-import { type Command, EngineError, type EngineErrorInfo } from '@studio/engine/session_types';
+import { type Command, EngineError, type EngineErrorInfo, errorOf, type NoteInfo } from '@studio/engine/session_types';
 
 const wasm = readFileSync(fileURLToPath(new URL('../../web/src/engine/knead_studio.wasm', import.meta.url)));
+
+type Values = NonNullable<EngineErrorInfo['values']>;
+const noValues: Values = {
+  surface: null, surfaces: [], others: [], body: null, edge: null, edges: [], face: null, faces: [], form: null, tool: null, hold: null, permission: null, rows: null,
+  point: null, distance: null, limit: null, angle: null, size: null, sizes: null, depth: null, x: null, y: null, z: null, first: null, second: null, other: null, reason: null,
+};
+const told = (code: EngineErrorInfo['code'], values: Partial<Values> | null, fixes: EngineErrorInfo['fixes'] = []): EngineErrorInfo =>
+  ({ ...errorOf('numerical', 'what', 'remedy'), code, values: values && { ...noValues, ...values }, fixes });
 
 async function refused(...commands: Command[]): Promise<{ engine: Engine; info: EngineErrorInfo }> {
   const engine = await Engine.load(wasm);
@@ -26,7 +34,7 @@ const press: Command = { do: 'stroke', tool: 'brush', path: [[50, 50, 6], [60, 5
 
 describe('what the engine refuses', () => {
   const cases: [string, Command[], RegExp, string | null][] = [
-    ['a balance of nothing held', [{ do: 'evolve', mode: 'static' }], /^Nothing holds the surface/, 'Hold the edges'],
+    ['a balance of nothing held', [{ do: 'evolve', mode: 'static' }], /^Nothing holds the surface/, 'Hold the outer rows'],
     ['a stroke in raw scaling', [{ do: 'material', preset: 'clay' }, { do: 'scaling', mode: 'raw' }, ball, press], /usual scaling/, 'Use the usual scaling'],
     ['a stroke where all is held', [{ do: 'material', preset: 'clay' }, { do: 'hold', rows: 6 }, ball, press], /6 outer rows/, 'Refine'],
     ['points beyond the limit', [{ do: 'limit', distance: 1 }, { do: 'points', which: [60], by: [0, 0, 9] }], /limit is 1/, 'End the limit'],
@@ -44,13 +52,13 @@ describe('what the engine refuses', () => {
   });
 
   it('a fold names the held edge beside it, which may follow instead', () => {
-    const error = { kind: 'numerical', where: 'step', what: 'the step folds #10 at [0.7000, 0.5000] beside the edge #43, which is held, and was refused',
-      remedy: 'press less deep or farther from it, or let the edge follow: {"do":"edge","edge":"#43","hold":"follow"}' } as EngineErrorInfo;
-    const { text, remedy, actions } = adviceOn(error);
-    expect(text).toContain('beside the held edge #43');
+    const error = told('step_folds_beside_edge', { surface: '#10', edge: '#43', hold: 'follow' }, [{ code: 'let_follow', commands: [{ do: 'edge', edge: '#43', hold: 'follow' }] }]);
+    const { text, remedy, actions } = adviceOn(error, true);
+    expect(text).toBe('The surface would fold over itself beside the held edge #43, so nothing was done.');
+    expect(adviceOn(error).text).toBe('The surface would fold over itself beside the held edge #43.');
     expect(remedy).toMatch(/let the edge follow/);
     expect(actions).toEqual([{ label: 'Let the edge follow', commands: [{ do: 'edge', edge: '#43', hold: 'follow' }] }]);
-    const far = adviceOn({ ...error, what: 'the step folds #10 at [0.7000, 0.5000] and was refused' });
+    const far = adviceOn(told('step_folds', { surface: '#10' }));
     expect(far.text).not.toContain('#43');
     expect(far.actions).toEqual([]);
   });
@@ -94,33 +102,30 @@ describe('what the engine refuses', () => {
     for (const command of alone.actions[0]!.commands) engine.execute(command);
   });
 
-  it('has no JSON left in words that nobody has written here', () => {
-    const info: EngineErrorInfo = { kind: 'input', what: 'the net is odd', where: 'which', message: '',
-      remedy: 'make one first: {"do":"new","size":[1,1]}, or use `knots` with lambda >= 0; or go on regardless with "allow":"held"' };
-    expect(adviceOn(info)).toEqual({ text: 'The net is odd', remedy: 'Make one first, or use “knots” with λ ≥ 0', actions: [] });
-    expect(inOneLine(info)).toBe('The net is odd: make one first, or use “knots” with λ ≥ 0');
-    expect(adviceOn({ ...info, where: '#12 line 7', remedy: '' })).toEqual({ text: '#12 line 7: the net is odd', actions: [] });
+  it('what nobody has written words for stands as the engine says it', () => {
+    const info: EngineErrorInfo = { ...told('none', null), what: 'the net is odd', where: 'which', remedy: 'use `knots` with lambda >= 0' };
+    expect(adviceOn(info)).toEqual({ text: 'The net is odd', remedy: 'Use “knots” with λ ≥ 0', actions: [] });
+    expect(inOneLine(info)).toBe('The net is odd: use “knots” with λ ≥ 0');
+    expect(adviceOn({ ...info, where: '#12 line 7', place: '#12 line 7', remedy: '' })).toEqual({ text: '#12 line 7: the net is odd', actions: [] });
   });
 });
 
 describe('an edge that would open', () => {
-  const advice = (what: string, remedy: string) => adviceOn({ kind: 'numerical', what, where: 'edge', remedy } as EngineErrorInfo);
-  const follow = '{"do":"edge","edge":"#7","hold":"follow"}', free = '{"do":"hold","mode":"free"}';
+  const follow = (edge: string): Command => ({ do: 'edge', edge, hold: 'follow' });
 
   it('may follow what moves, all of them at once', () => {
-    const { text, actions } = advice('the edge #7 on #10 between the faces #1 and #2 is held, and would open by 0.25 at (1, 0, 0); 1 other edge likewise; this was refused',
-      `move less of the surface, or let what moves follow: ${follow}, {"do":"edge","edge":"#8","hold":"follow"}; ${free} lets it open`);
+    const commands = [follow('#7'), follow('#8')];
+    const { text, actions } = adviceOn(told('edge_would_open', { edge: '#7', distance: 0.25, edges: ['#7', '#8'] }, [{ code: 'let_follow', commands }]), true);
     expect(text).toBe('The edge #7, which is held, would open by 0.25, so nothing was done.');
-    expect(actions[0]!.commands).toEqual([{ do: 'edge', edge: '#7', hold: 'follow' }, { do: 'edge', edge: '#8', hold: 'follow' }]);
-    const turned = advice('the tangent planes along the edge #7 on #10 are held, and would turn by 12 degrees at (1, 0, 0); this was refused', `let what moves follow: ${follow}`);
-    expect(turned.text).toContain('would turn by 12 degrees');
+    expect(actions).toEqual([{ label: 'Let the edges follow', commands }]);
+    expect(adviceOn(told('edge_would_turn', { edge: '#7', angle: 12 })).text).toContain('would turn by 12 degrees');
   });
 
   it('is saved once it is let go', () => {
-    const { text, actions } = advice('the edge #7 would be left 0.25 from the faces #1 and #2 at (1, 0, 0), 0 as opened, and 1e-06 is allowed; nothing is written',
-      `before it moves hold it, {"do":"hold","mode":"trim"}, or let it follow, ${follow}; or let it open: {"do":"select","surface":"#10"}, ${free}`);
+    const commands: Command[] = [{ do: 'select', surface: '#10' }, { do: 'hold', mode: 'free' }];
+    const { text, actions } = adviceOn(told('edge_left_open', { edge: '#7', distance: 0.25, faces: ['#1', '#2'] }, [{ code: 'let_open', commands }]));
     expect(text).toBe('Nothing was saved: the edge #7 would be left 0.25 from the faces #1 and #2.');
-    expect(actions).toEqual([{ label: 'Let it open', commands: [{ do: 'select', surface: '#10' }, { do: 'hold', mode: 'free' }] }]);
+    expect(actions).toEqual([{ label: 'Let it open', commands }]);
   });
 });
 
@@ -133,15 +138,15 @@ describe('what notes tell', () => {
     expect(loose).toHaveLength(1);
     expect(loose[0]!.text).toMatch(/^Nothing holds \S+: what presses on it moves all of it\.$/);
     for (const { commands } of loose[0]!.actions) for (const command of commands) engine.execute(command);
-    expect(looseIn('made smaller: 0.9 of what it would have been')).toBeNull();
+    expect(looseIn({ text: 'made smaller', code: 'none', values: null, fixes: [] })).toBeNull();
   });
 
   it('that a face is stopped before another, or comes through it', () => {
-    const place = 'the face #45 on #20 at (5, 5, 0), 1 deep';
-    expect(throughIn(`stopped at another face: #10 would come through ${place}; "allow":"through" lets it`))
+    const values = { ...told('none', {}).values!, surface: '#10', other: 'the face #45 on #20', x: 5, y: 5, z: 0, depth: 1 };
+    const note = (code: NoteInfo['code']): NoteInfo => ({ text: '', code, values, fixes: [] });
+    expect(throughIn(note('stopped_at_face')))
       .toEqual({ stopped: true, text: '#10 was stopped 1 deep: farther on it would come through the face #45 on #20 at (5, 5, 0).' });
-    expect(throughIn(`through another face: #10 comes to ${place}, and goes on; press less deep, or say "allow":"through"`)?.text)
-      .toBe('#10 comes through the face #45 on #20 at (5, 5, 0), 1 deep.');
-    expect(throughIn('the net is now 25 x 21')).toBeNull();
+    expect(throughIn(note('through_face'))?.text).toBe('#10 comes through the face #45 on #20 at (5, 5, 0), 1 deep.');
+    expect(throughIn(note('none'))).toBeNull();
   });
 });

@@ -13,6 +13,7 @@
 #include "knead/sculpt/seam_coupling.hpp"
 #include "knead/session/command.hpp"
 #include "knead/session/document.hpp"
+#include "knead/session/note.hpp"
 
 namespace knead {
 
@@ -48,7 +49,7 @@ struct ModeRecord {
 struct SessionRecord {
   SharedList<StepRecord> steps;           ///< shared by the states of a history
   std::vector<SeamReport> seam_reports;   ///< of the model of the last step; patches are indices of surfaces
-  std::vector<std::string> notes;         ///< side effects of commands: refinements, lines kept smooth
+  std::vector<Note> notes;                ///< side effects of commands: refinements, lines kept smooth
   std::optional<double> energy_before;    ///< energy before the first step
   std::vector<ModeRecord> modes = {};     ///< of the last command `modes`, lowest first
   std::vector<ModeRecord> buckling = {};  ///< of the last command `buckling`, likewise

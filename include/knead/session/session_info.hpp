@@ -37,8 +37,11 @@ namespace knead {
 [[nodiscard]] Expected<std::string> face_reading_json(const Session& session, const std::string& face,
                                                       const Point& near);
 
-/// {"error": {kind, what, where, remedy, message}}.
+/// {"error": {kind, what, where, remedy, message, code, values, fixes}}: docs/errors.md.
 [[nodiscard]] std::string error_json(const Error& error);
+
+/// {text, code, values, fixes}.
+[[nodiscard]] std::string note_json(const Note& note);
 
 /// A TypeScript module with the types of all these and of all commands (`AnyCommand`).
 [[nodiscard]] std::string session_typescript();

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "../shape_fields.hpp"
+#include "knead/base/error_code.hpp"
 
 namespace knead {
 namespace {
@@ -316,7 +317,8 @@ Expected<void> Executor::execute(const BrushCommand& c) {
   state.brush.reset();
   if (brush_cache->stuck) {  // not of a stroke that may still come to where something is free
     return numerical_error("nothing is free to move under the brush", "brush",
-                           R"(brush elsewhere, or release what is held or masked: {"do":"release"})");
+                           R"(brush elsewhere, or release what is held or masked: {"do":"release"})",
+                           {ErrorCode::nothing_free_at_brush});
   }
   return {};
 }

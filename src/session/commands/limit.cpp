@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "knead/base/error_code.hpp"
 #include "knead/spline/extremum.hpp"
 
 namespace knead {
@@ -29,7 +30,8 @@ Expected<void> Executor::execute(const LimitCommand& c) {
     return input_error(fmt::format("weights or knots of {} were edited, and a limit is measured on those it was opened "
                                    "with",
                                    s.id),
-                       "limit", "save the file and open it again, or undo those edits");
+                       "limit", "save the file and open it again, or undo those edits",
+                       {ErrorCode::limit_needs_opened_basis, {{"surface", s.id}}});
   }
   double unit = 1;
   if (c.relative) {

@@ -236,8 +236,10 @@ Expected<void> Executor::execute(const NewCommand& c) {
   const std::string id = fmt::format("#{}", state.surfaces.size() + state.bodies.size() + 1);
   state.together.clear();
   if (makes_body(c)) {
-    auto body = new_body(c, state.notes);
+    std::vector<std::string> notes;
+    auto body = new_body(c, notes);
     if (!body) return std::unexpected(body.error());
+    state.notes.insert(state.notes.end(), notes.begin(), notes.end());
     if (auto fits = check_document_size(state, control_points_of(*body).rows()); !fits) return fits;
     const auto label = [&](auto& s) {
       s.id = id;

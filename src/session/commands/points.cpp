@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "knead/base/error_code.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/spline/extremum.hpp"
 
@@ -43,7 +44,8 @@ Expected<void> allowed(const SceneSurface& s, const std::vector<int>& named, con
       for (int k : named) {
         if (!list.held[static_cast<std::size_t>(k)] || motion.row(k).isZero(0)) continue;
         return input_error(fmt::format("control point {} ({}, {}) is frozen", k, k / n, k % n), "which",
-                           "leave it out, or release it first");
+                           "leave it out, or release it first",
+                           {ErrorCode::point_frozen, {{"point", static_cast<double>(k)}}});
       }
     } else {
       if (auto done = append_symmetry(*s.reference, kept.constraint, list); !done) return done;
@@ -138,7 +140,8 @@ Expected<void> within_limit(const Executor& executor, const SceneSurface& s, con
   if (is <= *limit * (1 + limit_tolerance) || is <= was) return {};
   return input_error(
       fmt::format("the surface would be {:.6g} from where it was opened, and {:.6g} is the limit", is, *limit), field,
-      R"(move it less, or end the limit: {"do":"limit"})");
+      R"(move it less, or end the limit: {"do":"limit"})",
+      {ErrorCode::beyond_limit, {{"distance", is}, {"limit", *limit}}});
 }
 
 /// Clay: the reference shapes and held positions move along. Places that coincided still do, to the bit.

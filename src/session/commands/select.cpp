@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "knead/base/error_code.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
 
 namespace knead {
@@ -58,7 +59,7 @@ Expected<void> select_body(const std::string& id, const Document& document, Sess
     remedy = document.is_fresh() ? R"(make one first: {"do":"new","shape":"curve"})"
                                  : "the file has no B-spline curves that stand for themselves";
   }
-  return input_error(fmt::format("there is no curve or volume {}", id), "body", remedy);
+  return input_error(fmt::format("there is no curve or volume {}", id), "body", remedy, {ErrorCode::no_body});
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ describe('over the seam of two selected surfaces', () => {
     await expect.poll(async () => (await commands(page)).at(-2)).toMatchObject({ do: 'seams', smooth: true });
     await settled(page);
     expect((await commands(page)).at(-1)).toEqual(brush);
-    const notes = await page.evaluate(() => (window as never as { studio: { state: { notes: string[] } } }).studio.state.notes);
-    expect(notes.filter((text) => text.includes('crease of'))).toEqual([]);
+    const notes = await page.evaluate(() => (window as never as { studio: { state: { notes: { text: string }[] } } }).studio.state.notes);
+    expect(notes.filter(({ text }) => text.includes('crease of'))).toEqual([]);
   });
 });

@@ -82,7 +82,7 @@ describe('a message', () => {
     const balance = page.getByRole('button', { name: 'Balance' });
     await balance.click();
     await expect.poll(() => errors().textContent()).toContain('Nothing holds the surface');
-    await errors().locator('button', { hasText: 'Hold the edges' }).click();
+    await errors().locator('button', { hasText: 'Hold the outer rows' }).click();
     await settled(page);
     expect((await commands(page)).at(-1)).toMatchObject({ do: 'hold', rows: 2 });
     expect(await errors().count()).toBe(0);

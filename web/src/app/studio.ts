@@ -10,7 +10,7 @@ import type { Context, Trim } from '../engine/context';
 import { plain } from '../engine/displays';
 import type { Frame, PictureSettings } from '../engine/protocol';
 import { selected } from '../engine/session_state';
-import { type Command, EngineError, type EngineErrorInfo, type LatticeSettings, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
+import { type Command, EngineError, type EngineErrorInfo, type LatticeSettings, type NoteInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
 import { usualRadius } from '../engine/strokes';
 import type { App } from '../panels/app';
 import { openSnakes } from '../panels/snakes/door';
@@ -149,14 +149,14 @@ export class Studio implements App {
   private creased = new Set<string>();
 
   /** Says once that connected surfaces have got a crease, and offers what does without. */
-  private tellCreases(notes: readonly string[]): void {
+  private tellCreases(notes: readonly NoteInfo[]): void {
     if (this.hand.active) return; // at the end of the stroke
     const creases = notes.flatMap((note) => creaseIn(note) ?? []);
     const fresh = creases.find(({ seam }) => !this.creased.has(seam));
     this.creased = new Set(creases.map(({ seam }) => seam));
     if (fresh) {
-      const { text, remedy } = fresh;
-      this.notify({ kind: 'info', text, remedy, actions: [{ label: 'Keep it smooth', act: () => void this.again([{ do: 'seams', smooth: true }]) }] });
+      const { text, remedy, seam, actions } = fresh;
+      this.notify({ kind: 'info', text, topic: `crease ${seam}`, remedy, actions: actions.map(({ label, commands }) => ({ label, act: () => void this.again(commands) })) });
     }
   }
 
@@ -164,25 +164,27 @@ export class Studio implements App {
   private told = new Set<string>();
 
   /** Says once that nothing holds what is pressed, and offers what does; and where a face was stopped before another. */
-  private tellLoose(notes: readonly string[]): void {
+  private tellLoose(notes: readonly NoteInfo[]): void {
     if (this.hand.active || this.frame?.playing) return; // at the end of the stroke
     const loose = notes.flatMap((note) => looseIn(note) ?? []), through = notes.flatMap((note) => throughIn(note) ?? []);
     for (const { text, actions } of loose.filter((l) => !this.told.has(l.text))) {
-      this.notify({ kind: 'info', text, actions: actions.map(({ label, commands }) => ({ label, act: () => void this.execute(commands) })) });
+      this.notify({ kind: 'info', text, topic: 'loose', actions: actions.map(({ label, commands }) => ({ label, act: () => void this.execute(commands) })) });
     }
     for (const { text, stopped } of through.filter((t) => !this.told.has(t.text))) {
-      const goOn = { label: 'Go through', act: () => void this.again([], (c) => ('allow' in c ? { ...c, allow: 'through' } as Command : c)) };
-      this.notify({ kind: 'info', text, actions: stopped ? [goOn] : [] });
+      const goOn = { label: 'Go through', act: () => void this.again([{ do: 'undo' }], (c) => ('allow' in c ? { ...c, allow: 'through' } as Command : c)) };
+      this.notify({ kind: 'info', text, topic: 'through', actions: stopped ? [goOn] : [] });
     }
     this.told = new Set([...loose, ...through].map(({ text }) => text));
   }
 
-  /** The last act again, changed, after other commands. */
+  /** The last act again, changed, after commands that undo it. */
   private async again(before: Command[], change: (command: Command) => Command = (command) => command): Promise<void> {
     const commands = JSON.parse(await this.client.journal()) as Command[];
     // What is done with a ball is a tool, its strokes and its removal.
     const first = commands.at(-1)?.do === 'remove' ? commands.map((c) => c.do).lastIndexOf('tool') : commands.length - 1;
-    if (!(await this.execute([{ do: 'undo' }])) || (before.length > 0 && !(await this.execute(before)))) return;
+    for (const command of before) {
+      if (!(await this.execute([command]))) return;
+    }
     await this.execute(commands.slice(first).map(change));
   }
 
@@ -191,7 +193,7 @@ export class Studio implements App {
     return this.attempt(async () => {
       await this.client.execute(commands, join);
       this.documents.work(commands);
-    });
+    }, !join);
   }
 
   async offer(commands: Command[]): Promise<string | null> {
@@ -204,12 +206,13 @@ export class Studio implements App {
     }
   }
 
-  async attempt(act: () => Promise<void>): Promise<true | null> {
+  /** `whole`: what fails has done nothing. */
+  async attempt(act: () => Promise<void>, whole = false): Promise<true | null> {
     try {
       await act();
       return true;
     } catch (error) {
-      if (error instanceof EngineError) this.fail(error.info);
+      if (error instanceof EngineError) this.fail(error.info, whole);
       else this.notify({ kind: 'error', text: error instanceof Error ? error.message : String(error) });
       return null;
     }
@@ -228,10 +231,10 @@ export class Studio implements App {
     await this.documents.revive(end);
   }
 
-  private fail(error: EngineErrorInfo): void {
+  private fail(error: EngineErrorInfo, nothingDone = false): void {
     if (error.kind === 'died') return; // told once it goes on
-    const { text, remedy, actions } = adviceOn(error);
-    this.notify({ kind: 'error', text, remedy, actions: actions.map(({ label, commands }) => ({ label, act: () => void this.execute(commands) })) });
+    const { text, remedy, actions } = adviceOn(error, nothingDone);
+    this.notify({ kind: 'error', text, ...(error.code === 'none' ? {} : { topic: error.code }), remedy, actions: actions.map(({ label, commands }) => ({ label, act: () => void this.execute(commands) })) });
   }
 
   // --- documents: document/documents.ts, document/saving.ts ---------------------------------------------------------

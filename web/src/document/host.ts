@@ -6,6 +6,10 @@ import type { SessionInfo } from '../engine/session_types';
 export interface Notice {
   kind: 'error' | 'info';
   text: string;
+  /** What it is about: it takes the place of the one before about the same. Default: its text. */
+  topic?: string;
+  /** Of the page, not of its document: it stays where another is opened. */
+  ofPage?: boolean;
   remedy?: string;
   actions?: { label: string; act: () => void }[];
 }

@@ -3,7 +3,7 @@ import type { Context, FaceEdge, Trim } from './context';
 import type { DisplayInfo } from './displays';
 import type { CheckedEdgeInfo, EdgesInfo, ReadingInfo } from './generated';
 import type { Frame, PictureSettings, Reply, Request } from './protocol';
-import { type Command, EngineError, type EngineErrorInfo, type MaterialSamples, type MeshFormat, type SurfaceNumbers, type Vector3 } from './session_types';
+import { type Command, EngineError, type EngineErrorInfo, errorOf, type MaterialSamples, type MeshFormat, type SurfaceNumbers, type Vector3 } from './session_types';
 
 interface Answer {
   bytes?: Uint8Array;
@@ -78,7 +78,7 @@ export class Client {
         return;
       }
       const message = event.message || 'the engine could not be started';
-      this.onError({ kind: 'internal', what: message, where: '', remedy: 'reload the page', message });
+      this.onError(errorOf('internal', message, 'reload the page'));
     };
     return ready;
   }
@@ -117,7 +117,7 @@ export class Client {
     this.worker = this.makeWorker();
     this.ready = this.listen(this.worker);
     const what = 'the engine stopped, and was started again';
-    for (const { reject } of lost) reject(new EngineError({ kind: 'died', what, where: '', remedy: '', message: what }));
+    for (const { reject } of lost) reject(new EngineError(errorOf('died', what, '')));
     this.onDeath(end);
   }
 

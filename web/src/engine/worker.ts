@@ -5,7 +5,7 @@ import restUrl from './knead_rest.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
 import { Preparation } from './preparation';
 import { Rest } from './rest';
-import { type Command, EngineError, type EngineErrorInfo, type Picture, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
+import { type Command, EngineError, type EngineErrorInfo, errorOf, type Picture, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
 import { rehearse } from './strokes';
 import { trimTree } from './trim_tree';
 
@@ -63,7 +63,7 @@ const post = (reply: Reply, transfer: Transferable[] = []) => self.postMessage(r
 function errorInfo(error: unknown): EngineErrorInfo {
   if (error instanceof EngineError) return error.info;
   const message = error instanceof Error ? error.message : String(error);
-  return { kind: 'internal', what: message, where: '', remedy: 'save what you can and reload the page', message };
+  return errorOf('internal', message, 'save what you can and reload the page');
 }
 
 /** What the engine refuses is an `EngineError`; anything else has stopped it half-way. The page ends this worker then. */

@@ -96,7 +96,7 @@ export function historyPanel(app: App): HTMLElement {
         return h('li', { title: details }, h('b', {}, name), ` ${details.length > 60 ? `${details.slice(0, 60)}…` : details}`);
       }));
     }, () => {});
-    const notes = [...(app.state?.notes ?? []), app.state?.last?.note ?? ''].filter(Boolean);
+    const notes = [...(app.state?.notes ?? []).map((n) => n.text), app.state?.last?.note ?? ''].filter(Boolean);
     return [notes.length > 0 ? note(notes.join('\n')) : null, list];
   }, false);
 }

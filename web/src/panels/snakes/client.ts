@@ -1,4 +1,4 @@
-import { EngineError, type EngineErrorInfo } from '../../engine/session_types';
+import { EngineError, type EngineErrorInfo, errorOf } from '../../engine/session_types';
 import type { Snakes } from './module';
 import type { Reply, Request, Result } from './protocol';
 
@@ -16,7 +16,7 @@ export class SnakeClient {
     this.worker.onmessage = (event: MessageEvent<Reply>) => this.take(event.data);
     this.worker.onerror = (event) => {
       const what = event.message || 'the engine of snakes stopped';
-      const info = { kind: 'internal', what, where: '', remedy: 'close the panel and open the image again', message: what } as EngineErrorInfo;
+      const info = errorOf('internal', what, 'close the panel and open the image again');
       for (const { reject } of this.waiting.values()) reject(new EngineError(info));
       this.waiting.clear();
       this.onError(info);

@@ -70,7 +70,7 @@ export class SnakeModel {
 
   tell(error: unknown): void {
     const info = error instanceof EngineError ? error.info : null;
-    const text = info ? `${info.where && /^[a-z_]+$/.test(info.where) ? `${info.where}: ` : ''}${info.what}` : error instanceof Error ? error.message : String(error);
+    const text = info ? `${info.where && !info.place ? `${info.where}: ` : ''}${info.what}` : error instanceof Error ? error.message : String(error);
     this.app.notify({ kind: 'error', text: text.charAt(0).toUpperCase() + text.slice(1), ...(info?.remedy ? { remedy: info.remedy } : {}) });
   }
 

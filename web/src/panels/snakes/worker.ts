@@ -1,4 +1,4 @@
-import { EngineError } from '../../engine/session_types';
+import { EngineError, errorOf } from '../../engine/session_types';
 import wasmUrl from './knead_snake.wasm?url';
 import { SnakeModule, type Snakes } from './module';
 import type { Reply, Request, Result } from './protocol';
@@ -72,7 +72,7 @@ function act(request: Request): Result {
 function infoOf(error: unknown): EngineError['info'] {
   if (error instanceof EngineError) return error.info;
   const what = error instanceof Error ? error.message : String(error);
-  return { kind: 'internal', what, where: '', remedy: 'close the panel and open the image again', message: what };
+  return errorOf('internal', what, 'close the panel and open the image again');
 }
 
 addEventListener('message', (event: MessageEvent<{ id: number; request: Request }>) => {
