@@ -107,6 +107,23 @@ describe('a message', () => {
     expect((await commands(page)).at(-1)).toEqual({ do: 'limit', relative: false });
   });
 
+  it('leaves with its document, and its button too', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    const loose = page.locator('.notice', { hasText: 'Nothing holds' });
+    await execute(studio.page, { do: 'release' });
+    await page.keyboard.press('b');
+    await stroke(page, [-10, 0], [10, 0]);
+    await expect.poll(() => loose.count()).toBe(1);
+    await scene(page, 'Clay sheet');
+    expect(await loose.count()).toBe(0);
+    await execute(studio.page, { do: 'limit', distance: 2 });
+    await page.evaluate(() => void (window as never as { studio: { execute(c: Command[]): Promise<unknown> } }).studio.execute([{ do: 'points', which: [16 * 32 + 16], by: [0, 0, 9] }]));
+    await expect.poll(() => errors().count()).toBe(1);
+    await scene(page, 'Clay sheet');
+    expect(await errors().count()).toBe(0);
+  });
+
   it('about a stroke between held edges offers a finer net', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');

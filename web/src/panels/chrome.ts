@@ -135,9 +135,9 @@ export function notices(app: App): HTMLElement {
           a.act();
         } }, a.label))),
       iconButton('close', 'Dismiss', close));
-    // Again with other numbers is the same.
-    const gist = (text: string) => text.replace(/[\d.,]+(e[-+]?\d+)?/g, '#');
-    [...stack.children].find((other) => gist(other.querySelector('p')?.textContent ?? '') === gist(notice.text))?.remove();
+    element.dataset.topic = notice.topic ?? notice.text;
+    if (!notice.ofPage) element.dataset.session = String(app.documents.sessions);
+    [...stack.querySelectorAll<HTMLElement>('.notice')].find((other) => other.dataset.topic === element.dataset.topic)?.remove();
     stack.append(element);
     while (stack.children.length > 3) stack.firstElementChild!.remove();
     const stays = notice.kind === 'info' && (notice.actions ?? []).length > 0; // an offer
@@ -149,7 +149,9 @@ export function notices(app: App): HTMLElement {
   app.onChange.push(() => {
     if (session === app.documents.sessions) return;
     session = app.documents.sessions;
-    for (const old of stack.querySelectorAll('.notice:not(.stays)')) old.remove(); // about another document
+    for (const old of stack.querySelectorAll<HTMLElement>('.notice[data-session]')) {
+      if (old.dataset.session !== String(session)) old.remove(); // about another document
+    }
   });
   return stack;
 }

@@ -8,6 +8,7 @@ export async function offerRecovery(app: App): Promise<void> {
   const offer = (kept: Kept, older: Kept[]) =>
     app.notify({
       kind: 'info',
+      ofPage: true,
       text: `“${kept.name}”, ${extent(kept)}, from ${when(kept)}, is still here.`,
       actions: [
         { label: 'Recover', act: () => void app.documents.recover(kept) },

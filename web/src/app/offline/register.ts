@@ -8,6 +8,7 @@ export async function workOffline(app: App): Promise<void> {
     const offer = (worker: ServiceWorker) =>
       app.notify({
         kind: 'info',
+        ofPage: true,
         text: 'A newer version of the studio is here.',
         actions: [{ label: 'Reload', act: () => void takeOver(app, worker) }],
       });
