@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "described_json.hpp"
 #include "restated.hpp"
 
@@ -16,18 +18,17 @@ const Type& type_of<CommandVariant>() {
 
 namespace {
 
-/// "at": "middle" is "middle": true, and "which": "#456" is "edge": "#456".
+/// The same with the fields that its texts stand for (`text_forms`).
 Json spelled_out(Json json) {
   for (auto& [name, value] : json.members) {
-    if (!value.is(Json::Kind::text)) continue;
-    if (name == "at" && value.text == "middle") {
-      name = "middle";
-      value = {};
-      value.kind = Json::Kind::boolean;
-      value.boolean = true;
-    } else if (name == "which" && value.text.starts_with("#")) {
-      name = "edge";
-    }
+    const auto form = std::ranges::find(text_forms, name, &TextForm::field);
+    if (form == std::end(text_forms) || !value.is(Json::Kind::text)) continue;
+    if (form->begins ? !value.text.starts_with(form->text) : value.text != form->text) continue;
+    name = form->stands_for;
+    if (form->begins) continue;
+    value = {};
+    value.kind = Json::Kind::boolean;
+    value.boolean = true;
   }
   return json;
 }

@@ -315,6 +315,11 @@ std::string to_json(const Type& type, const void* value, Absent absent) {
   return std::move(writer.text);
 }
 
+const TextForm* text_form(const Type& record, const Field& field) {
+  const auto form = std::ranges::find(text_forms, field.name, &TextForm::field);
+  return form != std::end(text_forms) && record.find(form->stands_for) != nullptr ? form : nullptr;
+}
+
 std::string joined(const std::vector<std::string_view>& names) {
   std::string text;
   for (std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);

@@ -14,6 +14,16 @@ namespace knead {
 /// called `what` ("shape": "the shapes are: …").
 [[nodiscard]] Expected<void> read_variant(const Json& json, const Type& type, void* variant, std::string_view what);
 
+/// A text in the place of a field's value, which stands for another field of the same record: "at": "middle" for
+/// "middle": true, "which": "#456" for "edge": "#456".
+struct TextForm {
+  std::string_view field, stands_for, text;
+  bool begins = false;  ///< the text begins so, and is the value of the other field; else the other one is a flag
+};
+inline constexpr TextForm text_forms[] = {{"at", "middle", "middle"}, {"which", "edge", "#", true}};
+/// That of a field; null if there is none.
+[[nodiscard]] const TextForm* text_form(const Type& record, const Field& field);
+
 /// How a field without a value is written; variants always omit it, as commands do.
 enum class Absent { left_out, null };
 

@@ -68,6 +68,11 @@ class Schema {
   std::string member(const Field& field, const Type& owner) {
     std::string schema = field.flat ? names(variant_names(*field.type)) : value(*field.type, &field);
     if (field.uniform) schema = "{\"anyOf\":[" + value(field.type->innermost(), &field) + "," + schema + "]}";
+    if (const TextForm* form = text_form(owner, field); form != nullptr && absent_ == Absent::left_out) {
+      const std::string text = form->begins ? fmt::format(R"({{"type":"string","pattern":"^{}"}})", form->text)
+                                            : fmt::format(R"({{"const":"{}"}})", form->text);
+      schema = "{\"anyOf\":[" + schema + "," + text + "]}";
+    }
     std::string about;
     if (!field.help.empty()) about += "\"description\":" + json_text(field.help) + ",";
     const Type& type = *field.type;

@@ -39,7 +39,8 @@ class TypeScript {
  private:
   void record(const Type& type, const std::string& name, std::string_view tag, const std::string& suffix,
               Absent absent);
-  std::string member(const Field& field, bool always_there, const std::string& suffix, Absent absent);
+  std::string member(const Type& owner, const Field& field, bool always_there, const std::string& suffix,
+                     Absent absent);
   std::string member_of_any(const Type& variant, std::string_view name);
   std::string written(const Type& type, const std::string& suffix, Absent absent);
   std::vector<std::pair<const Type*, std::string>> names_;

@@ -92,7 +92,7 @@ void TypeScript::record(const Type& type, const std::string& name, std::string_v
       const bool null = absent == Absent::null;
       const bool there =
           null ? tag.empty() || field.type->kind != Kind::optional : field.presence == Presence::required;
-      body += member(field, there, suffix, tag.empty() ? absent : Absent::left_out);
+      body += member(type, field, there, suffix, tag.empty() ? absent : Absent::left_out);
       continue;
     }
     std::string names;
@@ -111,9 +111,14 @@ void TypeScript::record(const Type& type, const std::string& name, std::string_v
   text += fmt::format("export type {} = {{\n{}}};\n\n", name, body);
 }
 
-std::string TypeScript::member(const Field& field, bool always_there, const std::string& suffix, Absent absent) {
-  return about(field) + fmt::format("  {}{}: {}{};\n", field.name, always_there ? "" : "?",
-                                    field.uniform ? "number | " : "", written(*field.type, suffix, absent));
+std::string TypeScript::member(const Type& owner, const Field& field, bool always_there, const std::string& suffix,
+                               Absent absent) {
+  std::string instead;
+  if (const TextForm* form = text_form(owner, field); form != nullptr && absent == Absent::left_out) {
+    instead = form->begins ? fmt::format(" | `{}${{string}}`", form->text) : fmt::format(" | '{}'", form->text);
+  }
+  return about(field) + fmt::format("  {}{}: {}{}{};\n", field.name, always_there ? "" : "?",
+                                    field.uniform ? "number | " : "", written(*field.type, suffix, absent), instead);
 }
 
 std::string TypeScript::member_of_any(const Type& variant, std::string_view name) {

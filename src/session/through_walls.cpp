@@ -49,7 +49,8 @@ std::span<const Choice> choices(ThroughAllowance) {
 }
 
 void describe_allowance(std::optional<ThroughAllowance>& allow, Fields& fields) {
-  fields.add("allow", allow, {.fallback = "a note if a face comes through another"});
+  fields.add("allow", allow,
+             {.help = "where it comes to another face", .fallback = "a note if a face comes through another"});
 }
 
 std::optional<Through> through_of(const Command& command, bool stops) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "knead/session/command_json.hpp"
@@ -70,6 +71,9 @@ std::string against(const Json& value, const Json& schema, const std::string& pl
       if (value <= wanted) return here;
     } else if (word == "exclusiveMaximum") {
       if (value >= wanted) return here;
+    } else if (word == "pattern") {
+      if (!value.is_string() || !std::regex_search(value.get<std::string>(), std::regex(wanted.get<std::string>())))
+        return here;
     } else if (word == "minItems") {
       if (value.size() < wanted) return here;
     } else if (word == "maxItems") {
@@ -110,6 +114,40 @@ TEST(Schema, WhatIsWrongIsFound) {
   EXPECT_TRUE(wrong(R"({"do":"move"})"));
   EXPECT_TRUE(wrong(R"({"do":"tool","radius":0,"at":[0,0]})"));
   EXPECT_TRUE(wrong(R"({"do":"tool","mode":"glue","at":[0,0]})"));
+}
+
+TEST(Schema, EveryFieldOfEveryCommandHasAText) {
+  const Json schema = Json::parse(script_schema());
+  int fields = 0;
+  for (const Json& command : schema.at("properties").at("commands").at("items").at("oneOf")) {
+    const std::string name = command.at("properties").at("do").at("const");
+    EXPECT_NE(command.value("description", ""), "") << name;
+    for (const auto& [field, member] : command.at("properties").items()) {
+      if (field == "do") continue;
+      EXPECT_NE(member.value("description", ""), "") << name << "." << field;
+      ++fields;
+    }
+  }
+  EXPECT_GT(fields, 250);
+}
+
+// What stands for another field is in the schema where the reader takes it, and nowhere else.
+TEST(Schema, AllowsTheTextsThatTheReaderOfCommandsTakes) {
+  const Json schema = Json::parse(script_schema());
+  int taken = 0;
+  for (const Json& command : schema.at("properties").at("commands").at("items").at("oneOf")) {
+    const std::string name = command.at("properties").at("do").at("const");
+    for (const char* const field : {"at", "which"}) {
+      for (const char* const text : {"middle", "mid", "#45", "u0", "w1", "all", ""}) {
+        Json json = {{"do", name}, {field, text}};
+        if (name == "drag") json["by"] = {0, 0, 1};
+        const bool allowed = against(json, command, "").empty(), read = parse_command(json.dump()).has_value();
+        EXPECT_EQ(allowed, read) << json;
+        taken += read;
+      }
+    }
+  }
+  EXPECT_EQ(taken, 4 + 4) << "the middle of tool, edit_tool, drag and measure; three sides and an edge";
 }
 
 TEST(Schema, DocumentsHaveCommandsAndASource) {

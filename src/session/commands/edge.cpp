@@ -107,8 +107,8 @@ std::span<const Choice> choices(EdgeCondition) {
 
 void describe(EdgeCommand& c, Fields& fields) {
   fields.name("edge", "hold edges of the selected surfaces, ends of a curve, or sides of a volume");
-  fields.add("which", c.which);
-  fields.add("hold", c.hold);
+  fields.add("which", c.which, {.help = "sides of the domain; or `\"#456\"`, an edge of a face, as by `edge`"});
+  fields.add("hold", c.hold, {.help = "what of them stays as it is"});
   fields.add("edge", c.edge,
              {.help = "`\"#456\"`: one edge of a face, as `knead info --faces` lists it, instead of `which`"});
   fields.add("components", c.components,

@@ -47,7 +47,7 @@ std::span<const Choice> choices(StepSolver) {
 
 void describe(EvolveCommand& c, Fields& fields) {
   fields.name("evolve", "what steps do; static solves at once");
-  fields.add("mode", c.evolution.mode);
+  fields.add("mode", c.evolution.mode, {.help = "what a step solves"});
   fields.add("lambda", c.evolution.lambda,
              {.help = "acm: λ ≥ 0, inverse step size: small goes straight to equilibrium, large creeps. 0 requires "
                       "that something is held"});

@@ -22,7 +22,7 @@ std::span<const Choice> choices(ForceKind) {
 void describe(ForceCommand& c, Fields& fields) {
   fields.name("force", "a force on one point or edge, until `remove`");
   fields.add("name", c.name, {.help = "what `remove` calls it"});
-  fields.add("kind", c.kind);
+  fields.add("kind", c.kind, {.help = "how it acts"});
   fields.add("at", c.at,
              {.help = "`[s, t]`: the surface point, of a curve `[s]`, of a volume `[s, t, r]`; of all kinds but line "
                       "and moment",

@@ -19,7 +19,7 @@ std::span<const Choice> choices(HoldMode) {
 void describe(HoldCommand& c, Fields& fields) {
   fields.name("hold", "hold the edges of faces, or the outer rows of control points on every side");
   fields.add("rows", c.rows, {.help = "number of rows in mode `rows`; 0 holds none"});
-  fields.add("mode", c.mode, {.fallback = "`\"rows\"`"});
+  fields.add("mode", c.mode, {.help = "what is held", .fallback = "`\"rows\"`"});
   fields.add("all", c.all, {.help = "for every surface of the document, not only the selected ones"});
 }
 

@@ -28,7 +28,7 @@ void describe(RefineCommand& c, Fields& fields) {
   fields.add("under", c.under, {.help = "name of a tool: halves the spans that it reaches"});
   fields.add("knots_u", c.knots_u, {.help = "knots to insert in u, as parameters of the file"});
   fields.add("knots_v", c.knots_v, {.help = "knots to insert in v"});
-  fields.add("permission", c.permission, {.fallback = "`\"trims\"`"});
+  fields.add("permission", c.permission, {.help = "what steps may refine from here on", .fallback = "`\"trims\"`"});
 }
 
 namespace {

@@ -12,7 +12,7 @@ std::span<const Choice> choices(RestMode) {
 
 void describe(RestCommand& c, Fields& fields) {
   fields.name("rest", "make the present shape the rest shape; what the energy acts on");
-  fields.add("mode", c.mode);
+  fields.add("mode", c.mode, {.help = "of what the energy is"});
 }
 
 template <>

@@ -11,7 +11,7 @@ std::span<const Choice> choices(ScalingMode) {
 
 void describe(ScalingCommand& c, Fields& fields) {
   fields.name("scaling", "the units that the numbers are in");
-  fields.add("mode", c.mode);
+  fields.add("mode", c.mode, {.help = "in which units numbers are"});
 }
 
 template <>

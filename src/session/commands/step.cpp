@@ -20,7 +20,7 @@ void describe(StepCommand& c, Fields& fields) {
   fields.add("count", c.count, {.help = "number of steps"});
   fields.add("lambda", c.lambda, {.help = "for these steps only", .fallback = "that of `evolve`"});
   fields.add("weight", c.weight, {.help = "for these steps only", .fallback = "that of `evolve`"});
-  fields.add("allow", c.allow);
+  fields.add("allow", c.allow, {.help = "what it does not stop or warn at"});
   fields.add("increments", c.increments,
              {.help = "of a shell: the load is applied in this many equal parts", .fallback = "1"});
 }

@@ -99,7 +99,7 @@ void describe(ToolCommand& c, Fields& fields) {
                       "from all edges",
               .unit = Unit::fraction});
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
-  fields.add("mode", c.mode);
+  fields.add("mode", c.mode, {.help = "how it acts"});
   fields.add("stiffness", c.stiffness, {.help = "k, from 0 to 1e10", .fallback = "`1e4`; `100` for proximity"});
   fields.add("range", c.range,
              {.help = "how far proximity reaches", .unit = Unit::length, .fallback = "half the size"});

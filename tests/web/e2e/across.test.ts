@@ -112,7 +112,8 @@ describe('over the seam of two selected surfaces', () => {
     expect(drag).toMatchObject({ do: 'drag', surface: '#2' });
     const tops = [...(await points())].sort((p, q) => Math.abs(q[2]) - Math.abs(p[2]));
     expect(Math.abs(tops[0]![2])).toBeGreaterThan(3);
-    expect(Math.abs(tops[0]![0] - 100 - 100 * drag.at![0])).toBeLessThan(radius);
+    const [s] = drag.at as [number, number];
+    expect(Math.abs(tops[0]![0] - 100 - 100 * s)).toBeLessThan(radius);
   });
 
   it('a crease is said, and the button does the stroke again without', async () => {
