@@ -257,7 +257,8 @@ The report is {"steps": [{"time", "energy", "residual", "largest_displacement", 
 "gap", "constraint_violation", "converged", "limited", "note", of shells "load_factor", "increments", of rational shapes
 "energy_error"}, ...], "time",
 "energy_before", "energy_after", "residual", "largest_displacement", "control_points_moved", "edges", "places", "seams",
-"notes", "coded_notes": [{"text", "code", "values", "fixes"}] of those for programs, and after modes and buckling "modes": [{"frequency", "residual"}], "buckling": [{"load_factor", "residual"}]}: times in
+"notes", of those for programs "coded_notes": [{"text", "code", "values", "fixes"}, ...],
+and after modes and buckling "modes": [{"frequency", "residual"}], "buckling": [{"load_factor", "residual"}]}: times in
 seconds, lengths in file units, gaps in sizes of the tool.
 )" + std::string(exit_codes));
   return [options] { return run(*options); };
