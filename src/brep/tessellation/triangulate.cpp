@@ -1,5 +1,6 @@
 #include "triangulate.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -72,7 +73,16 @@ class Mesh {
     replace(bc, t, second);
     replace(ca, t, third);
     last_ = t;
+    if (!near_.empty()) near_[cell(p)] = t;
     settle({t, second, third});
+  }
+
+  /// Prepares for so many points to be inserted.
+  void expect(std::size_t count) {
+    for (const Vector2d& p : points_) box_.extend(p);
+    if (!(box_.sizes().minCoeff() > 0)) return;
+    across_ = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count) / 4))) + 1;
+    near_.assign(across_ * across_, none);
   }
 
   std::vector<Triangle> take() { return std::move(triangles_); }
@@ -144,10 +154,9 @@ class Mesh {
     return true;
   }
 
-  // Walks from the last triangle towards p; searches all if a bound is in the way.
-  std::uint32_t locate(const Vector2d& p) {
-    auto t = last_ < triangles_.size() ? last_ : 0;
-    for (std::size_t steps = 0; steps < 200; ++steps) {
+  // Walks from a triangle towards p, until p is in one or a bound is in the way.
+  std::uint32_t walk(std::uint32_t t, const Vector2d& p, std::size_t most) const {
+    for (std::size_t steps = 0; steps < most; ++steps) {
       int out = -1;
       for (int i = 0; i < 3; ++i) {
         if (doubled_area(place(t, i), place(t, i + 1), p) < 0 && neighbours_[t][static_cast<std::size_t>(i)] != none)
@@ -156,7 +165,36 @@ class Mesh {
       if (out < 0) break;
       t = neighbours_[t][static_cast<std::size_t>(out)];
     }
-    if (holds(t, p)) return t;
+    return t;
+  }
+
+  [[nodiscard]] std::size_t cell(const Vector2d& p) const {
+    const auto along = [&](int d) {
+      const double share = (p[d] - box_.min()[d]) / box_.sizes()[d];
+      return std::min(static_cast<std::size_t>(std::max(share, 0.) * static_cast<double>(across_)), across_ - 1);
+    };
+    return along(1) * across_ + along(0);
+  }
+
+  // From the last triangle, and where that is far, or a bound in the way, from where a point was inserted nearby.
+  // Where neither helps, all triangles are searched.
+  std::uint32_t locate(const Vector2d& p) const {
+    const auto last = walk(last_ < triangles_.size() ? last_ : 0, p, 200);
+    if (holds(last, p)) return last;
+    if (!near_.empty()) {
+      const std::size_t at = cell(p), x = at % across_, y = at / across_;
+      for (const std::size_t row : {y, y - 1, y + 1}) {
+        for (const std::size_t column : {x, x - 1, x + 1}) {
+          if (row >= across_ || column >= across_) continue;
+          const auto start = near_[row * across_ + column];
+          if (start == none) continue;
+          const auto t = walk(start, p, 200);
+          if (holds(t, p)) return t;
+        }
+      }
+    }
+    const auto far = walk(last, p, triangles_.size() / 8);
+    if (holds(far, p)) return far;
     for (std::uint32_t k = 0; k < triangles_.size(); ++k) {
       if (holds(k, p)) return k;
     }
@@ -166,7 +204,11 @@ class Mesh {
   std::vector<Vector2d> points_;
   std::vector<Triangle> triangles_;
   std::vector<std::array<std::uint32_t, 3>> neighbours_;  // across sides 01, 12, 20
-  std::uint32_t last_ = 0;
+  std::uint32_t last_ = 0;                                // where a point was inserted
+  // Likewise, by the cells of a grid over all points; empty: the box has no area.
+  std::vector<std::uint32_t> near_;
+  Eigen::AlignedBox2d box_;
+  std::size_t across_ = 0;
 };
 
 }  // namespace
@@ -184,6 +226,7 @@ std::optional<std::vector<Triangle>> triangulate(std::span<const std::vector<Vec
   Mesh mesh(std::move(points), *std::move(ears));
   mesh.connect(sizes);
   mesh.flip_all();
+  mesh.expect(inside.size());
   for (const Vector2d& p : inside) mesh.insert(p);
   return mesh.take();
 }
