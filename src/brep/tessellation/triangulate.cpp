@@ -170,8 +170,9 @@ class Mesh {
 
   [[nodiscard]] std::size_t cell(const Vector2d& p) const {
     const auto along = [&](int d) {
-      const double share = (p[d] - box_.min()[d]) / box_.sizes()[d];
-      return std::min(static_cast<std::size_t>(std::max(share, 0.) * static_cast<double>(across_)), across_ - 1);
+      const double cells = (p[d] - box_.min()[d]) / box_.sizes()[d] * static_cast<double>(across_);
+      if (!(cells > 0)) return std::size_t{0};  // as where the box is too large for its size to be a number
+      return static_cast<std::size_t>(std::min(cells, static_cast<double>(across_ - 1)));
     };
     return along(1) * across_ + along(0);
   }
