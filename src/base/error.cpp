@@ -15,6 +15,11 @@ std::unexpected<Error> error_of(ErrorKind kind, std::string_view what, std::stri
   return std::unexpected(Error(kind, std::string(what), std::string(where), std::string(remedy)));
 }
 
+std::unexpected<Error> coded_error(ErrorKind kind, std::string_view what, std::string_view where,
+                                   std::string_view remedy, Diagnostic diagnostic) {
+  return std::unexpected(std::move(error_of(kind, what, where, remedy).error()).with(std::move(diagnostic)));
+}
+
 }  // namespace
 
 NamedValue::NamedValue(std::string_view of, double number) : name(of), value(number) {}
@@ -67,8 +72,7 @@ std::unexpected<Error> input_error(std::string_view what, std::string_view where
 
 std::unexpected<Error> input_error(std::string_view what, std::string_view where, std::string_view remedy,
                                    Diagnostic diagnostic) {
-  return std::unexpected(
-      std::move(error_of(ErrorKind::input, what, where, remedy).error()).with(std::move(diagnostic)));
+  return coded_error(ErrorKind::input, what, where, remedy, std::move(diagnostic));
 }
 
 std::unexpected<Error> numerical_error(std::string_view what, std::string_view where, std::string_view remedy) {
@@ -77,8 +81,7 @@ std::unexpected<Error> numerical_error(std::string_view what, std::string_view w
 
 std::unexpected<Error> numerical_error(std::string_view what, std::string_view where, std::string_view remedy,
                                        Diagnostic diagnostic) {
-  return std::unexpected(
-      std::move(error_of(ErrorKind::numerical, what, where, remedy).error()).with(std::move(diagnostic)));
+  return coded_error(ErrorKind::numerical, what, where, remedy, std::move(diagnostic));
 }
 
 std::unexpected<Error> usage_error(std::string_view what, std::string_view where, std::string_view remedy) {

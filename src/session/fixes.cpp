@@ -1,5 +1,8 @@
 #include "knead/session/fixes.hpp"
 
+#include <array>
+#include <utility>
+
 #include "diagnostic_info.hpp"
 
 namespace knead {
@@ -12,53 +15,20 @@ Command let_edge(const std::string& edge, EdgeCondition hold) {
   return make_command(command);
 }
 
-Command held_by(HoldMode mode) {
-  HoldCommand command;
-  command.mode = mode;
+/// A command of which one field is given.
+template <class C, class Field, class Value>
+Command with(Field C::*field, Value&& value) {
+  C command;
+  command.*field = std::forward<Value>(value);
   return make_command(command);
 }
 
-Command released(const char* what) {
-  ReleaseCommand command;
-  if (what != nullptr) command.what = {what};
-  return make_command(command);
-}
-
-Command permitting(RefinePermission permission) {
-  RefineCommand command;
-  command.permission = permission;
-  return make_command(command);
-}
-
-Command refined_everywhere() {
-  RefineCommand command;
-  command.region = {Fractions{0, 1}, Fractions{0, 1}};
-  return make_command(command);
-}
-
-Command selected_alone(const std::string& surface) {
-  SelectCommand command;
-  command.surface = surface;
-  return make_command(command);
-}
-
-Command selected_together(const std::vector<std::string>& surfaces) {
-  SelectCommand command;
-  command.surfaces = surfaces;
-  return make_command(command);
-}
-
-Command selected_body(const std::string& body) {
-  SelectCommand command;
-  command.body = body;
-  return make_command(command);
-}
-
-Command converted(const std::vector<std::string>& surfaces) {
-  ConvertCommand command;
-  command.surfaces = surfaces;
-  return make_command(command);
-}
+Command held_by(HoldMode mode) { return with(&HoldCommand::mode, mode); }
+Command permitting(RefinePermission permission) { return with(&RefineCommand::permission, permission); }
+Command released(const char* what) { return with(&ReleaseCommand::what, std::vector<std::string>{what}); }
+Command selected(const std::string& surface) { return with(&SelectCommand::surface, surface); }
+Command selected_together(const std::vector<std::string>& ids) { return with(&SelectCommand::surfaces, ids); }
+Command converted(const std::vector<std::string>& surfaces) { return with(&ConvertCommand::surfaces, surfaces); }
 
 Command with_smooth_seams() {
   SeamsCommand command;
@@ -78,7 +48,7 @@ std::vector<Fix> fixes_at_edges(ErrorCode code, const DiagnosticValues& v) {
     case ErrorCode::edge_would_turn:
       return {{FixCode::let_follow, follow}};
     case ErrorCode::edge_left_open:
-      return {{FixCode::let_open, {selected_alone(v.surface.value_or("")), held_by(HoldMode::free)}}};
+      return {{FixCode::let_open, {selected(v.surface.value_or("")), held_by(HoldMode::free)}}};
     case ErrorCode::edges_unknown:
       return {{FixCode::hold_rows, {make_command(HoldCommand{})}}, {FixCode::let_open, {held_by(HoldMode::free)}}};
     case ErrorCode::edge_face_not_spline:
@@ -96,11 +66,11 @@ std::vector<Fix> fixes_of_selection(ErrorCode code, const DiagnosticValues& v) {
   const std::string surface = v.surface.value_or("");
   switch (code) {
     case ErrorCode::no_spline_surface:
-      if (v.body) return {{FixCode::select, {selected_body(*v.body)}}};
+      if (v.body) return {{FixCode::select, {with(&SelectCommand::body, *v.body)}}};
       return {{FixCode::convert, {converted({surface})}}};
     case ErrorCode::none_selected:
     case ErrorCode::several_selected:
-      return {{FixCode::select, {selected_alone(surface)}}};
+      return {{FixCode::select, {selected(surface)}}};
     case ErrorCode::not_a_spline:
       return {{FixCode::convert, {converted({surface})}}};
     default:
@@ -122,9 +92,10 @@ std::vector<Fix> fixes_for(const Diagnostic& diagnostic) {
     case ErrorCode::nothing_free:
     case ErrorCode::nothing_free_at_brush:
     case ErrorCode::constraint_contradicts:
-      return {{FixCode::release_all, {released(nullptr)}}};
+      return {{FixCode::release_all, {make_command(ReleaseCommand{})}}};
     case ErrorCode::nothing_free_in_rows:
-      return {{FixCode::refine, {refined_everywhere()}}, {FixCode::hold_nothing, {released("hold")}}};
+      return {{FixCode::refine, {with(&RefineCommand::region, std::array{Fractions{0, 1}, Fractions{0, 1}})}},
+              {FixCode::hold_nothing, {released("hold")}}};
     case ErrorCode::nothing_free_at_edges:
       if (v.permission != "never") return {};
       return {{FixCode::permit_refining, {permitting(RefinePermission::trims)}}};
