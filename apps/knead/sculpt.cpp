@@ -70,8 +70,9 @@ void print_summary(const SculptArguments& options, const Session& session, const
   const std::string& file = options.name();
   if (state.body) {
     const SceneBody& b = state.bodies[static_cast<std::size_t>(*state.body)];
-    const auto& [id, name, unit, velocity, mode, rows] = common_of(b);
-    say("{}: {} {}{}, lengths in {}\n", file, kind_of(b), id, name.empty() ? "" : " \"" + printable(name) + "\"", unit);
+    const ShapeCommon& common = common_of(b);
+    say("{}: {} {}{}, lengths in {}\n", file, kind_of(b), common.id,
+        common.name.empty() ? "" : " \"" + printable(common.name) + "\"", common.unit);
     say("  degree {}, net {}\n", fmt::join(degrees_of(b), " x "), fmt::join(net_of(b), " x "));
     print_tools(state);
   } else if (!state.selected) {

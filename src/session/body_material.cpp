@@ -93,10 +93,7 @@ Expected<void> set_body_material(Executor& executor, const MaterialCommand& c) {
     return input_error("no field is given", "alpha", "give alpha, beta, mass, damping, a model, or reset");
   }
   const auto set = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
-    if (c.reset) {  // what resists is as of a new body
-      s.material = SceneShape<D>{}.material;
-      s.elasticity = SceneShape<D>{}.elasticity;
-    }
+    if (c.reset) reset_material(s);
     if (auto done = set_elasticity<D>(c, s.elasticity); !done) return done;
     return set_material(s, c);
   };

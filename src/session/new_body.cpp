@@ -200,10 +200,7 @@ Expected<SceneBody> body_of(Expected<Spline<D>> made, const NewCommand& c, std::
   if (!made) return std::unexpected(made.error());
   auto at = placed(*std::move(made), c.position);
   if (!at) return std::unexpected(at.error().within("position"));
-  SceneShape<D> s;
-  s.name = name;
-  s.opened = s.reference = s.rest = s.current = std::make_shared<const Spline<D>>(*std::move(at));
-  return s;
+  return untouched<D>({}, std::string(name), {}, std::make_shared<const Spline<D>>(*std::move(at)));
 }
 
 }  // namespace

@@ -19,20 +19,10 @@ namespace knead {
 Session::Session(Document document) : document_(std::move(document)), cache_(std::make_unique<ModelCache>()) {
   auto state = std::make_shared<SessionState>();
   for (const DocumentSurface& s : document_.surfaces()) {
-    SceneSurface surface;
-    surface.id = s.id;
-    surface.name = s.name;
-    surface.unit = s.unit;
-    surface.opened = surface.reference = surface.rest = surface.current = s.surface;
-    state->surfaces.push_back(std::move(surface));
+    state->surfaces.push_back(untouched<2>(s.id, s.name, s.unit, s.surface));
   }
   for (const SourceCurve& c : document_.curves()) {
-    SceneCurve curve;
-    curve.id = c.id;
-    curve.name = c.name;
-    curve.unit = c.unit;
-    curve.opened = curve.reference = curve.rest = curve.current = c.curve;
-    state->bodies.emplace_back(std::move(curve));
+    state->bodies.emplace_back(untouched<1>(c.id, c.name, c.unit, c.curve));
   }
   if (state->surfaces.size() == 1) state->selected = 0;
   if (state->surfaces.empty() && state->bodies.size() == 1) state->body = 0;

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -73,6 +74,18 @@ struct SceneShape : ShapeCommon, ShapeOf<D>, OfSurfaces<D, SurfaceOwn> {};
 using SceneCurve = SceneShape<1>;
 using SceneSurface = SceneShape<2>;
 using SceneVolume = SceneShape<3>;
+
+/// A shape as it is opened or made: nothing has moved it yet.
+template <int D>
+[[nodiscard]] SceneShape<D> untouched(std::string id, std::string name, std::string unit,
+                                      std::shared_ptr<const Spline<D>> spline) {
+  SceneShape<D> shape;
+  shape.id = std::move(id);
+  shape.name = std::move(name);
+  shape.unit = std::move(unit);
+  shape.opened = shape.reference = shape.rest = shape.current = std::move(spline);
+  return shape;
+}
 
 /// A curve or a volume. Each is sculpted alone: seams, faces, strokes and brushes are those of surfaces.
 using SceneBody = std::variant<SceneCurve, SceneVolume>;

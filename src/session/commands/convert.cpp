@@ -103,11 +103,7 @@ Expected<void> Executor::execute(const ConvertCommand& c) {
   std::vector<std::string> made;
   for (const DocumentSurface& s : state.document->surfaces()) {
     if (std::ranges::find(state.surfaces, s.id, &SceneSurface::id) != state.surfaces.end()) continue;
-    SceneSurface surface;
-    surface.id = s.id;
-    surface.name = s.name;
-    surface.unit = s.unit;
-    surface.opened = surface.reference = surface.rest = surface.current = s.surface;
+    SceneSurface surface = untouched<2>(s.id, s.name, s.unit, s.surface);
     surface.constraints.push_back({TrimHolds{order}, s.surface});
     state.surfaces.push_back(std::move(surface));
     made.push_back(s.id);

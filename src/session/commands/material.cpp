@@ -213,13 +213,6 @@ PlasticPolicy plastic_of(const MaterialCommand& c, const Preset* preset, Plastic
   return before;
 }
 
-/// What resists, and what strokes leave, are as of a new surface.
-void make_new(SceneSurface& s) {
-  s.material = SceneSurface{}.material;
-  s.elasticity = SceneSurface{}.elasticity;
-  s.plastic = SceneSurface{}.plastic;
-}
-
 }  // namespace
 
 std::span<const Choice> choices(MaterialPreset) {
@@ -367,7 +360,7 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
   if (auto material = validated(constants); !material) return std::unexpected(material.error());
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    if (c.reset) make_new(s);
+    if (c.reset) reset_material(s);
     auto next = c.coefficient && !varies_shell(c) ? varied(c, s) : c.region ? painted(c, s) : everywhere(c, s);
     if (!next) return std::unexpected(next.error());
     if (auto checked = validated<2>(*next); !checked) return std::unexpected(checked.error());

@@ -53,6 +53,14 @@ struct MaterialCommand {
   bool reset = false;                                        ///< first, all is as of a new surface
 };
 
+/// What resists, and what strokes leave, are as of a new shape.
+template <int D>
+void reset_material(SceneShape<D>& s) {
+  s.material = {};
+  s.elasticity = {};
+  if constexpr (D == 2) s.plastic = {};
+}
+
 /// What it does to the selected curve or volume: fields that only surfaces have are errors.
 [[nodiscard]] Expected<void> set_body_material(Executor& executor, const MaterialCommand& c);
 

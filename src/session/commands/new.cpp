@@ -257,13 +257,8 @@ Expected<void> Executor::execute(const NewCommand& c) {
   if (auto fits = check_document_size(state, made->size()); !fits) return fits;
   auto at = placed(*std::move(made), c.position);
   if (!at) return std::unexpected(at.error().within("position"));
-  const auto surface = std::make_shared<const Surface>(*std::move(at));
-  SceneSurface s;
-  s.id = id;
-  s.name = c.name.value_or(!c.points.empty() ? "surface" : c.shape == "plane" ? "sheet" : c.shape);
-  s.unit = unit;
-  s.opened = s.reference = s.rest = s.current = surface;
-  state.surfaces.push_back(std::move(s));
+  const std::string name = c.name.value_or(!c.points.empty() ? "surface" : c.shape == "plane" ? "sheet" : c.shape);
+  state.surfaces.push_back(untouched<2>(id, name, unit, std::make_shared<const Surface>(*std::move(at))));
   state.selected = static_cast<int>(state.surfaces.size()) - 1;
   state.body.reset();
   return {};
