@@ -19,7 +19,7 @@
 #include "knead/solve/sparse_cholesky.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "sample_surface.hpp"
-#include "sculpt/tool_load.hpp"
+#include "tool/tool_load.hpp"
 
 // The one function whose instructions are counted, with all that it calls.
 extern "C" [[gnu::noinline]] void knead_measured(const std::function<void()>& kernel) { kernel(); }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "knead/sculpt/active_spline.hpp"
-#include "knead/sculpt/loads.hpp"
+#include "knead/contact/active_spline.hpp"
+#include "knead/energy/loads.hpp"
 #include "knead/solve/sparse_cholesky.hpp"
 #include "mass_spring.hpp"
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "knead/sculpt/tool.hpp"
 #include "knead/spline/spline.hpp"
+#include "knead/tool/tool.hpp"
 
 namespace knead::examples {
 

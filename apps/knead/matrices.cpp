@@ -13,11 +13,11 @@
 
 #include "cad_input.hpp"
 #include "cli.hpp"
+#include "knead/energy/loads.hpp"
 #include "knead/energy/stiffness.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/matrix_files.hpp"
-#include "knead/sculpt/loads.hpp"
 #include "plain_surface.hpp"
 #include "rational_option.hpp"
 #include "say.hpp"

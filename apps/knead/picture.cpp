@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/sculpt/domain_scaling.hpp"
+#include "knead/energy/domain_scaling.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 

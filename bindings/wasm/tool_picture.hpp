@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/sculpt/shape.hpp"
+#include "knead/tool/shape.hpp"
 
 namespace knead::studio {
 

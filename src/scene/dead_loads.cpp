@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "base/gauss_legendre.hpp"
+#include "knead/energy/loads.hpp"
 #include "knead/scene/places.hpp"
-#include "knead/sculpt/loads.hpp"
 #include "knead/spline/basis_terms.hpp"
 #include "knead/spline/evaluate.hpp"
 

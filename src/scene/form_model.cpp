@@ -4,8 +4,8 @@
 
 #include "joined_shapes.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/sculpt/active_form.hpp"
-#include "knead/sculpt/loads.hpp"
+#include "knead/contact/active_form.hpp"
+#include "knead/energy/loads.hpp"
 #include "shell_model.hpp"
 
 namespace knead {

@@ -4,10 +4,10 @@
 
 #include "dead_loads.hpp"
 #include "knead/base/error_code.hpp"
+#include "knead/energy/loads.hpp"
 #include "knead/scene/formula_field.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/scene/places.hpp"
-#include "knead/sculpt/loads.hpp"
 #include "knead/spline/basis_terms.hpp"
 #include "scene_settings.hpp"
 

@@ -7,11 +7,11 @@
 
 #include "constraints.hpp"
 #include "joined_shapes.hpp"
+#include "knead/energy/loads.hpp"
+#include "knead/hold/edge_coupling.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/scene/mask.hpp"
 #include "knead/scene/trims.hpp"
-#include "knead/sculpt/edge_coupling.hpp"
-#include "knead/sculpt/loads.hpp"
 #include "met_conditions.hpp"
 #include "scene_settings.hpp"
 #include "smooth_seams.hpp"

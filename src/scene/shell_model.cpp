@@ -6,9 +6,9 @@
 #include "constraints.hpp"
 #include "dead_loads.hpp"
 #include "knead/base/error_code.hpp"
+#include "knead/contact/active_shell.hpp"
+#include "knead/energy/loads.hpp"
 #include "knead/scene/anchors.hpp"
-#include "knead/sculpt/active_shell.hpp"
-#include "knead/sculpt/loads.hpp"
 #include "knead/solve/shell_statics.hpp"
 
 namespace knead {

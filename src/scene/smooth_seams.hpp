@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "knead/sculpt/edge_coupling.hpp"
-#include "knead/sculpt/seam_coupling.hpp"
+#include "knead/hold/edge_coupling.hpp"
+#include "knead/hold/seam_coupling.hpp"
 
 namespace knead {
 

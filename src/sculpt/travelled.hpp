@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "knead/sculpt/site_values.hpp"
+#include "knead/spline/site_values.hpp"
 
 namespace knead {
 

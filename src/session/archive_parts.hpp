@@ -4,9 +4,9 @@
 #include <variant>
 
 #include "described_archive.hpp"
-#include "knead/sculpt/describe_shape.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
+#include "knead/tool/describe_shape.hpp"
 #include "restated.hpp"
 
 // One function per type that lists its members, for writing and for reading. Structured bindings name all members:

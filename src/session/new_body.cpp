@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "knead/sculpt/site_values.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/revolution.hpp"
+#include "knead/spline/site_values.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "limits.hpp"
 

@@ -7,7 +7,7 @@
 #include "described_text.hpp"
 #include "diagnostic_info.hpp"
 #include "info_values.hpp"
-#include "knead/sculpt/describe_shape.hpp"
+#include "knead/tool/describe_shape.hpp"
 #include "restated.hpp"
 
 namespace knead {

@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "described_json.hpp"
-#include "knead/sculpt/describe_shape.hpp"
+#include "knead/tool/describe_shape.hpp"
 
 namespace knead {
 namespace {

@@ -70,7 +70,7 @@ Hull derivative_hull(const Net& net, int p, int q, int a, int b, double length_u
   return hull;
 }
 
-constexpr std::array<std::array<int, 2>, 6> orders = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+constexpr std::array<std::array<int, 2>, 6> jet_orders = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
 
 /// Bernstein polynomials of degree p and their first two derivatives: out[d][i].
 void bernstein(int p, double t, std::array<std::array<double, max_degree + 1>, 3>& out) {
@@ -144,7 +144,7 @@ PatchBounds BezierPatch::bounds(const ParameterRectangle& at) const {
   PatchBounds b;
   if (!rational_) {
     for (std::size_t k = 0; k < 6; ++k) {
-      const Hull h = derivative_hull(net, p_, q_, orders[k][0], orders[k][1], lu, lv);
+      const Hull h = derivative_hull(net, p_, q_, jet_orders[k][0], jet_orders[k][1], lu, lv);
       for (std::size_t c = 0; c < 3; ++c) b[k].axis[c] = h[c];
     }
     b[6] = b[1];
@@ -164,7 +164,7 @@ PatchBounds BezierPatch::bounds(const ParameterRectangle& at) const {
                        0.5 * (cartesian.lower.z() + cartesian.upper.z()), 0);
   for (Vector4& point : net) point -= point.w() * middle;
   std::array<Hull, 6> h;
-  for (std::size_t k = 1; k < 6; ++k) h[k] = derivative_hull(net, p_, q_, orders[k][0], orders[k][1], lu, lv);
+  for (std::size_t k = 1; k < 6; ++k) h[k] = derivative_hull(net, p_, q_, jet_orders[k][0], jet_orders[k][1], lu, lv);
   const Range w = {w_low, w_high};
   for (std::size_t c = 0; c < 3; ++c) {
     b[0].axis[c] = cartesian[c];
@@ -193,7 +193,7 @@ PatchJet BezierPatch::jet(double u, double v) const {
       const Vector4& point = net_[index(i * (q_ + 1) + j)];
       for (std::size_t d = 0; d < 3; ++d) row[d] += nv[d][index(j)] * point;
     }
-    for (std::size_t k = 0; k < 6; ++k) h[k] += nu[index(orders[k][0])][index(i)] * row[index(orders[k][1])];
+    for (std::size_t k = 0; k < 6; ++k) h[k] += nu[index(jet_orders[k][0])][index(i)] * row[index(jet_orders[k][1])];
   }
   PatchJet j;
   if (!rational_) {

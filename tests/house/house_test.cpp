@@ -51,6 +51,9 @@ class Tree : public testing::Test {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     root_ = fs::temp_directory_path() / ("knead-house-" + std::to_string(getpid()) + "-" + test->name());
     fs::remove_all(root_);
+    write("src/rooms.txt",
+          "# From the ground up.\nbase: errors\nspline: bases\ngramian: bands\nbrep: faces\nexchange: files\nsession: "
+          "acts\n");
     write("include/knead/base/error.hpp", "#pragma once\n");
     write("include/knead/spline/basis.hpp", "// Why.\n#pragma once\n#include \"knead/base/error.hpp\"\n");
     write("docs/api.md",
@@ -127,10 +130,10 @@ TEST_F(Tree, FormatThatIsNamedOutsideOfItsFolderIsFound) {
 }
 
 TEST_F(Tree, FolderOfManyFilesIsFound) {
-  for (int k = 0; k < 40; ++k) write("src/exchange/step/x" + std::to_string(k) + ".hpp", "#pragma once\n");
+  for (int k = 0; k < 45; ++k) write("src/exchange/step/x" + std::to_string(k) + ".hpp", "#pragma once\n");
   EXPECT_EQ(violations(root_), std::vector<std::string>{});
   write("src/exchange/step/y.cpp", "int y;\n");
-  expect_only("src/exchange/step: 41 files; 40 are allowed");
+  expect_only("src/exchange/step: 46 files; 45 are allowed");
 }
 
 TEST_F(Tree, FileOfAFolderMayHaveTheNameOfOneOfTheRoom) {
@@ -170,6 +173,17 @@ TEST_F(Tree, DecompositionOutsideOfItsDoorIsFound) {
 TEST_F(Tree, UnknownRoomIsFound) {
   write("src/attic/box.hpp", "#pragma once\n");
   expect_only("src/attic: there is no room of this name");
+}
+
+TEST_F(Tree, TableOfOtherRoomsIsFound) {
+  const std::string begin = "Rooms:\n\n<!-- rooms -->\n| room | what lives there |\n|---|---|\n| `base` | errors |\n";
+  const std::string rest =
+      "| `gramian` | bands |\n| `brep` | faces |\n| `exchange` | files |\n| `session` | acts |\n<!-- end of rooms "
+      "-->\n";
+  write("README.md", begin + "| `spline` | bases |\n" + rest);
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+  write("README.md", begin + rest);
+  expect_only("README.md:3: the table of rooms is not that of src/rooms.txt: run scripts/docs.sh");
 }
 
 TEST_F(Tree, FileOutsideOfEveryRoomIsFound) {

@@ -14,22 +14,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 11> rooms = {"base", "spline", "gramian",  "energy", "solve",  "image",
-                                                    "brep", "sculpt", "exchange", "scene",  "session"};
 constexpr int longest_file = 400;
 
 /// Their procedures read as verbs: a function that is longer than this hides its steps.
-constexpr std::array<std::string_view, 9> rooms_of_short_functions = {"base",  "spline", "gramian", "energy",  "brep",
-                                                                      "image", "solve",  "sculpt",  "exchange"};
+constexpr std::array<std::string_view, 2> rooms_of_long_functions = {"scene", "session"};
 constexpr std::size_t longest_function = 70;
 /// Kernels that keep all their sums in registers through the whole sweep over the rows: their steps share so many
 /// values that functions of them would pass them through memory.
 constexpr std::array<std::string_view, 2> files_of_long_functions = {"src/gramian/simd/recurrence_cubic.hpp",
                                                                      "src/gramian/simd/recurrence_fixed.hpp"};
 
-/// Rooms whose folders are kept small, with the largest number of files in one.
-constexpr std::array<std::string_view, 2> rooms_of_small_folders = {"brep", "exchange"};
-constexpr std::size_t most_files = 40;
+constexpr std::size_t most_files = 45;  // in one folder
+/// Rooms that have larger ones.
+constexpr std::array<std::string_view, 1> rooms_of_large_folders = {"session"};
 
 /// Namespaces of file formats, each known in its folder of src/exchange alone.
 constexpr std::array<std::string_view, 3> formats = {"iges", "occt", "step"};
@@ -40,12 +37,6 @@ constexpr std::string_view file_of_exceptions = "src/base/parallel_for.cpp";
 /// The door to Eigen's decompositions, which knows empty, rank-deficient and non-finite matrices.
 constexpr std::array<std::string_view, 2> files_of_decompositions = {"src/base/decompositions.hpp",
                                                                      "src/base/decompositions.cpp"};
-
-std::optional<std::size_t> floor_of(std::string_view room) {
-  const auto at = std::ranges::find(rooms, room);
-  if (at == rooms.end()) return std::nullopt;
-  return static_cast<std::size_t>(at - rooms.begin());
-}
 
 std::vector<std::string> lines_of(const fs::path& file) {
   std::ifstream in(file);
@@ -95,9 +86,24 @@ std::string code_of(const std::string& line, bool& in_comment) {
   return code;
 }
 
+/// A room and what lives there, as src/rooms.txt says.
+struct Room {
+  std::string name, purpose;
+};
+
+std::vector<Room> rooms_of(const fs::path& root) {
+  static const std::regex room("^([a-z]+): (.+)$");
+  std::vector<Room> rooms;
+  for (const std::string& line : lines_of(root / "src/rooms.txt")) {
+    std::smatch match;
+    if (std::regex_match(line, match, room)) rooms.push_back({match[1], match[2]});
+  }
+  return rooms;
+}
+
 class Inspection {
  public:
-  explicit Inspection(fs::path root) : root_(std::move(root)) {}
+  explicit Inspection(const fs::path& root) : root_(root), rooms_(rooms_of(root)) {}
 
   std::vector<std::string> run() {
     for (const char* part : {"include/knead", "src"}) inspect_rooms(root_ / part);
@@ -107,7 +113,11 @@ class Inspection {
     for (const char* part : {"include", "src", "apps", "bindings"}) {
       for (const fs::path& file : sources_below(root_ / part)) inspect_formats(file);
     }
-    for (const std::string_view room : rooms_of_small_folders) inspect_folders(root_ / "src" / room);
+    for (const Room& room : rooms_) {
+      if (std::ranges::find(rooms_of_large_folders, room.name) == rooms_of_large_folders.end())
+        inspect_folders(root_ / "src" / room.name);
+    }
+    for (const char* page : {"README.md", "CONTRIBUTING.md"}) inspect_table_of_rooms(root_ / page);
     inspect_list_of_headers();
     return std::move(found_);
   }
@@ -121,12 +131,18 @@ class Inspection {
     found_.push_back(text.str());
   }
 
+  [[nodiscard]] std::optional<std::size_t> floor_of(std::string_view room) const {
+    const auto at = std::ranges::find(rooms_, room, &Room::name);
+    if (at == rooms_.end()) return std::nullopt;
+    return static_cast<std::size_t>(at - rooms_.begin());
+  }
+
   void inspect_rooms(const fs::path& part) {
     if (!fs::exists(part)) return;
     for (const auto& entry : fs::directory_iterator(part)) {
       const std::string name = entry.path().filename().string();
       if (!entry.is_directory()) {
-        report(entry.path(), 0, "the file stands outside of every room");
+        if (name != "rooms.txt") report(entry.path(), 0, "the file stands outside of every room");
       } else if (const auto floor = floor_of(name)) {
         for (const fs::path& file : sources_below(entry.path())) inspect_core(file, name, *floor);
       } else {
@@ -164,7 +180,7 @@ class Inspection {
         report(file, i + 1, match[0].str() + " is used outside of base/decompositions.hpp");
       }
     }
-    if (std::ranges::find(rooms_of_short_functions, room) != rooms_of_short_functions.end()) {
+    if (std::ranges::find(rooms_of_long_functions, room) == rooms_of_long_functions.end()) {
       inspect_functions(file, codes);
     }
     const std::string header = file.stem().string() + ".hpp";
@@ -251,6 +267,19 @@ class Inspection {
     }
   }
 
+  /// Pages of the tree that have a table of rooms have the one of src/rooms.txt.
+  void inspect_table_of_rooms(const fs::path& page) {
+    const auto lines = lines_of(page);
+    const auto begin = std::ranges::find(lines, "<!-- rooms -->");
+    if (begin == lines.end()) return;
+    std::vector<std::string> table = {"<!-- rooms -->", "| room | what lives there |", "|---|---|"};
+    for (const Room& room : rooms_) table.push_back("| `" + room.name + "` | " + room.purpose + " |");
+    table.emplace_back("<!-- end of rooms -->");
+    if (std::ranges::mismatch(std::ranges::subrange(begin, lines.end()), table).in2 != table.end())
+      report(page, static_cast<std::size_t>(begin - lines.begin()) + 1,
+             "the table of rooms is not that of src/rooms.txt: run scripts/docs.sh");
+  }
+
   /// No format is named outside of its folder.
   void inspect_formats(const fs::path& file) {
     const auto lines = lines_of(file);
@@ -293,6 +322,7 @@ class Inspection {
   }
 
   fs::path root_;
+  std::vector<Room> rooms_;
   std::vector<std::string> found_;
 };
 

@@ -8,7 +8,7 @@
 
 #include "knead/brep/face_edges.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/sculpt/constraints.hpp"
+#include "knead/hold/constraints.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "knead/sculpt/active_spline.hpp"
+#include "knead/contact/active_spline.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"
 

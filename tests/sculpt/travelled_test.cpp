@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "active.hpp"
+#include "contact/active.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "support/surfaces.hpp"
 

@@ -1,8 +1,8 @@
 // Strokes and brushes that pass from one surface to another that is coupled with it.
 #include <numbers>
 
+#include "contact/groove.hpp"
 #include "pieces.hpp"
-#include "sculpt/groove.hpp"
 #include "session/brushes.hpp"
 #include "support/long_run.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "sculpt/groove.hpp"
+#include "contact/groove.hpp"
 #include "support.hpp"
 
 namespace knead {

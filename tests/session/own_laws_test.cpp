@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "knead/sculpt/domain_scaling.hpp"
+#include "knead/energy/domain_scaling.hpp"
 #include "sheet.hpp"
 
 namespace knead {

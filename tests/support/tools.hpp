@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "knead/sculpt/tool.hpp"
+#include "knead/tool/tool.hpp"
 
 namespace knead::testing {
 

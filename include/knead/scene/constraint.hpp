@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "knead/sculpt/body_constraints.hpp"
-#include "knead/sculpt/constraints.hpp"
+#include "knead/hold/body_constraints.hpp"
+#include "knead/hold/constraints.hpp"
 
 namespace knead {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "knead/energy/domain_scaling.hpp"
 #include "knead/scene/scene.hpp"
-#include "knead/sculpt/domain_scaling.hpp"
 #include "knead/spline/basis.hpp"
 
 namespace knead {

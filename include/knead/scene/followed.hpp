@@ -3,8 +3,8 @@
 #include <numbers>
 #include <optional>
 
+#include "knead/hold/edge_coupling.hpp"
 #include "knead/scene/model.hpp"
-#include "knead/sculpt/edge_coupling.hpp"
 
 namespace knead {
 

@@ -3,8 +3,8 @@
 #include <span>
 
 #include "knead/brep/shared_edge.hpp"
+#include "knead/hold/seam_coupling.hpp"
 #include "knead/scene/scene.hpp"
-#include "knead/sculpt/seam_coupling.hpp"
 
 namespace knead {
 

@@ -11,14 +11,14 @@
 #include "knead/base/shared_list.hpp"
 #include "knead/brep/shared_edge.hpp"
 #include "knead/brep/visible_region.hpp"
+#include "knead/contact/active_spline.hpp"
+#include "knead/contact/plastic_history.hpp"
+#include "knead/hold/edge_coupling.hpp"
 #include "knead/scene/constraint.hpp"
 #include "knead/scene/elasticity.hpp"
 #include "knead/scene/force.hpp"
 #include "knead/scene/shape.hpp"
-#include "knead/sculpt/active_spline.hpp"
 #include "knead/sculpt/brush.hpp"
-#include "knead/sculpt/edge_coupling.hpp"
-#include "knead/sculpt/plastic_history.hpp"
 #include "knead/sculpt/tool_path.hpp"
 
 namespace knead {

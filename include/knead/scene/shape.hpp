@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "knead/brep/visible_region.hpp"
+#include "knead/contact/active_spline.hpp"
 #include "knead/energy/material_field.hpp"
 #include "knead/scene/constraint.hpp"
 #include "knead/scene/elasticity.hpp"
-#include "knead/sculpt/active_spline.hpp"
 
 namespace knead {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "knead/hold/trim_hold.hpp"
 #include "knead/scene/scene.hpp"
-#include "knead/sculpt/trim_hold.hpp"
 
 namespace knead {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "knead/sculpt/site_values.hpp"
 #include "knead/sculpt/stamp.hpp"
+#include "knead/spline/site_values.hpp"
 
 namespace knead {
 

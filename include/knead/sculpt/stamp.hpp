@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "knead/sculpt/shape.hpp"
+#include "knead/tool/shape.hpp"
 
 namespace knead {
 

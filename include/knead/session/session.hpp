@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "knead/hold/seam_coupling.hpp"
 #include "knead/scene/parted_edges.hpp"
 #include "knead/scene/scene.hpp"
-#include "knead/sculpt/seam_coupling.hpp"
 #include "knead/session/command.hpp"
 #include "knead/session/document.hpp"
 #include "knead/session/note.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "../limits.hpp"
+#include "knead/energy/domain_scaling.hpp"
 #include "knead/scene/places.hpp"
-#include "knead/sculpt/domain_scaling.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {

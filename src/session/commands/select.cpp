@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "knead/base/error_code.hpp"
-#include "knead/sculpt/domain_scaling.hpp"
+#include "knead/energy/domain_scaling.hpp"
 
 namespace knead {
 namespace {

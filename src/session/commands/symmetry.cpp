@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "knead/sculpt/constraints.hpp"
+#include "knead/hold/constraints.hpp"
 #include "refine.hpp"
 
 namespace knead {
