@@ -1,4 +1,4 @@
-#include "knead/brep/face_point.hpp"
+#include "face_point.hpp"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 
 #include "constraint_rows.hpp"
 #include "knead/spline/basis.hpp"
-#include "knead/spline/basis_terms.hpp"
+#include "spline/basis_terms.hpp"
 
 namespace knead {
 namespace {

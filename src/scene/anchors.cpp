@@ -1,11 +1,11 @@
-#include "knead/scene/anchors.hpp"
+#include "anchors.hpp"
 
 #include <algorithm>
 #include <span>
 #include <utility>
 
-#include "dead_loads.hpp"
 #include "knead/scene/trims.hpp"
+#include "scene/model/dead_loads.hpp"
 
 namespace knead {
 namespace {

@@ -1,4 +1,4 @@
-#include "knead/scene/edge_check.hpp"
+#include "edge_check.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "knead/scene/formula_field.hpp"
+#include "formula_field.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "knead/scene/mask.hpp"
+#include "mask.hpp"
 
 #include <algorithm>
 #include <cmath>

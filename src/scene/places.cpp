@@ -1,4 +1,4 @@
-#include "knead/scene/places.hpp"
+#include "places.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "knead/scene/places.hpp"
 #include "knead/scene/scene.hpp"
 #include "knead/spline/curvature.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "places.hpp"
 
 namespace knead {
 

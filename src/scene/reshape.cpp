@@ -1,12 +1,12 @@
-#include "knead/scene/reshape.hpp"
+#include "reshape.hpp"
 
 #include <map>
 
 #include "knead/base/error_code.hpp"
 #include "knead/scene/lattice.hpp"
-#include "knead/scene/mask.hpp"
 #include "knead/spline/extremum.hpp"
 #include "knead/spline/knot_removal.hpp"
+#include "mask.hpp"
 
 namespace knead {
 namespace {

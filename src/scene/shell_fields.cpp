@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/scene/places.hpp"
-#include "shell_model.hpp"
+#include "places.hpp"
+#include "scene/model/shell_model.hpp"
 
 namespace knead {
 

@@ -7,9 +7,9 @@
 
 #include "brush_path.hpp"
 #include "executor.hpp"
-#include "knead/scene/places.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 namespace {

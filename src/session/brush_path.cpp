@@ -6,9 +6,9 @@
 #include <cassert>
 #include <cmath>
 
-#include "knead/scene/places.hpp"
 #include "knead/spline/closest_point.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 namespace {

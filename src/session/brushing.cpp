@@ -6,9 +6,9 @@
 #include "brush_path.hpp"
 #include "executor.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/scene/places.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 namespace {

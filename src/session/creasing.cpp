@@ -7,7 +7,7 @@
 #include "executor.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/evaluate.hpp"
-#include "scene/smooth_seams.hpp"
+#include "scene/model/smooth_seams.hpp"
 
 namespace knead {
 namespace {

@@ -8,13 +8,13 @@
 #include <string>
 
 #include "knead/scene/model.hpp"
-#include "knead/scene/reshape.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/session/document_regions.hpp"
 #include "knead/session/session.hpp"
 #include "knead/spline/site_values.hpp"
 #include "motion_law.hpp"
-#include "scene/met_conditions.hpp"
+#include "scene/model/met_conditions.hpp"
+#include "scene/reshape.hpp"
 #include "sculpt/travelled.hpp"
 
 namespace knead {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/scene/anchors.hpp"
 #include "knead/scene/trims.hpp"
-#include "knead/spline/basis_terms.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
+#include "scene/anchors.hpp"
+#include "spline/basis_terms.hpp"
 
 namespace knead {
 namespace {

@@ -1,5 +1,5 @@
 #include "executor.hpp"
-#include "scene/shell_model.hpp"
+#include "scene/model/shell_model.hpp"
 
 namespace knead {
 

@@ -7,9 +7,9 @@
 #include "executor.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/base/interruption.hpp"
-#include "knead/scene/anchors.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/spline/extremum.hpp"
+#include "scene/anchors.hpp"
 
 namespace knead {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "executor.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/scene/anchors.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "scene/anchors.hpp"
 
 namespace knead {
 namespace {

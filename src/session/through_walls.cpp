@@ -11,7 +11,7 @@
 #include "knead/scene/display.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
-#include "scene/model_walls.hpp"
+#include "scene/model/model_walls.hpp"
 
 namespace knead {
 namespace {

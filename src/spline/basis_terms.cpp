@@ -1,4 +1,4 @@
-#include "knead/spline/basis_terms.hpp"
+#include "basis_terms.hpp"
 
 #include "knead/spline/basis.hpp"
 

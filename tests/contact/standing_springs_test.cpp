@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "active.hpp"
-#include "knead/spline/basis_terms.hpp"
+#include "spline/basis_terms.hpp"
 
 namespace knead {
 namespace {

@@ -1,11 +1,11 @@
 #include <random>
 
+#include "brep/face_point.hpp"
 #include "exchange/brep_square.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/face_edges.hpp"
-#include "knead/brep/face_point.hpp"
 #include "knead/brep/model_mesh.hpp"
 #include "knead/brep/shared_edge.hpp"
 #include "knead/exchange/format.hpp"

@@ -1,6 +1,6 @@
 // Points, normals and curvatures of faces on elementary and swept surfaces, against their closed forms.
 
-#include "knead/brep/face_point.hpp"
+#include "brep/face_point.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 // How faces meet at their edges: gaps, angles, what is known of faces that are no B-splines.
 
-#include "knead/scene/edge_check.hpp"
+#include "scene/edge_check.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

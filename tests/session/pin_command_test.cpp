@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/met_conditions.hpp"
+#include "scene/model/met_conditions.hpp"
 #include "sheet.hpp"
 
 namespace knead {

@@ -1,4 +1,4 @@
-#include "knead/scene/mask.hpp"
+#include "scene/mask.hpp"
 
 #include "all.hpp"
 

@@ -1,7 +1,7 @@
 #include "buckling.hpp"
 
 #include "../limits.hpp"
-#include "scene/structural_modes.hpp"
+#include "scene/model/structural_modes.hpp"
 
 namespace knead {
 

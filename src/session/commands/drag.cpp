@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "../limits.hpp"
-#include "knead/scene/places.hpp"
-#include "knead/spline/basis_terms.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "scene/places.hpp"
+#include "spline/basis_terms.hpp"
 
 namespace knead {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/scene/places.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 

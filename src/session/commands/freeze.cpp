@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "knead/scene/places.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 

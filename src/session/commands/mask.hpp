@@ -1,7 +1,7 @@
 #pragma once
 
 #include "../command_fields.hpp"
-#include "knead/scene/mask.hpp"
+#include "scene/mask.hpp"
 
 namespace knead {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "knead/energy/paint.hpp"
-#include "knead/scene/formula_field.hpp"
-#include "knead/scene/places.hpp"
+#include "scene/formula_field.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "knead/scene/places.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "../limits.hpp"
-#include "scene/structural_modes.hpp"
+#include "scene/model/structural_modes.hpp"
 
 namespace knead {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "../components.hpp"
-#include "knead/scene/places.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "knead/base/error_code.hpp"
-#include "knead/scene/places.hpp"
 #include "knead/spline/extremum.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "../limits.hpp"
-#include "knead/scene/places.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 

@@ -7,8 +7,8 @@
 
 #include "../limits.hpp"
 #include "knead/energy/domain_scaling.hpp"
-#include "knead/scene/places.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 namespace {

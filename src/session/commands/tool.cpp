@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/scene/places.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 namespace {

@@ -8,8 +8,8 @@
 #include "knead/base/error_code.hpp"
 #include "knead/contact/active_shell.hpp"
 #include "knead/energy/loads.hpp"
-#include "knead/scene/anchors.hpp"
 #include "knead/solve/shell_statics.hpp"
+#include "scene/anchors.hpp"
 
 namespace knead {
 namespace {

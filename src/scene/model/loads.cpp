@@ -5,11 +5,11 @@
 #include "dead_loads.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/energy/loads.hpp"
-#include "knead/scene/formula_field.hpp"
 #include "knead/scene/model.hpp"
-#include "knead/scene/places.hpp"
-#include "knead/spline/basis_terms.hpp"
-#include "scene_settings.hpp"
+#include "scene/formula_field.hpp"
+#include "scene/places.hpp"
+#include "scene/scene_settings.hpp"
+#include "spline/basis_terms.hpp"
 
 namespace knead {
 

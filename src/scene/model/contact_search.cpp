@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "knead/spline/evaluate.hpp"
-#include "triangle_meeting.hpp"
+#include "scene/triangle_meeting.hpp"
 
 namespace knead {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "base/gauss_legendre.hpp"
 #include "knead/energy/loads.hpp"
-#include "knead/scene/places.hpp"
-#include "knead/spline/basis_terms.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "scene/places.hpp"
+#include "spline/basis_terms.hpp"
 
 namespace knead {
 namespace {

@@ -10,10 +10,10 @@
 #include "knead/energy/loads.hpp"
 #include "knead/hold/edge_coupling.hpp"
 #include "knead/scene/followed.hpp"
-#include "knead/scene/mask.hpp"
 #include "knead/scene/trims.hpp"
 #include "met_conditions.hpp"
-#include "scene_settings.hpp"
+#include "scene/mask.hpp"
+#include "scene/scene_settings.hpp"
 #include "smooth_seams.hpp"
 
 namespace knead {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "knead/scene/display.hpp"
-#include "span_grid.hpp"
+#include "scene/span_grid.hpp"
 
 namespace knead {
 

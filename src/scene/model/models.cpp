@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "form_model.hpp"
-#include "knead/scene/anchors.hpp"
 #include "knead/scene/model.hpp"
+#include "scene/anchors.hpp"
 #include "shell_model.hpp"
 
 namespace knead {

@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "knead/scene/held_points.hpp"
-#include "knead/scene/mask.hpp"
-#include "knead/scene/places.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/spline/extremum.hpp"
+#include "scene/mask.hpp"
+#include "scene/places.hpp"
 
 namespace knead {
 namespace {
