@@ -5,6 +5,8 @@
 
 #include "commands/material.hpp"
 
+#include "selection.hpp"
+
 namespace knead {
 namespace {
 
@@ -76,7 +78,7 @@ Expected<void> set_elasticity(const MaterialCommand& c, Elasticity<D>& elasticit
 
 }  // namespace
 
-Expected<void> set_body_material(Executor& executor, const MaterialCommand& c) {
+Expected<void> set_body_material(Act& act, const MaterialCommand& c) {
   const struct {
     const char* name;
     bool given;
@@ -87,7 +89,7 @@ Expected<void> set_body_material(Executor& executor, const MaterialCommand& c) {
                 {"young", c.young.has_value()},         {"poisson", c.poisson.has_value()},
                 {"thickness", c.thickness.has_value()}, {"density", c.density.has_value()}};
   for (const auto& [name, given] : fields) {
-    if (given) return executor.of_surfaces(name, "use alpha, beta, mass and damping");
+    if (given) return of_surfaces(act, name, "use alpha, beta, mass and damping");
   }
   if (!c.alpha && !c.beta && !c.mass && !c.damping && !c.model && !c.w1 && !c.w2 && !c.reset) {
     return input_error("no field is given", "alpha", "give alpha, beta, mass, damping, a model, or reset");
@@ -97,7 +99,7 @@ Expected<void> set_body_material(Executor& executor, const MaterialCommand& c) {
     if (auto done = set_elasticity<D>(c, s.elasticity); !done) return done;
     return set_material(s, c);
   };
-  return std::visit(set, *executor.body());
+  return std::visit(set, *body(act));
 }
 
 }  // namespace knead

@@ -6,10 +6,14 @@
 #include <utility>
 
 #include "brush_path.hpp"
-#include "executor.hpp"
+#include "brushing.hpp"
+#include "following.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "notes.hpp"
+#include "refining.hpp"
 #include "scene/places.hpp"
+#include "trimming.hpp"
 
 namespace knead {
 namespace {
@@ -45,55 +49,55 @@ Expected<std::array<std::vector<double>, 2>> halving(const Surface& s, const Fra
   return middles;
 }
 
-}  // namespace
-
 /// Finer nets of a surface at one place of a brush, where the edges of faces are held or refining is permitted. Returns
 /// the length of the longest span there that is left.
-Expected<double> Executor::refine_under_brush(SceneSurface& s, const Fractions& at, double pressure) {
-  const Brush& brush = state.brush->brush;
+Expected<double> refine_under_brush(Act& act, SceneSurface& s, const Fractions& at, double pressure) {
+  const Brush& brush = act.state.brush->brush;
   const bool sized = brush.pressure == PressureUse::size || brush.pressure == PressureUse::both;
   const bool sharp =
       brush.kind == BrushKind::crease || brush.kind == BrushKind::ridge || brush.kind == BrushKind::stamp;
   const double wanted =
       (sized ? std::max(pressure, least_size) : 1) * brush.radius * (sharp ? sharp_wanted : spans_wanted);
-  if (auto refined = refine_at_trims(s, at, brush.radius); !refined) return std::unexpected(refined.error());
+  if (auto refined = refine_at_trims(act, s, at, brush.radius); !refined) return std::unexpected(refined.error());
   double longest = 0;
   for (int k = 0; k < most_halvings; ++k) {
     const auto middles = halving(*s.current, at, brush.radius, wanted, longest);
     if (!middles) return std::unexpected(middles.error());
-    if (state.permission != RefinePermission::automatic || !s.pins.empty()) break;
+    if (act.state.permission != RefinePermission::automatic || !s.pins.empty()) break;
     if ((*middles)[0].empty() && (*middles)[1].empty()) break;
     const auto [m, n] = s.current->net();
     if ((m + static_cast<int>((*middles)[0].size())) * (n + static_cast<int>((*middles)[1].size())) >
         most_control_points) {
       break;
     }
-    auto done = change_net(s, [&](const Surface& shape) { return insert_knots<2>(shape, *middles); });
+    auto done = change_net(act, s, [&](const Surface& shape) { return insert_knots<2>(shape, *middles); });
     if (!done) return std::unexpected(done.error());
   }
   return longest;
 }
 
+}  // namespace
+
 /// Finer nets under a brush, also of the surfaces beside those on which it is; the shapes from before the stroke
 /// follow.
-Expected<void> Executor::refine_for_brush(const std::vector<BrushPoint>& places) {
-  OpenBrush& open = *state.brush;
+Expected<void> refine_for_brush(Act& act, const std::vector<BrushPoint>& places) {
+  OpenBrush& open = *act.state.brush;
   const double radius = open.brush.radius;
-  const std::vector<int> selection = state.selection();
+  const std::vector<int> selection = act.state.selection();
   const BrushPath way(selection, open.before, radius, 0);
-  if (selection.size() > 1 && state.permission != RefinePermission::never) {
-    if (auto made = prepare_brush_model(); !made) return made;
+  if (selection.size() > 1 && act.state.permission != RefinePermission::never) {
+    if (auto made = prepare_brush_model(act); !made) return made;
     for (const BrushPoint& at : places) {
       const auto place = way.place(at);
       if (!place) return std::unexpected(place.error());
-      if (auto united = unite_restricted(stroke_cache->scene.seams, place->at, radius); !united) return united;
+      if (auto united = unite_restricted(act, act.cache.stroke->scene.seams, place->at, radius); !united) return united;
     }
   }
-  const bool beside = state.permission == RefinePermission::automatic && selection.size() > 1;
+  const bool beside = act.state.permission == RefinePermission::automatic && selection.size() > 1;
   std::map<int, double> coarsest;
   for (const BrushPoint& at : places) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(at.surface)];
-    const auto longest = refine_under_brush(s, at.at, at.pen.pressure);
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(at.surface)];
+    const auto longest = refine_under_brush(act, s, at.at, at.pen.pressure);
     if (!longest) return std::unexpected(longest.error());
     coarsest[at.surface] = std::max(coarsest[at.surface], *longest);
     if (!beside) continue;
@@ -106,16 +110,16 @@ Expected<void> Executor::refine_for_brush(const std::vector<BrushPoint>& places)
       if (!there) return std::unexpected(there.error());
       if ((there->at - place->at).norm() >= radius) continue;
       const auto refined =
-          refine_under_brush(state.surfaces[static_cast<std::size_t>(other)], foot.at, at.pen.pressure);
+          refine_under_brush(act, act.state.surfaces[static_cast<std::size_t>(other)], foot.at, at.pen.pressure);
       if (!refined) return std::unexpected(refined.error());
     }
   }
-  if (state.permission == RefinePermission::automatic) {
-    if (auto united = refine_seams(); !united) return united;
+  if (act.state.permission == RefinePermission::automatic) {
+    if (auto united = refine_seams(act); !united) return united;
   }
-  if (auto united = unite_followed(); !united) return united;
+  if (auto united = unite_followed(act); !united) return united;
   for (std::size_t k = 0; k < selection.size(); ++k) {
-    const SceneSurface& now = state.surfaces[static_cast<std::size_t>(selection[k])];
+    const SceneSurface& now = act.state.surfaces[static_cast<std::size_t>(selection[k])];
     open.before[k] = {now.rest, now.current};
     open.masks[k] = now.mask;
   }
@@ -123,34 +127,38 @@ Expected<void> Executor::refine_for_brush(const std::vector<BrushPoint>& places)
     if (longest <= radius) continue;
     std::string note = fmt::format(
         R"({}: the net is coarse for the brush: its spans are up to {:.2g} times the radius; let it be refined with {{"do":"refine","permission":"auto"}})",
-        state.surfaces[static_cast<std::size_t>(surface)].id, longest / radius);
-    if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(std::move(note));
+        act.state.surfaces[static_cast<std::size_t>(surface)].id, longest / radius);
+    note_once(act.state, std::move(note));
   }
   return {};
 }
 
+namespace {
+
 /// Of the normalised scaling of the first selected surface, which the model from before may know.
-Expected<double> Executor::length_of_brush_model() const {
-  const auto& reference = std::as_const(state).surfaces[static_cast<std::size_t>(*state.selected)].reference;
-  if (stroke_cache && stroke_cache->scene.input.scaling == ScalingMode::normalised &&
-      stroke_cache->scene.input.shapes.front().reference == reference) {
-    return stroke_cache->scene.model.scaling().length;
+Expected<double> length_of_brush_model(const Act& act) {
+  const auto& reference = std::as_const(act.state).surfaces[static_cast<std::size_t>(*act.state.selected)].reference;
+  if (act.cache.stroke && act.cache.stroke->scene.input.scaling == ScalingMode::normalised &&
+      act.cache.stroke->scene.input.shapes.front().reference == reference) {
+    return act.cache.stroke->scene.model.scaling().length;
   }
   const auto scaling = normalised_scaling<2>(*reference);
   if (!scaling) return std::unexpected(scaling.error());
   return scaling->length;
 }
 
+}  // namespace
+
 /// The constraints, and a plate on a bed that tells how far they are felt.
-Expected<void> Executor::prepare_brush_model() {
-  if (auto known = know_trims(); !known) return known;
-  if (auto known = know_followed(); !known) return known;
-  const OpenBrush& open = *state.brush;
-  const auto length = length_of_brush_model();
+Expected<void> prepare_brush_model(Act& act) {
+  if (auto known = know_trims(act); !known) return known;
+  if (auto known = know_followed(act); !known) return known;
+  const OpenBrush& open = *act.state.brush;
+  const auto length = length_of_brush_model(act);
   if (!length) return std::unexpected(length.error());
   EvolutionPolicy evolution;
   evolution.lambda = locality_of(1, felt_radii * open.brush.radius / *length).lambda;
-  ModelInput input = model_input(state, evolution);
+  ModelInput input = model_input(act.state, evolution);
   input.scaling = ScalingMode::normalised;
   input.detail = 0;
   for (std::size_t k = 0; k < input.shapes.size(); ++k) {
@@ -159,7 +167,7 @@ Expected<void> Executor::prepare_brush_model() {
     s.material = MaterialFieldOf<2>(MaterialOf<2>{{0, 0, 0}, {1, 1, 1}});
     if (s.rest) s.rest = open.before[k].rest;
   }
-  return keep_stroke_model(std::move(input), open.before);
+  return keep_stroke_model(act.cache.stroke, std::move(input), open.before);
 }
 
 }  // namespace knead

@@ -1,14 +1,20 @@
+#include "brushing.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "brush_path.hpp"
-#include "executor.hpp"
+#include "following.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
+#include "notes.hpp"
 #include "scene/places.hpp"
+#include "stepping.hpp"
+#include "stroke_model.hpp"
+#include "trimming.hpp"
 
 namespace knead {
 namespace {
@@ -71,32 +77,34 @@ bool stands_alone(const BrushPlace& place, const OpenBrush& open) {
 
 bool BrushRun::reaches() const { return std::ranges::any_of(histories, &BrushHistory::reaches); }
 
-void Executor::begin_brush(const Brush& brush, std::vector<BrushImage> images, double rope) {
+void begin_brush(Act& act, const Brush& brush, std::vector<BrushImage> images, double rope) {
   OpenBrush open{brush, std::move(images), rope, {}, {}, {}};
-  for (int k : state.selection()) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+  for (int k : act.state.selection()) {
+    const SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
     open.before.push_back({s.rest, s.current});
     open.masks.push_back(s.mask);
   }
-  state.brush = std::move(open);
+  act.state.brush = std::move(open);
 }
 
+namespace {
+
 /// What the brush has asked for along the path, as far as it is not known.
-Expected<void> Executor::start_brush_run() {
-  const OpenBrush& open = *state.brush;
-  const ModelInput& input = stroke_cache->scene.input;
-  if (brush_cache && brush_cache->input == input && goes_on(brush_cache->open, open)) return {};
+Expected<void> start_brush_run(Act& act) {
+  const OpenBrush& open = *act.state.brush;
+  const ModelInput& input = act.cache.stroke->scene.input;
+  if (act.cache.brush && act.cache.brush->input == input && goes_on(act.cache.brush->open, open)) return {};
   BrushRun run{input, open, {}, {}, {}, {}, {}, false};
   run.open.path = {};
   std::vector<Seam> seams;
-  for (const SeamReport& report : stroke_cache->scene.seams) seams.push_back(report.seam);
-  const std::vector<int> selection = state.selection();
+  for (const SeamReport& report : act.cache.stroke->scene.seams) seams.push_back(report.seam);
+  const std::vector<int> selection = act.state.selection();
   const auto begin = std::ranges::find(selection, open.path.front().surface) - selection.begin();
   run.sides = seam_sides(seams, static_cast<int>(selection.size()), static_cast<int>(begin));
   Eigen::Index rows = 0;
   for (std::size_t k = 0; k < open.before.size(); ++k) {
     const Surface& shape = *open.before[k].current;
-    if (auto done = run.samples.append(shape, stroke_cache->values[k], run.sides[k]); !done) return done;
+    if (auto done = run.samples.append(shape, act.cache.stroke->values[k], run.sides[k]); !done) return done;
     rows += shape.size();
   }
   if (open.brush.kind == BrushKind::smooth) {
@@ -106,60 +114,22 @@ Expected<void> Executor::start_brush_run() {
       shape.middleRows(rows, b.current->size()) = b.current->control_points();
       rows += b.current->size();
     }
-    run.fair = stroke_cache->at_abscissae(stroke_cache->scene.model.fairing(shape));
+    run.fair = act.cache.stroke->at_abscissae(act.cache.stroke->scene.model.fairing(shape));
     // Along the surface nothing would change but its parameters.
     const Points& n = run.samples.normals;
     for (Eigen::Index g = 0; g < rows; ++g) run.fair.row(g) = run.fair.row(g).dot(n.row(g)) * n.row(g);
   }
   run.histories.assign(open.images.size() + 1, BrushHistory(rows));
-  brush_cache = std::move(run);
+  act.cache.brush = std::move(run);
   return {};
 }
 
-Expected<void> Executor::brush_to(const std::vector<BrushPoint>& path) {
-  OpenBrush& open = *state.brush;
-  const std::vector<int> selection = state.selection();
-  for (std::size_t k = 0; k < selection.size(); ++k) {  // places and nets are those of the shapes from before
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
-    s.rest = open.before[k].rest;
-    s.current = open.before[k].current;
-    s.mask = open.masks[k];
-  }
-  const std::size_t known = open.path.size();
-  for (const BrushPoint& at : path) open.path.push_back(at);
-  std::vector<BrushPoint> places;
-  const BrushPath way = path_of(open, state);
-  for (std::size_t k = known; k < open.path.size(); ++k) {
-    const auto more =
-        k == 0 ? std::vector<BrushPoint>{open.path[0]} : way.places(open.path[k - 1], open.path[k], open.path[k - 1]);
-    if (!more) return std::unexpected(more.error());
-    places.insert(places.end(), more->begin(), more->end());
-  }
-  if (auto refined = refine_for_brush(places); !refined) return refined;
-  const bool paints = open.brush.kind == BrushKind::mask || open.brush.kind == BrushKind::unmask;
-  Attempts tried = attempts();
-  while (true) {
-    if (auto made = prepare_brush_model(); !made) return made;
-    if (auto started = start_brush_run(); !started) return started;
-    if (auto led = lead_brush(); !led) return led;
-    if (paints) return show_mask();
-    const auto displacement = brushed();
-    if (!displacement) return std::unexpected(displacement.error());
-    const Scene before = state;
-    if (auto shown = show_brush(*displacement); !shown) return shown;
-    const auto closed = together(tried);
-    if (!closed) return std::unexpected(closed.error());
-    if (*closed) return {};
-    state.surfaces = before.surfaces;
-  }
-}
-
 /// Leads the brush to the end of its path, from where it is known.
-Expected<void> Executor::lead_brush() {
-  const OpenBrush& open = *state.brush;
-  BrushRun& run = *brush_cache;
-  const BrushPath way = path_of(open, state);
-  const std::vector<int> selection = state.selection();
+Expected<void> lead_brush(Act& act) {
+  const OpenBrush& open = *act.state.brush;
+  BrushRun& run = *act.cache.brush;
+  const BrushPath way = path_of(open, act.state);
+  const std::vector<int> selection = act.state.selection();
   for (std::size_t k = run.open.path.size(); k < open.path.size(); ++k) {
     if (k == 0) run.at = open.path[0];
     auto next = k == 0 ? std::vector<BrushPoint>{run.at} : way.places(open.path[k - 1], open.path[k], run.at);
@@ -186,16 +156,16 @@ Expected<void> Executor::lead_brush() {
 
 /// How far the point that is grabbed would go with this displacement of the control points, of the way that it should.
 /// 0 where it has an image that the brush overlaps with.
-Expected<double> Executor::share_of_grab(const Points& displacement) const {
-  const OpenBrush& open = *state.brush;
-  const auto place = path_of(open, state).place(open.path.front());
+Expected<double> share_of_grab(const Act& act, const Points& displacement) {
+  const OpenBrush& open = *act.state.brush;
+  const auto place = path_of(open, act.state).place(open.path.front());
   if (!place) return std::unexpected(place.error());
   if (!stands_alone(*place, open)) return 0;
-  const std::vector<int> selection = state.selection();
+  const std::vector<int> selection = act.state.selection();
   const BrushPoint& at = open.path.front();
   const auto k = static_cast<std::size_t>(std::ranges::find(selection, at.surface) - selection.begin());
   const Surface& shape = *open.before[k].current;
-  const Eigen::Index first = stroke_cache->scene.model.rows()[k];
+  const Eigen::Index first = act.cache.stroke->scene.model.rows()[k];
   const auto field = shape.with_control_points(displacement.middleRows(first, shape.size()));
   if (!field) return std::unexpected(field.error());
   const auto u = parameters_at(*field, at.at, "path");
@@ -206,9 +176,9 @@ Expected<double> Executor::share_of_grab(const Points& displacement) const {
 }
 
 /// The displacement of the control points that the open brush asks for and the constraints allow.
-Expected<Points> Executor::brushed() {
-  const OpenBrush& open = *state.brush;
-  BrushRun& run = *brush_cache;
+Expected<Points> brushed(Act& act) {
+  const OpenBrush& open = *act.state.brush;
+  BrushRun& run = *act.cache.brush;
   std::vector<Points> copies;
   for (std::size_t i = 0; i < run.histories.size(); ++i) {
     const Brush brush = i == 0 ? open.brush : open.images[i - 1].of(open.brush);
@@ -217,18 +187,18 @@ Expected<Points> Executor::brushed() {
   Points asked = blended(copies);
   const bool grabs = open.brush.kind == BrushKind::grab;
   const double most = std::max(std::sqrt(asked.rowwise().squaredNorm().maxCoeff()), grabs ? open.brush.by.norm() : 0);
-  ask_of_brush(most);
-  const ActiveSurface& model = stroke_cache->scene.model;
-  Points c = local_coefficients(*stroke_cache, asked);
+  ask_of_brush(act, most);
+  const ActiveSurface& model = act.cache.stroke->scene.model;
+  Points c = local_coefficients(*act.cache.stroke, asked);
   if (grabs && open.brush.by.squaredNorm() > 0) {
     // The point that is grabbed goes where it was asked to, whatever interpolation makes of the falloff
-    const auto share = share_of_grab(c);
+    const auto share = share_of_grab(act, c);
     if (!share) return std::unexpected(share.error());
     if (*share > least_share) asked /= *share;
   }
   const bool some = (asked.array() != 0).any();
-  asked = unmasked(std::move(asked));
-  c = local_coefficients(*stroke_cache, asked);
+  asked = unmasked(act.state, std::move(asked));
+  c = local_coefficients(*act.cache.stroke, asked);
   // Between the sites the spline goes further where what is asked has steep sides
   const double reach = (1 + 0.5 * law_tolerance) * most;
   for (Eigen::Index first = 0; const OpenStroke::Before& before : open.before) {
@@ -253,14 +223,14 @@ Expected<Points> Executor::brushed() {
 }
 
 /// The masks from before the stroke with what was painted.
-Expected<void> Executor::show_mask() {
-  const OpenBrush& open = *state.brush;
-  Eigen::VectorXd weight = brush_cache->histories.front().weights(open.brush);
-  for (const BrushHistory& image : brush_cache->histories) weight = weight.cwiseMax(image.weights(open.brush));
-  const std::vector<int> selection = state.selection();
+Expected<void> show_mask(Act& act) {
+  const OpenBrush& open = *act.state.brush;
+  Eigen::VectorXd weight = act.cache.brush->histories.front().weights(open.brush);
+  for (const BrushHistory& image : act.cache.brush->histories) weight = weight.cwiseMax(image.weights(open.brush));
+  const std::vector<int> selection = act.state.selection();
   Eigen::Index first = 0;
   for (std::size_t k = 0; k < selection.size(); ++k) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
     if (s.mask.empty()) s.mask.assign(static_cast<std::size_t>(s.current->size()), 0);
     for (double& m : s.mask) {
       const double w = weight[first++];
@@ -271,43 +241,13 @@ Expected<void> Executor::show_mask() {
   return {};
 }
 
-Points Executor::unmasked(Points displacement) const {
-  Eigen::Index first = 0;
-  for (int k : state.selection()) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    for (std::size_t i = 0; i < s.mask.size(); ++i) {
-      displacement.row(first + static_cast<Eigen::Index>(i)) *= 1 - s.mask[i];
-    }
-    first += s.current->size();
-  }
-  return displacement;
-}
-
-/// Makes the shapes and rest shapes those from before the stroke with this displacement, or with what share of it folds
-/// no face. What is grabbed goes where it was asked to, or nowhere.
-Expected<void> Executor::show_brush(const Points& displacement) {
-  if (auto shown = displace_from_brush(displacement); !shown) return shown;
-  if (state.brush->brush.kind == BrushKind::grab) {
-    if (auto sound = check_folds(); !sound) return sound;
-  } else {
-    const auto smaller =
-        keep_unfolded("brush", 1, [&](double share) { return displace_from_brush(share * displacement); });
-    if (!smaller) return std::unexpected(smaller.error());
-    if (!smaller->empty() && std::ranges::find(state.notes, *smaller) == state.notes.end()) {
-      state.notes.push_back(*smaller);
-    }
-  }
-  note_model(stroke_cache->scene.seams, stroke_cache->scene.notes);
-  return {};
-}
-
 /// Rows of zero keep their bits.
-Expected<void> Executor::displace_from_brush(const Points& displacement) {
-  const std::vector<int> selection = state.selection();
+Expected<void> displace_from_brush(Act& act, const Points& displacement) {
+  const std::vector<int> selection = act.state.selection();
   Eigen::Index first = 0;
   for (std::size_t k = 0; k < selection.size(); ++k) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
-    const OpenStroke::Before& before = state.brush->before[k];
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
+    const OpenStroke::Before& before = act.state.brush->before[k];
     const Points d = displacement.middleRows(first, before.current->size());
     first += d.rows();
     if ((d.array() == 0).all()) continue;
@@ -327,16 +267,72 @@ Expected<void> Executor::displace_from_brush(const Points& displacement) {
     s.current = std::move(*current);
     s.rest = std::move(*rest);
     s.velocity.resize(0, 3);
-    if (!state.limit) continue;
+    if (!act.state.limit) continue;
     const double was = largest_distance(*before.current, *s.opened), is = largest_distance(*s.current, *s.opened);
-    if (is > *state.limit * (1 + limit_share) && is > was) {
+    if (is > *act.state.limit * (1 + limit_share) && is > was) {
       return input_error(fmt::format("the surface would be {:.6g} from where it was opened, and {:.6g} is the limit",
-                                     is, *state.limit),
+                                     is, *act.state.limit),
                          "brush", R"(move it less, or end the limit: {"do":"limit"})",
-                         {ErrorCode::beyond_limit, {{"distance", is}, {"limit", *state.limit}}});
+                         {ErrorCode::beyond_limit, {{"distance", is}, {"limit", *act.state.limit}}});
     }
   }
   return {};
+}
+
+/// Makes the shapes and rest shapes those from before the stroke with this displacement, or with what share of it folds
+/// no face. What is grabbed goes where it was asked to, or nowhere.
+Expected<void> show_brush(Act& act, const Points& displacement) {
+  if (auto shown = displace_from_brush(act, displacement); !shown) return shown;
+  if (act.state.brush->brush.kind == BrushKind::grab) {
+    if (auto sound = check_folds(act.state); !sound) return sound;
+  } else {
+    const auto smaller = keep_unfolded(act.state, "brush", 1,
+                                       [&](double share) { return displace_from_brush(act, share * displacement); });
+    if (!smaller) return std::unexpected(smaller.error());
+    if (!smaller->empty()) note_once(act.state, *smaller);
+  }
+  note_model(act, act.cache.stroke->scene.seams, act.cache.stroke->scene.notes);
+  return {};
+}
+
+}  // namespace
+
+Expected<void> brush_to(Act& act, const std::vector<BrushPoint>& path) {
+  OpenBrush& open = *act.state.brush;
+  const std::vector<int> selection = act.state.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {  // places and nets are those of the shapes from before
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
+    s.rest = open.before[k].rest;
+    s.current = open.before[k].current;
+    s.mask = open.masks[k];
+  }
+  const std::size_t known = open.path.size();
+  for (const BrushPoint& at : path) open.path.push_back(at);
+  std::vector<BrushPoint> places;
+  const BrushPath way = path_of(open, act.state);
+  for (std::size_t k = known; k < open.path.size(); ++k) {
+    const auto more =
+        k == 0 ? std::vector<BrushPoint>{open.path[0]} : way.places(open.path[k - 1], open.path[k], open.path[k - 1]);
+    if (!more) return std::unexpected(more.error());
+    places.insert(places.end(), more->begin(), more->end());
+  }
+  if (auto refined = refine_for_brush(act, places); !refined) return refined;
+  const bool paints = open.brush.kind == BrushKind::mask || open.brush.kind == BrushKind::unmask;
+  Attempts tried = attempts(act);
+  while (true) {
+    if (auto made = prepare_brush_model(act); !made) return made;
+    if (auto started = start_brush_run(act); !started) return started;
+    if (auto led = lead_brush(act); !led) return led;
+    if (paints) return show_mask(act);
+    const auto displacement = brushed(act);
+    if (!displacement) return std::unexpected(displacement.error());
+    const Scene before = act.state;
+    if (auto shown = show_brush(act, *displacement); !shown) return shown;
+    const auto closed = together(act, tried);
+    if (!closed) return std::unexpected(closed.error());
+    if (*closed) return {};
+    act.state.surfaces = before.surfaces;
+  }
 }
 
 }  // namespace knead

@@ -1,16 +1,22 @@
 #pragma once
 
-#include "executor.hpp"
+#include <array>
+#include <optional>
+#include <span>
+
 #include "knead/base/describe.hpp"
+#include "knead/session/session.hpp"
 
 namespace knead {
+
+struct Act;
 
 [[nodiscard]] inline Vector3 array_of(const Point& p) { return {p[0], p[1], p[2]}; }
 [[nodiscard]] inline Point point_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
 // Fields shared by several commands. Each command's header declares, next to its struct C,
-//   Expected<void> Executor::execute(const C&)   what it does
-//   void describe(C&, Fields&)                   its fields
+//   Expected<void> execute(const C&, Act&)   what it does
+//   void describe(C&, Fields&)               its fields
 // and its .cpp file defines both.
 
 /// What a command acts on. Each declares it as `acts_on`, unless it is for surfaces alone.
@@ -26,7 +32,7 @@ template <class C>
   return ActsOn::surfaces;
 }
 
-/// What a command that moves surfaces may do where they come to another face of their model (`Executor::meet_faces`).
+/// What a command that moves surfaces may do where they come to another face of their model (`meet_faces`).
 enum class ThroughAllowance { through, nothing };
 
 std::span<const Choice> choices(ThroughAllowance);

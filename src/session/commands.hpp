@@ -83,14 +83,4 @@ template <class C>
   return std::get_if<C>(&command.any().fields);
 }
 
-/// Applies a command to what is selected.
-template <class C>
-[[nodiscard]] Expected<void> apply(Executor& executor, const C& command) {
-  const SceneBody* const body = target_of<C>() == ActsOn::surfaces ? executor.body() : nullptr;
-  if (body == nullptr) return executor.execute(command);
-  return input_error("this command acts on surfaces, and the " + std::string(kind_of(*body)) + " " +
-                         common_of(*body).id + " is selected",
-                     std::string(type_of<C>().name), "select a surface first");
-}
-
 }  // namespace knead

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "executor.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "scene/model/smooth_seams.hpp"
+#include "stepping.hpp"
 
 namespace knead {
 namespace {
@@ -42,21 +42,21 @@ Expected<Kink> kink_along(std::span<const Surface* const> shapes, const CoupledE
 }  // namespace
 
 /// Says which seams were smooth and are not any more, why, and what keeps them so.
-void Executor::note_creases(std::span<const SeamReport> seams) {
+void note_creases(Act& act, std::span<const SeamReport> seams) {
   std::vector<const Surface*> shapes, references;
-  const std::vector<int> selection = state.selection();
+  const std::vector<int> selection = act.state.selection();
   for (int k : selection) {
-    shapes.push_back(state.surfaces[static_cast<std::size_t>(k)].current.get());
-    references.push_back(state.surfaces[static_cast<std::size_t>(k)].reference.get());
+    shapes.push_back(act.state.surfaces[static_cast<std::size_t>(k)].current.get());
+    references.push_back(act.state.surfaces[static_cast<std::size_t>(k)].reference.get());
   }
   for (const SeamReport& report : seams) {
     if (!may_crease(report)) continue;
     const auto name = [&](const PatchEdge& side) {
       const auto index = static_cast<std::size_t>(selection[static_cast<std::size_t>(side.patch)]);
-      return fmt::format("{} {}", state.surfaces[index].id, edge_name(side.edge));
+      return fmt::format("{} {}", act.state.surfaces[index].id, edge_name(side.edge));
     };
     const std::string begin = fmt::format("the seam {} – {} was smooth", name(report.seam.a), name(report.seam.b));
-    std::erase_if(state.notes, [&](const std::string& note) { return note.starts_with(begin); });
+    std::erase_if(act.state.notes, [&](const std::string& note) { return note.starts_with(begin); });
     const auto edge = smooth_seam_edge(references, report.seam);
     const auto kink = edge ? kink_along(shapes, *edge) : std::unexpected(edge.error());
     if (!kink || kink->angle <= accepted_angle) continue;
@@ -69,7 +69,7 @@ void Executor::note_creases(std::span<const SeamReport> seams) {
                              {"y", kink->at.y()},
                              {"z", kink->at.z()},
                              {"reason", why}}};
-    state.notes.emplace_back(
+    act.state.notes.emplace_back(
         fmt::format(
             R"({} and has a crease of {:.2g} degrees now at ({:.6g}, {:.6g}, {:.6g}): it keeps its position only, as {}; undo and let it stay smooth with {{"do":"seams","smooth":true}})",
             begin, kink->angle * 180 / std::numbers::pi, kink->at.x(), kink->at.y(), kink->at.z(), why),

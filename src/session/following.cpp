@@ -1,3 +1,5 @@
+#include "following.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,11 +7,17 @@
 #include <numbers>
 
 #include "command_fields.hpp"
+#include "holding.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/shared_edge.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "refining.hpp"
+#include "selection.hpp"
+#include "stepping.hpp"
+#include "stroking.hpp"
+#include "trimming.hpp"
 
 namespace knead {
 namespace {
@@ -74,17 +82,17 @@ double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 }  // namespace
 
-Expected<void> Executor::follow_edge(const std::string& id) {
-  auto found = std::ranges::find(state.followed, id, &FollowedEdge::id);
-  if (found == state.followed.end() || !found->course) {
-    auto course = course_of(document, id);
+Expected<void> follow_edge(Act& act, const std::string& id) {
+  auto found = std::ranges::find(act.state.followed, id, &FollowedEdge::id);
+  if (found == act.state.followed.end() || !found->course) {
+    auto course = course_of(act.document, id);
     if (!course) return std::unexpected(course.error());
-    if (found == state.followed.end()) found = state.followed.insert(found, {id, {}});
+    if (found == act.state.followed.end()) found = act.state.followed.insert(found, {id, {}});
     found->course = std::move(*course);
   }
-  const auto is_selected = [this](const std::string& surface) {
-    return std::ranges::any_of(state.selection(),
-                               [&](int k) { return state.surfaces[static_cast<std::size_t>(k)].id == surface; });
+  const auto is_selected = [&act](const std::string& surface) {
+    return std::ranges::any_of(act.state.selection(),
+                               [&](int k) { return act.state.surfaces[static_cast<std::size_t>(k)].id == surface; });
   };
   const std::vector<std::string>& surfaces = found->course->surfaces();
   for (const std::string& surface : surfaces) {
@@ -98,40 +106,41 @@ Expected<void> Executor::follow_edge(const std::string& id) {
   return {};
 }
 
-Expected<void> Executor::know_followed() {
-  for (int k : state.selection()) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+Expected<void> know_followed(Act& act) {
+  for (int k : act.state.selection()) {
+    const SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
     for (const KeptConstraint& kept : s.constraints) {
       const auto* hold = std::get_if<TrimEdgeHold>(&kept.constraint);
       if (hold == nullptr || !hold->follow) continue;
-      if (auto known = follow_edge(hold->id); !known) return known;
+      if (auto known = follow_edge(act, hold->id); !known) return known;
     }
   }
   return {};
 }
 
-Expected<void> Executor::unite_followed() {
-  if (auto known = know_followed(); !known) return known;
-  if (state.permission == RefinePermission::never || followed_inputs(state).empty()) return {};
-  return refine_seams(true);
+Expected<void> unite_followed(Act& act) {
+  if (auto known = know_followed(act); !known) return known;
+  if (act.state.permission == RefinePermission::never || followed_inputs(act.state).empty()) return {};
+  return refine_seams(act, true);
 }
 
-Expected<void> Executor::check_followed(const Scene& before) {
-  if (std::ranges::equal(state.surfaces, before.surfaces,
+Expected<void> check_followed(Act& act, const Scene& before) {
+  if (std::ranges::equal(act.state.surfaces, before.surfaces,
                          [](const SceneSurface& a, const SceneSurface& b) { return a.current == b.current; })) {
     return {};  // nothing moved
   }
-  for (const FollowedEdge& edge : state.followed) {
+  for (const FollowedEdge& edge : act.state.followed) {
     if (!edge.course) continue;
     bool following = true, changed = false;
     for (const std::string& id : edge.course->surfaces()) {
-      const auto is = std::ranges::find(state.surfaces, id, &SceneSurface::id);
+      const auto is = std::ranges::find(act.state.surfaces, id, &SceneSurface::id);
       const auto was = std::ranges::find(before.surfaces, id, &SceneSurface::id);
-      following = following && is != state.surfaces.end() && follows(*is, edge.id);
-      changed = changed || was == before.surfaces.end() || is == state.surfaces.end() || was->current != is->current;
+      following = following && is != act.state.surfaces.end() && follows(*is, edge.id);
+      changed =
+          changed || was == before.surfaces.end() || is == act.state.surfaces.end() || was->current != is->current;
     }
     if (!following || !changed) continue;
-    const auto apart = parting(state, *edge.course);
+    const auto apart = parting(act.state, *edge.course);
     if (!apart) return std::unexpected(apart.error());
     if (apart->distance > apart->tolerance) {
       const Point& p = apart->place;
@@ -151,7 +160,7 @@ Expected<void> Executor::check_followed(const Scene& before) {
           "edge", R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it "clamped")",
           {ErrorCode::edge_would_part, {{"edge", edge.id}}});
     }
-    const auto stuck = stuck_vertex(state, *edge.course);
+    const auto stuck = stuck_vertex(act.state, *edge.course);
     if (!stuck) return std::unexpected(stuck.error());
     if (*stuck) {
       return numerical_error(fmt::format("the vertex {} of the edge {} would move by {:.2g}, but the edge {} stays",
@@ -162,115 +171,77 @@ Expected<void> Executor::check_followed(const Scene& before) {
   return {};
 }
 
-Executor::Attempts Executor::attempts() const {
+Attempts attempts(const Act& act) {
   Attempts result;
-  for (const SceneSurface& s : state.surfaces) result.before.push_back(s.current);
+  for (const SceneSurface& s : act.state.surfaces) result.before.push_back(s.current);
   return result;
 }
 
-Expected<bool> Executor::together(Attempts& attempts) {
-  double excess = 0, across = 0, along = 0, angle = 0;
-  std::vector<Point> motion;
-  for (const FollowedInput& edge : followed_inputs(state)) {
-    const auto apart = parting(state, *edge.course);
-    if (!apart) return std::unexpected(apart.error());
-    excess = std::max(excess, apart->distance / apart->tolerance);
-    angle = std::max(angle, apart->angle / accepted_bend(*apart));
-    across = std::max(across, apart->kink_across);
-    along = std::max(along, apart->kink_along);
-    if (auto moved = append_motion(*edge.course, attempts.before, motion); !moved) {
-      return std::unexpected(moved.error());
-    }
-  }
-  auto& [before, best] = attempts;
-  if (best &&
-      share_of(best->motion, motion) < kept_motion) {  // what is asked for would take the freedom that the edges have
-    state.surfaces = std::move(best->surfaces);
-    state.coupling = best->coupling;
-    state.bend = accepted_angle;
-    state.notes.push_back(fmt::format(
-        "smooth edges that follow may open by up to {:.2g} degrees from here on: within the {:.2g} that are "
-        "asked for they could hardly move; finer nets beside them would help, {{\"do\":\"refine\"}}",
-        in_degrees(accepted_angle), in_degrees(asked_angle)));
-    return true;
-  }
-  const CouplingTolerance was = state.coupling;
-  if (excess <= 1 && angle <= 1) {
-    if (state.bend > asked_angle) return true;
-    best = {state.surfaces, was, best ? std::move(best->motion) : std::move(motion)};
-  }
-  if (std::max(excess, along) > 1) tighten(state.coupling.position, std::max(excess, along));
-  if (across > 1) tighten(state.coupling.tangent, across);
-  return state.coupling == was;
-}
+namespace {
 
 /// By how much points of an edge moved, on its first surface.
-Expected<void> Executor::append_motion(const SharedEdge& edge, std::span<const std::shared_ptr<const Surface>> before,
-                                       std::vector<Point>& to) const {
-  const auto index = find_surface(edge.surfaces().front());
+Expected<void> append_motion(const Act& act, const SharedEdge& edge,
+                             std::span<const std::shared_ptr<const Surface>> before, std::vector<Point>& to) {
+  const auto index = find_surface(act, edge.surfaces().front());
   if (!index) return std::unexpected(index.error());
   const auto k = static_cast<std::size_t>(*index);
   for (const SharedEdge::Sample& sample : edge.samples()) {
-    const auto way = displacement_at(*before[k], *state.surfaces[k].current, sample.feet.front());
+    const auto way = displacement_at(*before[k], *act.state.surfaces[k].current, sample.feet.front());
     if (!way) return std::unexpected(way.error());
     to.push_back(*way);
   }
   return {};
 }
 
-Expected<bool> Executor::take_together(const ActiveStep& step, Attempts& attempts) {
-  const Scene before = state;
-  if (auto taken = take(step); !taken) return std::unexpected(taken.error());
-  const auto closed = together(attempts);
-  if (!closed) return closed;
-  if (!*closed) {
-    state.surfaces = before.surfaces;
-    return false;
-  }
-  if (auto checked = check_followed(before); !checked) return std::unexpected(checked.error());
-  return true;
-}
+}  // namespace
 
-/// Shows the open stroke with edges that follow closed, and as smooth as asked.
-Expected<void> Executor::show_stroke(bool down) {
-  Attempts tried = attempts();
-  const std::vector<int> selection = state.selection();
-  for (std::size_t k = 0; k < selection.size(); ++k) {
-    tried.before[static_cast<std::size_t>(selection[k])] = state.stroke->before[k].current;
-  }
-  while (true) {
-    if (auto made = prepare_stroke_model(); !made) return made;
-    if (auto shown = show_remembered(down); !shown) return shown;
-    const auto closed = together(tried);  // what is remembered is kept; only its image in the constraints is made again
-    if (!closed) return std::unexpected(closed.error());
-    if (*closed) return {};
-  }
-}
-
-Expected<void> Executor::refine_followed(const SceneSurface& touched, const TrimContact& contact, double size) {
-  const auto place = evaluate_point<2>(*touched.opened, contact.at);
-  if (!place) return std::unexpected(place.error());
-  for (const FollowedEdge& edge : state.followed) {
-    if (!edge.course || !follows(touched, edge.id)) continue;
-    const auto& samples = edge.course->samples();
-    const auto near =
-        std::ranges::min_element(samples, {}, [&](const SharedEdge::Sample& s) { return (s.point - *place).norm(); });
-    if ((near->point - *place).norm() >= contact.distance) continue;
-    for (std::size_t k = 0; k < near->feet.size(); ++k) {
-      const auto index = find_surface(edge.course->surfaces()[k]);
-      if (!index) return std::unexpected(index.error());
-      SceneSurface& s = state.surfaces[static_cast<std::size_t>(*index)];
-      const bool itself = std::ranges::count(edge.course->surfaces(), s.id) > 1;
-      if ((&s == &touched && !itself) || !s.visible) continue;
-      std::vector<bool> held;
-      for (const int order : trim_orders(s.constraints, *s.visible)) held.push_back(order >= 0);
-      TrimContact there{parameters_at_foot(*s.current, near->feet[k]), s.visible->distance(near->point, held)};
-      there.distance = std::min(there.distance, contact.distance);
-      if (!(there.distance > 0)) continue;
-      if (auto done = refine_round(s, there, size); !done) return done;
+Expected<bool> together(Act& act, Attempts& attempts) {
+  double excess = 0, across = 0, along = 0, angle = 0;
+  std::vector<Point> motion;
+  for (const FollowedInput& edge : followed_inputs(act.state)) {
+    const auto apart = parting(act.state, *edge.course);
+    if (!apart) return std::unexpected(apart.error());
+    excess = std::max(excess, apart->distance / apart->tolerance);
+    angle = std::max(angle, apart->angle / accepted_bend(*apart));
+    across = std::max(across, apart->kink_across);
+    along = std::max(along, apart->kink_along);
+    if (auto moved = append_motion(act, *edge.course, attempts.before, motion); !moved) {
+      return std::unexpected(moved.error());
     }
   }
-  return {};
+  auto& [before, best] = attempts;
+  if (best &&
+      share_of(best->motion, motion) < kept_motion) {  // what is asked for would take the freedom that the edges have
+    act.state.surfaces = std::move(best->surfaces);
+    act.state.coupling = best->coupling;
+    act.state.bend = accepted_angle;
+    act.state.notes.push_back(fmt::format(
+        "smooth edges that follow may open by up to {:.2g} degrees from here on: within the {:.2g} that are "
+        "asked for they could hardly move; finer nets beside them would help, {{\"do\":\"refine\"}}",
+        in_degrees(accepted_angle), in_degrees(asked_angle)));
+    return true;
+  }
+  const CouplingTolerance was = act.state.coupling;
+  if (excess <= 1 && angle <= 1) {
+    if (act.state.bend > asked_angle) return true;
+    best = {act.state.surfaces, was, best ? std::move(best->motion) : std::move(motion)};
+  }
+  if (std::max(excess, along) > 1) tighten(act.state.coupling.position, std::max(excess, along));
+  if (across > 1) tighten(act.state.coupling.tangent, across);
+  return act.state.coupling == was;
+}
+
+Expected<bool> take_together(Act& act, const ActiveStep& step, Attempts& attempts) {
+  const Scene before = act.state;
+  if (auto taken = take(act, step); !taken) return std::unexpected(taken.error());
+  const auto closed = together(act, attempts);
+  if (!closed) return closed;
+  if (!*closed) {
+    act.state.surfaces = before.surfaces;
+    return false;
+  }
+  if (auto checked = check_followed(act, before); !checked) return std::unexpected(checked.error());
+  return true;
 }
 
 }  // namespace knead

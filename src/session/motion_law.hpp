@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "knead/scene/scene.hpp"
+#include "knead/scene/model.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead {
+
+struct Act;
 
 /// How much further than asked anything may move.
 inline constexpr double law_tolerance = 0.05;
@@ -58,6 +60,30 @@ struct MotionLaw {
 [[nodiscard]] Expected<std::shared_ptr<const Surface>> part_of_way(const Surface& from,
                                                                    const std::shared_ptr<const Surface>& to,
                                                                    double share);
+
+/// Whether every side is held as these reports of the selected surfaces say.
+[[nodiscard]] bool held_all_round(const Act& act, std::span<const SeamReport> reports);
+
+/// What the tools and these grips ask: at first of the surfaces as they stand, beyond what moved them before; where the
+/// command goes on with others, of the shapes that motion is measured from, so that what one step moved too far does
+/// not count for the next.
+[[nodiscard]] Expected<void> ask_of_motion(Act& act, const EvolutionPolicy& evolution,
+                                           const std::vector<PointForce>& grips);
+/// What the open stroke has left so far may stay, whatever places asked for it.
+void keep_what_stroke_left(Act& act);
+/// What tools ask of the shapes from before the stroke, where they moved them so far: by no more than half the
+/// tolerance further than they stand in them, which is measured exactly only where they did.
+void ask_of_stroke(Act& act, double moved, std::span<const Tool> tools);
+/// The same of a brush.
+void ask_of_brush(Act& act, double asked);
+/// Whether a step moves further than was asked for, by so much that it is made again within reach.
+[[nodiscard]] bool goes_too_far(Act& act, const ActiveStep& step, const ActiveLoads& loads, const Model& model);
+/// The control points from which motion is measured.
+[[nodiscard]] Points points_of_law(const Act& act);
+/// The one door of all that moves surfaces: what has moved further than it was asked to, by more than `law_tolerance`,
+/// is made smaller, and noted; a lever only where it moved further than the static solution of what acts on it, and how
+/// far is noted. Forgets what was asked.
+[[nodiscard]] Expected<void> keep_law(Act& act);
 
 /// Makes a tool as hard as the open stroke needs it, unless it is, or does not collide.
 void harden(Tool& tool, const OpenStroke& stroke);

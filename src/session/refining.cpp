@@ -1,13 +1,19 @@
+#include "refining.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "executor.hpp"
+#include "following.hpp"
+#include "holding.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "limits.hpp"
+#include "selection.hpp"
+#include "stroking.hpp"
+#include "trimming.hpp"
 
 namespace knead {
 
@@ -20,7 +26,6 @@ std::string net_note(const SceneSurface& s) {
 namespace {
 
 constexpr int least_limit = 40'000, grown = 4;  // of control points, and times those of the file, where nobody asked
-constexpr double near_seam = 2;                 // sizes of the tool from its centre within which seams have to bend
 
 /// The rectangle of parameters of all spans whose control points come near the tool; none if there are none.
 std::optional<std::array<Interval, 2>> reach_of(const Surface& surface, const Tool& tool) {
@@ -67,32 +72,44 @@ double distance_from(const Surface& surface, SurfaceEdge edge, const Point& plac
 
 }  // namespace
 
-Expected<void> Executor::change_net(SceneSurface& s, const SurfaceChange& change) {
+Expected<void> change_basis(Act& act, SceneSurface& surface, const SurfaceChange& change) {
+  if (act.state.limit) {
+    return input_error("a limit is measured on the weights and knots that the surface was opened with", "limit",
+                       R"(end it first: {"do":"limit"})", {ErrorCode::limit_keeps_basis});
+  }
+  // `opened` is unchanged: deviations are measured from it.
+  if (auto done = knead::change_basis(surface, change); !done) return done;
+  surface.velocity.resize(0, 3);  // it is a spline on the old basis
+  return surface.constraints.empty() ? Expected<void>() : check_constraints(act);
+}
+
+Expected<void> change_net(Act& act, SceneSurface& s, const SurfaceChange& change) {
   const SurfaceChange limited = [&](const Surface& shape) -> Expected<Surface> {
     auto changed = change(shape);
     if (!changed) return changed;
     if (auto fits = check_net_size(changed->net()); !fits) return std::unexpected(fits.error());
-    if (auto fits = check_document_size(state, changed->size() - shape.size()); !fits) {
+    if (auto fits = check_document_size(act.state, changed->size() - shape.size()); !fits) {
       return std::unexpected(fits.error());
     }
     return changed;
   };
   if (auto done = knead::change_net(s, limited); !done) return done;
-  state.notes.push_back(net_note(s));
+  act.state.notes.push_back(net_note(s));
   return {};
 }
 
-Expected<bool> Executor::refine_under(const Tool& tool, bool limited) {
+Expected<bool> refine_under(Act& act, const Tool& tool, bool limited) {
   bool any = false;
-  for (int index : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+  for (int index : act.state.selection()) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];
     const auto reach = reach_of(*s.current, tool);
     if (!reach) continue;
     any = true;
-    const auto in_file = std::ranges::find(document.surfaces(), s.id, &DocumentSurface::id);
-    const int limit =
-        in_file == document.surfaces().end() ? least_limit : std::max(least_limit, grown * in_file->surface->size());
-    auto done = change_net(s, [&](const Surface& shape) -> Expected<Surface> {
+    const auto in_file = std::ranges::find(act.document.surfaces(), s.id, &DocumentSurface::id);
+    const int limit = in_file == act.document.surfaces().end()
+                          ? least_limit
+                          : std::max(least_limit, grown * in_file->surface->size());
+    auto done = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {
       auto finer = refine_region<2>(shape, *reach);
       if (!limited || !finer || finer->size() <= limit) return finer;
       const auto [m, n] = finer->net();
@@ -109,26 +126,13 @@ Expected<bool> Executor::refine_under(const Tool& tool, bool limited) {
   return any;
 }
 
-Expected<void> Executor::refine_seams(bool followed) {
-  if (!state.seams.couple) return {};
-  std::vector<const Surface*> patches;
-  const std::vector<int> selection = state.selection();
-  for (int index : selection) patches.push_back(state.surfaces[static_cast<std::size_t>(index)].reference.get());
-  const auto found = seams_between(state.seams, patches);
-  if (!found) return std::unexpected(found.error());
-  std::vector<Seam> whole;
-  const auto edges = followed_inputs(state);
-  std::ranges::copy_if(found->seams, std::back_inserter(whole), [&](const Seam& s) {
-    return s.kind == SeamKind::whole && (!followed || followed_at(edges, s) != nullptr);
-  });
-  return refine_as(seam_refinements(patches, whole));
-}
+namespace {
 
-Expected<void> Executor::refine_as(const std::vector<SeamRefinement>& refinements) {
-  const std::vector<int> selection = state.selection();
+Expected<void> refine_as(Act& act, const std::vector<SeamRefinement>& refinements) {
+  const std::vector<int> selection = act.state.selection();
   for (const SeamRefinement& r : refinements) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[static_cast<std::size_t>(r.patch)])];
-    auto done = change_net(s, [&](const Surface& shape) -> Expected<Surface> {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[static_cast<std::size_t>(r.patch)])];
+    auto done = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {
       Expected<Surface> result = shape;
       if (r.elevate > 0) result = elevate_degree<2>(shape, r.direction, r.elevate);
       if (!result || r.insert.empty()) return result;
@@ -141,12 +145,29 @@ Expected<void> Executor::refine_as(const std::vector<SeamRefinement>& refinement
   return {};
 }
 
-Expected<void> Executor::unite_restricted(std::span<const SeamReport> reports, const Point& place, double reach) {
-  if (state.permission == RefinePermission::never) return {};
+}  // namespace
+
+Expected<void> refine_seams(Act& act, bool followed) {
+  if (!act.state.seams.couple) return {};
+  std::vector<const Surface*> patches;
+  const std::vector<int> selection = act.state.selection();
+  for (int index : selection) patches.push_back(act.state.surfaces[static_cast<std::size_t>(index)].reference.get());
+  const auto found = seams_between(act.state.seams, patches);
+  if (!found) return std::unexpected(found.error());
+  std::vector<Seam> whole;
+  const auto edges = followed_inputs(act.state);
+  std::ranges::copy_if(found->seams, std::back_inserter(whole), [&](const Seam& s) {
+    return s.kind == SeamKind::whole && (!followed || followed_at(edges, s) != nullptr);
+  });
+  return refine_as(act, seam_refinements(patches, whole));
+}
+
+Expected<void> unite_restricted(Act& act, std::span<const SeamReport> reports, const Point& place, double reach) {
+  if (act.state.permission == RefinePermission::never) return {};
   std::vector<const SceneSurface*> surfaces;
   std::vector<const Surface*> patches;
-  for (int index : state.selection()) {
-    surfaces.push_back(&state.surfaces[static_cast<std::size_t>(index)]);
+  for (int index : act.state.selection()) {
+    surfaces.push_back(&act.state.surfaces[static_cast<std::size_t>(index)]);
     patches.push_back(surfaces.back()->reference.get());
   }
   std::vector<Seam> near;
@@ -156,17 +177,102 @@ Expected<void> Executor::unite_restricted(std::span<const SeamReport> reports, c
     if (!surfaces[a]->pins.empty() || !surfaces[b]->pins.empty()) continue;
     if (distance_from(*surfaces[a]->current, report.seam.a.edge, place) <= reach) near.push_back(report.seam);
   }
-  return refine_as(seam_refinements(patches, near));
+  return refine_as(act, seam_refinements(patches, near));
 }
 
-/// Lets seams bend under the tool.
-Expected<void> Executor::unite_under_stroke() {
-  if (state.together.empty() || state.permission == RefinePermission::never) return {};
-  if (auto made = prepare_stroke_model(); !made) return made;
-  const auto tool = find_tool(state.stroke->tool);
-  if (!tool) return std::unexpected(tool.error());
-  const PlacedShape& shape = (*tool)->shape;
-  return unite_restricted(stroke_cache->scene.seams, shape.placement().position, near_seam * shape.size());
+Expected<Surface> onto_net(Surface shape, const Surface& like) {
+  std::array<std::vector<double>, 2> more;
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (const int times = like.knots()[d].degree() - shape.knots()[d].degree(); times > 0) {
+      auto elevated = elevate_degree<2>(shape, static_cast<int>(d), times);
+      if (!elevated) return std::unexpected(elevated.error());
+      shape = std::move(*elevated);
+    }
+    std::ranges::set_difference(like.knots()[d].knots(), shape.knots()[d].knots(), std::back_inserter(more[d]));
+  }
+  return insert_knots<2>(shape, more);
+}
+
+namespace {
+
+const Surface* document_surface(const Act& act, const SceneSurface& surface) {
+  for (const DocumentSurface& s : act.document.surfaces()) {
+    if (s.id == surface.id) return s.surface.get();
+  }
+  return surface.opened.get();
+}
+
+Expected<void> refine_round(Act& act, SceneSurface& s, const TrimContact& contact, double size) {
+  if (act.state.permission == RefinePermission::never || !s.pins.empty()) return {};
+  const auto refinement = trim_refinement(*s.reference, contact.at, contact.distance, std::isfinite(size) ? size : 0,
+                                          trim_refinement_cap(*document_surface(act, s)));
+  if (!refinement) return std::unexpected(refinement.error());
+  if (refinement->capped) {
+    act.state.notes.push_back(
+        fmt::format("{}: the net between tool and held edges stays coarser than it should be, as it is limited to {} "
+                    "control points; "
+                    "refine it where it matters with {{\"do\":\"refine\"}}",
+                    s.id, trim_refinement_cap(*document_surface(act, s))));
+  }
+  if (refinement->empty()) return {};
+  return change_net(act, s, [&](const Surface& shape) { return refinement->apply(shape); });
+}
+
+Expected<void> refine_followed(Act& act, const SceneSurface& touched, const TrimContact& contact, double size) {
+  const auto place = evaluate_point<2>(*touched.opened, contact.at);
+  if (!place) return std::unexpected(place.error());
+  for (const FollowedEdge& edge : act.state.followed) {
+    if (!edge.course || !follows(touched, edge.id)) continue;
+    const auto& samples = edge.course->samples();
+    const auto near =
+        std::ranges::min_element(samples, {}, [&](const SharedEdge::Sample& s) { return (s.point - *place).norm(); });
+    if ((near->point - *place).norm() >= contact.distance) continue;
+    for (std::size_t k = 0; k < near->feet.size(); ++k) {
+      const auto index = find_surface(act, edge.course->surfaces()[k]);
+      if (!index) return std::unexpected(index.error());
+      SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(*index)];
+      const bool itself = std::ranges::count(edge.course->surfaces(), s.id) > 1;
+      if ((&s == &touched && !itself) || !s.visible) continue;
+      std::vector<bool> held;
+      for (const int order : trim_orders(s.constraints, *s.visible)) held.push_back(order >= 0);
+      TrimContact there{parameters_at_foot(*s.current, near->feet[k]), s.visible->distance(near->point, held)};
+      there.distance = std::min(there.distance, contact.distance);
+      if (!(there.distance > 0)) continue;
+      if (auto done = refine_round(act, s, there, size); !done) return done;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<void> refine_trims(Act& act) {
+  if (auto known = know_trims(act); !known) return known;
+  for (int k : act.state.selection()) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+    if (!any_held(s)) continue;
+    for (const Tool& tool : act.state.tools) {
+      const auto contact = trim_contact(s, tool);
+      if (!contact) return std::unexpected(contact.error());
+      if (!*contact) continue;
+      if (auto done = refine_round(act, s, **contact, tool.shape.size()); !done) return done;
+      if (auto done = refine_followed(act, s, **contact, tool.shape.size()); !done) return done;
+    }
+  }
+  return {};
+}
+
+Expected<void> refine_at_trims(Act& act, SceneSurface& surface, const Fractions& at, double size) {
+  if (auto known = know_trims(act); !known) return known;
+  if (!any_held(surface)) return {};
+  TrimContact contact{parameters_of(*surface.current, {at[0], at[1]}), 0};
+  const auto place = evaluate_point<2>(*surface.opened, contact.at);
+  if (!place) return std::unexpected(place.error());
+  std::vector<bool> held;
+  for (const int order : trim_orders(surface.constraints, *surface.visible)) held.push_back(order >= 0);
+  contact.distance = surface.visible->distance(*place, held);
+  if (auto done = refine_round(act, surface, contact, size); !done) return done;
+  return refine_followed(act, surface, contact, size);
 }
 
 }  // namespace knead

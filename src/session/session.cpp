@@ -1,5 +1,7 @@
 #include "knead/session/session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -9,12 +11,18 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "following.hpp"
+#include "holding.hpp"
 #include "knead/base/interruption.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/session/document_regions.hpp"
 #include "knead/spline/extremum.hpp"
+#include "selection.hpp"
+#include "stroking.hpp"
 
 namespace knead {
+
+struct Session::ModelCache : ActCache {};
 
 Session::Session(Document document) : document_(std::move(document)), cache_(std::make_unique<ModelCache>()) {
   auto state = std::make_shared<SessionState>();
@@ -48,6 +56,16 @@ bool moves_a_model(const Command& command) {
                 std::type_identity<BrushCommand>(), std::type_identity<RelaxCommand>());
 }
 
+/// Applies a command to what is selected.
+template <class C>
+Expected<void> apply(const C& command, Act& act) {
+  const SceneBody* const chosen = target_of<C>() == ActsOn::surfaces ? body(act) : nullptr;
+  if (chosen == nullptr) return execute(command, act);
+  return input_error(
+      fmt::format("this command acts on surfaces, and the {} {} is selected", kind_of(*chosen), common_of(*chosen).id),
+      std::string(type_of<C>().name), "select a surface first");
+}
+
 }  // namespace
 
 Expected<void> Session::execute(const Command& command, const Progress& progress, const GoOn& go_on) {
@@ -74,27 +92,26 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   Command meant = command;
   auto next = std::make_shared<SessionState>(state());
   if (cache_->faces.document != state().document) cache_->faces = {state().document};
-  Executor executor{document(),         cache_->models, cache_->stroke, cache_->brush,
-                    cache_->conditions, cache_->faces,  *next,          progress};
+  Act act{document(), *next, *cache_, progress};
   if (!fields_of<StrokeCommand>(command)) {
-    if (auto lifted = executor.lift(); !lifted) return lifted;
-    if (auto kept = executor.keep_law(); !kept) return kept;
+    if (auto lifted = lift(act); !lifted) return lifted;
+    if (auto kept = keep_law(act); !kept) return kept;
   }
   if (!fields_of<BrushCommand>(command)) next->brush.reset();
   const auto through = through_of(meant, stops_at_faces_);
-  executor.through = through.value_or(Through::allow);
-  const auto execute = [&](const auto& fields) { return apply(executor, fields); };
-  if (auto done = std::visit(execute, meant.any().fields); !done) return done;
-  if (auto kept = executor.keep_law(); !kept) return kept;
-  if (auto met = executor.meet_faces(state()); !met) return met;
-  if (auto closed = executor.check_followed(state()); !closed) return closed;
+  act.through = through.value_or(Through::allow);
+  const auto applied = [&](const auto& fields) { return apply(fields, act); };
+  if (auto done = std::visit(applied, meant.any().fields); !done) return done;
+  if (auto kept = keep_law(act); !kept) return kept;
+  if (auto met = meet_faces(act, state()); !met) return met;
+  if (auto closed = check_followed(act, state()); !closed) return closed;
   if (!moves_a_model(meant)) {
-    if (auto closed = executor.check_held_edges(state()); !closed) return closed;
+    if (auto closed = check_held_edges(act, state()); !closed) return closed;
   }
-  if (executor.stopped_at_face) meant = that_stops(meant);
-  if (executor.stopped) {
+  if (act.stopped_at_face) meant = that_stops(meant);
+  if (act.stopped) {
     StepCommand made = *fields_of<StepCommand>(meant);
-    made.count = *executor.stopped;
+    made.count = *act.stopped;
     meant = make_command(std::move(made));
   }
   if (only_looks(meant) && !state().stroke && !state().brush) {

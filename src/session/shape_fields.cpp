@@ -7,6 +7,7 @@
 
 #include "described_json.hpp"
 #include "knead/tool/describe_shape.hpp"
+#include "selection.hpp"
 
 namespace knead {
 namespace {
@@ -168,7 +169,7 @@ std::optional<Error> no_measure_of(std::string_view shape, std::string_view fiel
   return no_such_measure(shape, field, fields);
 }
 
-Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, double diagonal, const Executor& executor,
+Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, double diagonal, const Act& act,
                            const Shape* before) {
   const Type& shapes = type_of<Shape>();
   const int k = shapes.variant(name);
@@ -179,9 +180,9 @@ Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, do
   shapes.assign(&shape, k);
   if (auto* spline = std::get_if<SplineShape>(&shape)) {
     if (!f.surface) return input_error("the surface is missing", "surface", "give its id");
-    const auto index = executor.find_surface(*f.surface);
+    const auto index = find_surface(act, *f.surface);
     if (!index) return std::unexpected(index.error());
-    spline->surface = executor.state.surfaces[static_cast<std::size_t>(*index)].current;
+    spline->surface = act.state.surfaces[static_cast<std::size_t>(*index)].current;
     return shape;
   }
   if (auto* cone = std::get_if<ConeShape>(&shape)) cone->height = 2;  // as high as it is wide, like a cylinder
@@ -211,14 +212,14 @@ Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, do
 }
 
 Expected<Shape> edited_shape(const Shape& shape, std::string_view name, const ShapeFields& fields, double unit,
-                             double diagonal, const Executor& executor) {
+                             double diagonal, const Act& act) {
   if (name == shape_name(shape) && !names_any(fields)) return shape;
   ShapeFields given = fields;
   for (const Field& field : type_of<ShapeFields>().fields) {
     if (field.type->count(field.of(&given)) == 0) continue;
     if (auto error = no_measure_of(name, field.name)) return std::unexpected(*error);
   }
-  return make_shape(name, fields, unit, diagonal, executor, &shape);
+  return make_shape(name, fields, unit, diagonal, act, &shape);
 }
 
 }  // namespace knead

@@ -41,11 +41,11 @@ void add_measures(ShapeFields& f, Fields& fields, std::string_view fallback = {}
 /// the rest are the defaults of the shape, for a radius of 1, times the radius, which defaults to a tenth of
 /// `diagonal`. Errors (input): an unknown shape or surface.
 [[nodiscard]] Expected<Shape> make_shape(std::string_view name, ShapeFields fields, double unit, double diagonal,
-                                         const Executor& executor, const Shape* before = nullptr);
+                                         const Act& act, const Shape* before = nullptr);
 
 /// The shape with the named measures in place of its own. With another name, the measures common to both shapes stay.
 /// Errors: as above, and a field that the shape does not have.
 [[nodiscard]] Expected<Shape> edited_shape(const Shape& shape, std::string_view name, const ShapeFields& fields,
-                                           double unit, double diagonal, const Executor& executor);
+                                           double unit, double diagonal, const Act& act);
 
 }  // namespace knead

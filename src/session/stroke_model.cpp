@@ -1,6 +1,7 @@
-#include <algorithm>
+#include "stroke_model.hpp"
 
-#include "executor.hpp"
+#include <algorithm>
+#include <utility>
 
 namespace knead {
 
@@ -36,9 +37,10 @@ Points StrokeModel::allowed(const Points& x) const {
   return coupled ? scene.model.nearest_allowed(x) : scene.model.allowed(x);
 }
 
-Expected<void> Executor::keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before) {
-  if (stroke_cache && stroke_cache->scene.input == input) return {};
-  stroke_cache.reset();
+Expected<void> keep_stroke_model(std::optional<StrokeModel>& kept, ModelInput input,
+                                 std::span<const OpenStroke::Before> before) {
+  if (kept && kept->scene.input == input) return {};
+  kept.reset();
   std::vector<SiteValues<2>> values;
   for (const OpenStroke::Before& b : before) {
     auto made = SiteValues<2>::create(*b.current, Sites::chebyshev);
@@ -47,25 +49,24 @@ Expected<void> Executor::keep_stroke_model(ModelInput input, std::span<const Ope
   }
   auto made = make_model(std::move(input));
   if (!made) return std::unexpected(made.error());
-  stroke_cache = StrokeModel{std::move(*made), std::move(values), {}};
-  Points shapes(stroke_cache->scene.model.rows().back(), 3);
+  kept = StrokeModel{std::move(*made), std::move(values), {}};
+  Points shapes(kept->scene.model.rows().back(), 3);
   Eigen::Index first = 0;
   for (const OpenStroke::Before& b : before) {
     shapes.middleRows(first, b.current->size()) = b.current->control_points();
     first += b.current->size();
   }
-  stroke_cache->places = stroke_cache->at_abscissae(shapes);
+  kept->places = kept->at_abscissae(shapes);
   return {};
 }
 
-/// How deep these tools stand in the shapes from before the stroke, at the sites.
-double Executor::depth_at_sites(std::span<const Tool> tools) const {
+double StrokeModel::depth_of(std::span<const Tool> tools) const {
   double deepest = 0;
   for (const Tool& tool : tools) {
     if (!tool.collides()) continue;
     const BoundingBox box = tool.shape.bounding_box();
-    for (Eigen::Index i = 0; i < stroke_cache->places.rows(); ++i) {
-      const Point x = stroke_cache->places.row(i);
+    for (Eigen::Index i = 0; i < places.rows(); ++i) {
+      const Point x = places.row(i);
       if ((x.array() < box.lower.array()).any() || (x.array() > box.upper.array()).any()) continue;
       deepest = std::max(deepest, -tool.shape.nearest(x).distance);
     }
@@ -73,14 +74,24 @@ double Executor::depth_at_sites(std::span<const Tool> tools) const {
   return deepest;
 }
 
-/// Where the displacement of the last place is expected after these travels.
-Points Executor::stroke_guess(std::span<const Travel> travels) const {
-  const OpenStroke& stroke = *state.stroke;
-  if (stroke.last.rows() == 0) return {};
-  const std::vector<SiteValues<2>>& values = stroke_cache->values;
-  return stroke_cache->allowed(by_patch(values, stroke.last, [&](std::size_t k, const Points& part) {
-    return travelled(*stroke.before[k].current, values[k], part, travels);
+Points StrokeModel::after_travels(std::span<const OpenStroke::Before> before, const Points& last,
+                                  std::span<const Travel> travels) const {
+  if (last.rows() == 0) return {};
+  return allowed(by_patch(values, last, [&](std::size_t k, const Points& part) {
+    return travelled(*before[k].current, values[k], part, travels);
   }));
+}
+
+Points unmasked(const Scene& scene, Points displacement) {
+  Eigen::Index first = 0;
+  for (int k : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    for (std::size_t i = 0; i < s.mask.size(); ++i) {
+      displacement.row(first + static_cast<Eigen::Index>(i)) *= 1 - s.mask[i];
+    }
+    first += s.current->size();
+  }
+  return displacement;
 }
 
 }  // namespace knead

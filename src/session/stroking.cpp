@@ -1,3 +1,5 @@
+#include "stroking.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,18 +7,24 @@
 #include <cmath>
 #include <map>
 
-#include "executor.hpp"
+#include "following.hpp"
+#include "holding.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "notes.hpp"
+#include "refining.hpp"
 #include "scene/anchors.hpp"
+#include "selection.hpp"
+#include "stepping.hpp"
+#include "trimming.hpp"
 
 namespace knead {
 namespace {
 
-constexpr double places_per_size = 8;         // of a stroke, along its path
-constexpr int max_places = 20000;             // of one command
-constexpr double hard = 300;                  // stiffness of a tool, in λ: it gives way by about 1 % of its depth
-constexpr std::size_t pure_terms[] = {0, 2};  // α11 and α22, β11 and β22
+constexpr double places_per_size = 8;  // of a stroke, along its path
+constexpr double near_seam = 2;        // sizes of the tool from its centre within which seams have to bend
+constexpr int max_places = 20000;      // of one command
+constexpr double hard = 300;           // stiffness of a tool, in λ: it gives way by about 1 % of its depth
 
 double mean(const Coefficient<2>& c) {
   if (const double* constant = std::get_if<double>(&c)) return *constant;
@@ -24,16 +32,6 @@ double mean(const Coefficient<2>& c) {
   double sum = 0;
   for (double x : all) sum += x;
   return sum / static_cast<double>(all.size());
-}
-
-Expected<Coefficient<2>> raised(const Coefficient<2>& c, double by) {
-  if (const double* constant = std::get_if<double>(&c)) return Coefficient<2>(*constant + by);
-  const auto& field = std::get<SplineField<2>>(c);
-  std::vector<double> all = field.coefficients();
-  for (double& x : all) x += by;
-  auto made = SplineField<2>::create(field.knots(), std::move(all));
-  if (!made) return std::unexpected(made.error());
-  return Coefficient<2>(std::move(*made));
 }
 
 /// The bed on which a dent in the selected surfaces is felt no further than `reach` (file units), but over one span at
@@ -80,50 +78,24 @@ std::vector<Travel> travels_of(const std::vector<Tool>& was, const std::vector<T
   return travels;
 }
 
-Points stacked(const std::vector<OpenStroke::Before>& shapes,
-               std::shared_ptr<const Surface> OpenStroke::Before::*which) {
-  Eigen::Index rows = 0;
-  for (const OpenStroke::Before& s : shapes) rows += (s.*which)->size();
-  Points result(rows, 3);
-  rows = 0;
-  for (const OpenStroke::Before& s : shapes) {
-    result.middleRows(rows, (s.*which)->size()) = (s.*which)->control_points();
-    rows += (s.*which)->size();
-  }
-  return result;
-}
-
 }  // namespace
 
-Expected<Surface> onto_net(Surface shape, const Surface& like) {
-  std::array<std::vector<double>, 2> more;
-  for (std::size_t d = 0; d < 2; ++d) {
-    if (const int times = like.knots()[d].degree() - shape.knots()[d].degree(); times > 0) {
-      auto elevated = elevate_degree<2>(shape, static_cast<int>(d), times);
-      if (!elevated) return std::unexpected(elevated.error());
-      shape = std::move(*elevated);
-    }
-    std::ranges::set_difference(like.knots()[d].knots(), shape.knots()[d].knots(), std::back_inserter(more[d]));
-  }
-  return insert_knots<2>(shape, more);
-}
-
-Expected<void> Executor::begin_stroke(const std::string& name, double share) {
-  auto surface = selected();
+Expected<void> begin_stroke(Act& act, const std::string& name, double share) {
+  auto surface = selected(act);
   if (!surface) return std::unexpected(surface.error());
-  const auto tool = find_tool(name);
+  const auto tool = find_tool(act, name);
   if (!tool) return std::unexpected(tool.error());
-  if (state.scaling == ScalingMode::raw) {
+  if (act.state.scaling == ScalingMode::raw) {
     return input_error("strokes that leave their groove as they go need a model in normalised units", "plastic",
                        R"(give {"do":"scaling","mode":"normalised"}, or "plastic":"release")",
                        {ErrorCode::scaling_is_raw});
   }
-  if (state.permission == RefinePermission::automatic) {
-    if (auto refined = refine_seams(); !refined) return refined;
+  if (act.state.permission == RefinePermission::automatic) {
+    if (auto refined = refine_seams(act); !refined) return refined;
   }
   double size = (*tool)->shape.size();
   if (!std::isfinite(size)) {
-    const auto length = diagonal();
+    const auto length = diagonal(act);
     if (!length) return std::unexpected(length.error());
     size = 0.1 * *length;
   }
@@ -134,57 +106,37 @@ Expected<void> Executor::begin_stroke(const std::string& name, double share) {
   stroke.home = (*tool)->shape.placement().position;
   stroke.path.spacing = size / places_per_size;
   stroke.plasticity = {share * policy.share, policy.yield * unit};
-  stroke.lambda = state.evolution.lambda > 0 ? state.evolution.lambda : 1;
+  stroke.lambda = act.state.evolution.lambda > 0 ? act.state.evolution.lambda : 1;
   std::map<int, DomainScaling<2>> scalings;
-  for (const int k : state.selection()) {
-    const auto scaling = normalised_scaling<2>(*state.surfaces[static_cast<std::size_t>(k)].reference);
+  for (const int k : act.state.selection()) {
+    const auto scaling = normalised_scaling<2>(*act.state.surfaces[static_cast<std::size_t>(k)].reference);
     if (!scaling) return std::unexpected(scaling.error());
     scalings.emplace(k, *scaling);
   }
   if (policy.locality > 0) {
-    const Locality bed = bed_of(state, scalings, policy.locality * unit);
+    const Locality bed = bed_of(act.state, scalings, policy.locality * unit);
     stroke.lambda = bed.lambda;
     stroke.tension = bed.tension;
   }
   // The further a dent is felt, the more a tool has to bear.
-  const double felt = felt_area(state, scalings.at(*state.selected), stroke);
+  const double felt = felt_area(act.state, scalings.at(*act.state.selected), stroke);
   stroke.stiffness = hard * stroke.lambda * std::max(1.0, 16 * felt / (size * size));
   Eigen::Index rows = 0;
-  for (int k : state.selection()) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+  for (int k : act.state.selection()) {
+    const SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
     stroke.before.push_back({s.rest, s.current});
     rows += s.current->size();
   }
   stroke.history = Points::Zero(rows, 3);
-  state.stroke = std::move(stroke);
+  act.state.stroke = std::move(stroke);
   return {};
 }
 
-Expected<void> Executor::prepare_stroke_model() {
-  if (auto known = know_trims(); !known) return known;
-  if (auto known = know_followed(); !known) return known;
-  const OpenStroke& stroke = *state.stroke;
-  EvolutionPolicy evolution;
-  evolution.lambda = stroke.lambda;
-  evolution.accuracy = state.evolution.accuracy;
-  evolution.solver = state.evolution.solver;
-  evolution.energy_tolerance = state.evolution.energy_tolerance;
-  ModelInput input = model_input(state, evolution);
-  for (std::size_t k = 0; k < input.shapes.size(); ++k) {
-    SurfaceInput& s = input.shapes[k];
-    if (s.rest) s.rest = stroke.before[k].rest;
-    for (std::size_t i : pure_terms) {
-      auto alpha = raised(s.material.alpha[i], stroke.tension);
-      if (!alpha) return std::unexpected(alpha.error());
-      s.material.alpha[i] = std::move(*alpha);
-    }
-  }
-  return keep_stroke_model(std::move(input), stroke.before);
-}
+namespace {
 
 /// Moves the tool of the open stroke.
-Expected<void> Executor::put_tool(const Point& place) {
-  auto tool = find_tool(state.stroke->tool);
+Expected<void> put_tool(Act& act, const Point& place) {
+  auto tool = find_tool(act, act.state.stroke->tool);
   if (!tool) return std::unexpected(tool.error());
   auto moved = (*tool)->shape.moved((*tool)->shape.placement().rotation, place);
   if (!moved) return std::unexpected(moved.error().within("path"));
@@ -192,56 +144,40 @@ Expected<void> Executor::put_tool(const Point& place) {
   return {};
 }
 
-void harden(Tool& tool, const OpenStroke& stroke) {
-  if (tool.collides()) tool.stiffness = std::min(std::max(tool.stiffness, stroke.stiffness), max_tool_stiffness);
-}
-
-/// What these tools ask, which are there after these travels, of the shapes from before the stroke.
-Expected<ActiveStep> Executor::press(std::vector<Tool> tools, std::span<const Travel> travels) {
-  if (auto made = prepare_stroke_model(); !made) return std::unexpected(made.error());
-  const OpenStroke& stroke = *state.stroke;
-  for (Tool& tool : tools) harden(tool, stroke);
-  if (shells()) return press_shell_on_bed(tools, stroke_guess(travels));
-  const ActiveSurface& model = stroke_cache->scene.model;
-  auto loads = active_loads(state, stroke_cache->scene);
-  if (!loads) return std::unexpected(loads.error());
-  ActiveState from{stacked(stroke.before, &OpenStroke::Before::current),
-                   stacked(stroke.before, &OpenStroke::Before::rest)};
-  auto anchored = anchors(state, model, from.control_points);
-  if (!anchored) return std::unexpected(anchored.error());
-  loads->points = std::move(*anchored);  // other forces are in balance with the shape as it was
-  from.balanced = true;
-  from.guess = stroke_guess(travels);
-  auto step = model.step(from, tools, *loads);
-  if (step) step->control_points -= from.control_points;  // the displacement
-  if (step) step = within_depth(std::move(*step), from, tools, *loads);
-  return step;
+/// Lets seams bend under the tool.
+Expected<void> unite_under_stroke(Act& act) {
+  if (act.state.together.empty() || act.state.permission == RefinePermission::never) return {};
+  if (auto made = prepare_stroke_model(act); !made) return made;
+  const auto tool = find_tool(act, act.state.stroke->tool);
+  if (!tool) return std::unexpected(tool.error());
+  const PlacedShape& shape = (*tool)->shape;
+  return unite_restricted(act, act.cache.stroke->scene.seams, shape.placement().position, near_seam * shape.size());
 }
 
 /// Finer nets where held edges of faces need them (before a step), or where the spans under the tool are too long for
 /// it (after one) and may be refined; what the stroke remembers follows.
-Expected<bool> Executor::refine_stroke(const ActiveStep* step) {
-  OpenStroke& stroke = *state.stroke;
+Expected<bool> refine_stroke(Act& act, const ActiveStep* step) {
+  OpenStroke& stroke = *act.state.stroke;
   if (step == nullptr) {
-    if (auto united = unite_under_stroke(); !united) return std::unexpected(united.error());
-    if (auto refined = refine_trims(); !refined) return std::unexpected(refined.error());
-    if (auto united = unite_followed(); !united) return std::unexpected(united.error());
-  } else if (step->coarseness > coarse && state.permission == RefinePermission::automatic) {
-    const auto tool = find_tool(stroke.tool);
+    if (auto united = unite_under_stroke(act); !united) return std::unexpected(united.error());
+    if (auto refined = refine_trims(act); !refined) return std::unexpected(refined.error());
+    if (auto united = unite_followed(act); !united) return std::unexpected(united.error());
+  } else if (step->coarseness > coarse && act.state.permission == RefinePermission::automatic) {
+    const auto tool = find_tool(act, stroke.tool);
     if (!tool) return std::unexpected(tool.error());
-    if (auto refined = refine_under(Tool(**tool), true); !refined) return refined;
-    if (auto united = unite_followed(); !united) return std::unexpected(united.error());
+    if (auto refined = refine_under(act, Tool(**tool), true); !refined) return refined;
+    if (auto united = unite_followed(act); !united) return std::unexpected(united.error());
   }
   std::array<Points*, 2> fields = {&stroke.history, &stroke.last};
   std::array<std::vector<Points>, 2> finer;
   Eigen::Index first = 0;
-  const std::vector<int> selection = state.selection();
-  const auto shape = [&](std::size_t k) { return state.surfaces[static_cast<std::size_t>(selection[k])].current; };
+  const std::vector<int> selection = act.state.selection();
+  const auto shape = [&](std::size_t k) { return act.state.surfaces[static_cast<std::size_t>(selection[k])].current; };
   bool any = false;
   for (std::size_t k = 0; k < selection.size(); ++k) any = any || shape(k) != stroke.before[k].current;
   if (!any) return false;
   for (std::size_t k = 0; k < selection.size(); ++k) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
+    const SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
     const Surface old = *stroke.before[k].current, &like = *s.current;
     stroke.before[k] = {s.rest, s.current};
     const auto from = SiteValues<2>::create(old, Sites::chebyshev), to = SiteValues<2>::create(like, Sites::chebyshev);
@@ -271,77 +207,23 @@ Expected<bool> Executor::refine_stroke(const ActiveStep* step) {
   return true;
 }
 
-Expected<void> Executor::press_along(const std::vector<Point>& places) {
-  if (places.empty()) return {};
-  const auto start = std::chrono::steady_clock::now();
-  ActiveStep last;
-  int done = 0, iterations = 0;
-  std::string note;
-  bool converged = true;
-  const std::vector<int> selection = state.selection();
-  for (std::size_t k = 0; k < selection.size(); ++k) {  // nets are refined for the shapes from before the stroke
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
-    s.rest = state.stroke->before[k].rest;
-    s.current = state.stroke->before[k].current;
-  }
-  auto was = tools_and_images(state);
-  if (!was) return std::unexpected(was.error());
-  keep_what_stroke_left();
-  for (const Point& place : places) {
-    if (auto put = put_tool(place); !put) return put;
-    auto is = tools_and_images(state);
-    if (!is) return std::unexpected(is.error());
-    const std::vector<Travel> travels = travels_of(*was, *is);
-    if (auto refined = refine_stroke(nullptr); !refined) return std::unexpected(refined.error());
-    auto step = press(*is, travels);
-    for (int k = 0; k < max_refinements && step; ++k) {
-      const auto refined = refine_stroke(&*step);
-      if (!refined) return std::unexpected(refined.error());
-      if (!*refined) break;
-      step = press(*is, travels);
-    }
-    if (!step) return std::unexpected(step.error());
-    was = std::move(is);
-    OpenStroke& stroke = *state.stroke;
-    stroke.last = step->control_points;
-    const Points asked = stroke_cache->at_abscissae(stroke.last);
-    remember(stroke.history, asked);
-    ask_of_stroke(std::sqrt(asked.rowwise().squaredNorm().maxCoeff()), *was);
-    iterations += step->iterations;
-    converged = converged && step->converged;
-    if (note.empty()) note = note_of(*step);
-    last = std::move(*step);
-    if (auto on = carries_on(++done, static_cast<int>(places.size())); !on) return std::unexpected(on.error());
-  }
-  note_loose();
-  if (last.gap > 0 && (state.stroke->history.array() == 0).all()) return std::unexpected(all_held(last.gap_tool));
-  if (auto shown = show_stroke(true); !shown) return shown;
-  const auto shallower = keep_stroke_unfolded();
-  if (!shallower) return std::unexpected(shallower.error());
-  if (!shallower->empty()) note = *shallower;
-  note_model(stroke_cache->scene.seams, stroke_cache->scene.notes);
-  last.iterations = iterations;
-  last.converged = converged;
-  record(last, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), std::move(note));
-  return {};
-}
-
 /// The rest shapes with what stays so far, and the shapes with the dent that the tool is in where it is down.
-Expected<void> Executor::show_remembered(bool down) {
-  const OpenStroke& stroke = *state.stroke;
-  const StrokeModel& model = *stroke_cache;
-  const Points stays = stroke.share * unmasked(staying(stroke.history, stroke.plasticity));
+Expected<void> show_remembered(Act& act, bool down) {
+  const OpenStroke& stroke = *act.state.stroke;
+  const StrokeModel& model = *act.cache.stroke;
+  const Points stays = stroke.share * unmasked(act.state, staying(stroke.history, stroke.plasticity));
   Points shown = stays;
-  if (down && stroke.last.rows() > 0) remember(shown, stroke.share * unmasked(model.at_abscissae(stroke.last)));
+  if (down && stroke.last.rows() > 0)
+    remember(shown, stroke.share * unmasked(act.state, model.at_abscissae(stroke.last)));
   const bool same = shown == stays;
   // The largest of many displacements is none that coupled surfaces allow on both sides; then the nearest one stays.
   const auto allowed = [&](const Points& values) { return model.allowed(model.control_points(values)); };
   const Points resting = allowed(stays);
   const Points showing = same ? resting : allowed(shown);
   Eigen::Index first = 0;
-  const std::vector<int> selection = state.selection();
+  const std::vector<int> selection = act.state.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
     const OpenStroke::Before& before = stroke.before[k];
     const auto n = static_cast<Eigen::Index>(before.current->size());
     const auto with = [&](const std::shared_ptr<const Surface>& shape,
@@ -364,8 +246,94 @@ Expected<void> Executor::show_remembered(bool down) {
   return {};
 }
 
-Expected<void> Executor::stroke_to(const std::vector<Point>& points) {
-  OpenStroke& stroke = *state.stroke;
+}  // namespace
+
+/// Shows the open stroke with edges that follow closed, and as smooth as asked.
+Expected<void> show_stroke(Act& act, bool down) {
+  Attempts tried = attempts(act);
+  const std::vector<int> selection = act.state.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    tried.before[static_cast<std::size_t>(selection[k])] = act.state.stroke->before[k].current;
+  }
+  while (true) {
+    if (auto made = prepare_stroke_model(act); !made) return made;
+    if (auto shown = show_remembered(act, down); !shown) return shown;
+    const auto closed =
+        together(act, tried);  // what is remembered is kept; only its image in the constraints is made again
+    if (!closed) return std::unexpected(closed.error());
+    if (*closed) return {};
+  }
+}
+
+namespace {
+
+Expected<std::string> keep_stroke_unfolded(Act& act) {
+  return keep_unfolded(act.state, "stroke", act.state.stroke->share, [&act](double share) {
+    act.state.stroke->share = share;
+    return show_stroke(act, true);
+  });
+}
+
+Expected<void> press_along(Act& act, const std::vector<Point>& places) {
+  if (places.empty()) return {};
+  const auto start = std::chrono::steady_clock::now();
+  ActiveStep last;
+  int done = 0, iterations = 0;
+  std::string note;
+  bool converged = true;
+  const std::vector<int> selection = act.state.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {  // nets are refined for the shapes from before the stroke
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
+    s.rest = act.state.stroke->before[k].rest;
+    s.current = act.state.stroke->before[k].current;
+  }
+  auto was = tools_and_images(act.state);
+  if (!was) return std::unexpected(was.error());
+  keep_what_stroke_left(act);
+  for (const Point& place : places) {
+    if (auto put = put_tool(act, place); !put) return put;
+    auto is = tools_and_images(act.state);
+    if (!is) return std::unexpected(is.error());
+    const std::vector<Travel> travels = travels_of(*was, *is);
+    if (auto refined = refine_stroke(act, nullptr); !refined) return std::unexpected(refined.error());
+    auto step = press(act, *is, travels);
+    for (int k = 0; k < max_refinements && step; ++k) {
+      const auto refined = refine_stroke(act, &*step);
+      if (!refined) return std::unexpected(refined.error());
+      if (!*refined) break;
+      step = press(act, *is, travels);
+    }
+    if (!step) return std::unexpected(step.error());
+    was = std::move(is);
+    OpenStroke& stroke = *act.state.stroke;
+    stroke.last = step->control_points;
+    const Points asked = act.cache.stroke->at_abscissae(stroke.last);
+    remember(stroke.history, asked);
+    ask_of_stroke(act, std::sqrt(asked.rowwise().squaredNorm().maxCoeff()), *was);
+    iterations += step->iterations;
+    converged = converged && step->converged;
+    if (note.empty()) note = note_of(*step);
+    last = std::move(*step);
+    if (auto on = carries_on(act, ++done, static_cast<int>(places.size())); !on) return std::unexpected(on.error());
+  }
+  note_loose(act);
+  if (last.gap > 0 && (act.state.stroke->history.array() == 0).all())
+    return std::unexpected(all_held(act.state, last.gap_tool));
+  if (auto shown = show_stroke(act, true); !shown) return shown;
+  const auto shallower = keep_stroke_unfolded(act);
+  if (!shallower) return std::unexpected(shallower.error());
+  if (!shallower->empty()) note = *shallower;
+  note_model(act, act.cache.stroke->scene.seams, act.cache.stroke->scene.notes);
+  last.iterations = iterations;
+  last.converged = converged;
+  record(act, last, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), std::move(note));
+  return {};
+}
+
+}  // namespace
+
+Expected<void> stroke_to(Act& act, const std::vector<Point>& points) {
+  OpenStroke& stroke = *act.state.stroke;
   double length = 0;
   Point at = stroke.path.begun || points.empty() ? stroke.path.end : points.front();
   for (const Point& point : points) {
@@ -380,17 +348,17 @@ Expected<void> Executor::stroke_to(const std::vector<Point>& points) {
   }
   std::vector<Point> places;
   for (const Point& point : points) stroke.path.go_to(point, places);
-  return press_along(places);
+  return press_along(act, places);
 }
 
-Expected<void> Executor::lift() {
-  if (!state.stroke) return {};
+Expected<void> lift(Act& act) {
+  if (!act.state.stroke) return {};
   std::vector<Point> places;
-  state.stroke->path.finish(places);
-  if (auto pressed = press_along(places); !pressed) return pressed;
-  if (auto shown = show_stroke(false); !shown) return shown;
-  if (auto put = put_tool(state.stroke->home); !put) return put;
-  state.stroke.reset();
+  act.state.stroke->path.finish(places);
+  if (auto pressed = press_along(act, places); !pressed) return pressed;
+  if (auto shown = show_stroke(act, false); !shown) return shown;
+  if (auto put = put_tool(act, act.state.stroke->home); !put) return put;
+  act.state.stroke.reset();
   return {};
 }
 

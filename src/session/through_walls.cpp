@@ -1,3 +1,5 @@
+#include "through_walls.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,13 +7,18 @@
 #include <type_traits>
 #include <variant>
 
+#include "act.hpp"
 #include "commands.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/brep/trim_loops.hpp"
 #include "knead/scene/display.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
+#include "notes.hpp"
+#include "refining.hpp"
 #include "scene/model/model_walls.hpp"
+#include "stroking.hpp"
+#include "trimming.hpp"
 
 namespace knead {
 namespace {
@@ -84,17 +91,19 @@ Command that_stops(const Command& command) {
   return make_command(std::move(all));
 }
 
-ModelWalls& Executor::known_walls() {
-  if (!faces.walls) faces.walls = std::make_shared<ModelWalls>(surroundings_of(document));
-  return *faces.walls;
+namespace {
+
+ModelWalls& known_walls(Act& act) {
+  if (!act.cache.faces.walls) act.cache.faces.walls = std::make_shared<ModelWalls>(surroundings_of(act.document));
+  return *act.cache.faces.walls;
 }
 
 /// "the face #45 on #20", by what is known of its edges.
-std::string Executor::face_on(const std::string& surface) {
+std::string face_on(Act& act, const std::string& surface) {
   std::set<std::string> ids;
-  const auto found = std::ranges::find(std::as_const(state.surfaces), surface, &SceneSurface::id);
-  SceneSurface& s = state.surfaces[static_cast<std::size_t>(found - std::as_const(state.surfaces).begin())];
-  if (const auto region = visible(s)) {
+  const auto found = std::ranges::find(std::as_const(act.state.surfaces), surface, &SceneSurface::id);
+  SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(found - std::as_const(act.state.surfaces).begin())];
+  if (const auto region = visible(act, s)) {
     for (const TrimEdge& edge : (*region)->edges) {
       for (std::size_t k = 0; k < std::min(edge.supports.size(), edge.neighbours.size()); ++k) {
         if (edge.supports[k].substr(0, edge.supports[k].find(' ')) == surface) ids.insert(edge.neighbours[k]);
@@ -105,42 +114,77 @@ std::string Executor::face_on(const std::string& surface) {
 }
 
 /// Of each surface the shape from which the motion of this command is measured; null: there was none.
-std::vector<std::shared_ptr<const Surface>> Executor::shapes_before(const Scene& before) const {
+std::vector<std::shared_ptr<const Surface>> shapes_before(const Act& act, const Scene& before) {
   std::vector<std::shared_ptr<const Surface>> shapes;
-  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
-    const std::string& id = std::as_const(state.surfaces)[k].id;
+  for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
+    const std::string& id = std::as_const(act.state.surfaces)[k].id;
     const bool in_place = k < before.surfaces.size() && before.surfaces[k].id == id;
     const auto found = in_place ? before.surfaces.begin() + static_cast<std::ptrdiff_t>(k)
                                 : std::ranges::find(before.surfaces, id, &SceneSurface::id);
     shapes.push_back(found == before.surfaces.end() ? nullptr : found->current);
   }
-  const std::vector<OpenStroke::Before>* const open = state.stroke  ? &state.stroke->before
-                                                      : state.brush ? &state.brush->before
-                                                                    : nullptr;
-  const std::vector<int> selection = state.selection();
+  const std::vector<OpenStroke::Before>* const open = act.state.stroke  ? &act.state.stroke->before
+                                                      : act.state.brush ? &act.state.brush->before
+                                                                        : nullptr;
+  const std::vector<int> selection = act.state.selection();
   for (std::size_t k = 0; open != nullptr && k < std::min(open->size(), selection.size()); ++k) {
     shapes[static_cast<std::size_t>(selection[k])] = (*open)[k].current;
   }
   return shapes;
 }
 
-Expected<void> Executor::meet_faces(const Scene& before) {
-  if (through == Through::allow || met_at_each_step) return {};
-  return meet_faces(shapes_before(before));
+/// The rest shape from before an open brush, which moves it; else the present one.
+std::shared_ptr<const Surface> rest_before(const Act& act, int surface) {
+  const std::vector<int> selection = act.state.selection();
+  const auto found = std::ranges::find(selection, surface);
+  if (!act.state.brush || found == selection.end()) return act.state.surfaces[static_cast<std::size_t>(surface)].rest;
+  return act.state.brush->before[static_cast<std::size_t>(found - selection.begin())].rest;
 }
 
-Expected<void> Executor::meet_faces(std::span<const std::shared_ptr<const Surface>> before) {
+/// All that moved from there, made smaller alike: what is held is linear in displacements.
+Expected<void> stop_at_face(Act& act, std::span<const WallMotion> motions, double share) {
+  if (act.state.stroke) {
+    act.state.stroke->share *= share;
+    return show_stroke(act, true);
+  }
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const Motion& motion = motions[k].motion;
+    if (!motion.from || !motion.moves()) continue;
+    SceneSurface& s = act.state.surfaces[k];
+    const bool same = s.rest == s.current;
+    auto current = part_of_way(*motion.from, s.current, share);
+    if (!current) return std::unexpected(current.error());
+    const Motion of_rest = same ? motion : motion_of(rest_before(act, static_cast<int>(k)), s.rest);
+    auto rest = same           ? current
+                : of_rest.from ? part_of_way(*of_rest.from, s.rest, share)
+                               : Expected<std::shared_ptr<const Surface>>(s.rest);
+    if (!rest) return std::unexpected(rest.error());
+    s.current = std::move(*current);
+    s.rest = std::move(*rest);
+    s.velocity.resize(0, 3);
+  }
+  return check_folds(act.state);
+}
+
+}  // namespace
+
+Expected<void> meet_faces(Act& act, const Scene& before) {
+  if (act.through == Through::allow || act.met_at_each_step) return {};
+  return meet_faces(act, shapes_before(act, before));
+}
+
+Expected<void> meet_faces(Act& act, std::span<const std::shared_ptr<const Surface>> before) {
   std::vector<WallMotion> motions;
   bool any = false;
   double tolerance = 0;
   for (std::size_t k = 0; k < before.size(); ++k) {
-    const SceneSurface& s = std::as_const(state.surfaces)[k];
+    const SceneSurface& s = std::as_const(act.state.surfaces)[k];
     motions.push_back({s.id, motion_of(before[k], s.current), s.opened, s.visible, 0});
     any = any || motions.back().motion.moves();
     if (s.visible) tolerance = std::max(tolerance, s.visible->uncertainty);
   }
   if (!any) return {};
-  ModelWalls& walls = known_walls();
+  ModelWalls& walls = known_walls(act);
   if (const Surroundings* const around = walls.around()) {
     for (WallMotion& wall : motions) {
       const auto shown = around->shown.find(wall.id);
@@ -151,65 +195,32 @@ Expected<void> Executor::meet_faces(std::span<const std::shared_ptr<const Surfac
   tolerance = std::max(tolerance, near_share * walls.diagonal(motions));
   const auto contact = walls.first_contact(motions, tolerance);
   if (!contact) return {};
-  const SceneSurface& s = std::as_const(state.surfaces)[contact->surface];
+  const SceneSurface& s = std::as_const(act.state.surfaces)[contact->surface];
   const Surface& home = s.rest != s.current ? *s.rest : *motions[contact->surface].motion.from;
   const auto begin = evaluate_point<2>(home, contact->at);
   const double deep = begin ? (contact->place - *begin).norm() : 0;
   const std::string to = contact->met == contact->surface
                              ? "its own other side"
-                             : (contact->met ? face_on(motions[*contact->met].id) : "the face " + contact->face);
+                             : (contact->met ? face_on(act, motions[*contact->met].id) : "the face " + contact->face);
   const Point& at = contact->place;
   const std::string place =
       fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}), {:.4g} deep", to, at.x(), at.y(), at.z(), deep);
   const auto read = [&](ErrorCode code) -> Diagnostic {
     return {code, {{"surface", s.id}, {"other", to}, {"x", at.x()}, {"y", at.y()}, {"z", at.z()}, {"depth", deep}}};
   };
-  if (through == Through::note) {
-    note_motion("through another face",
-                fmt::format(": {} comes to {}, and goes on; press less deep, or say "
-                            "\"allow\":\"through\"",
-                            s.id, place),
-                read(ErrorCode::through_face));
+  if (act.through == Through::note) {
+    note_last(act.state, "through another face",
+              fmt::format(": {} comes to {}, and goes on; press less deep, or say "
+                          "\"allow\":\"through\"",
+                          s.id, place),
+              read(ErrorCode::through_face));
     return {};
   }
-  note_motion("stopped at another face",
-              fmt::format(": {} would come through {}; \"allow\":\"through\" lets it", s.id, place),
-              read(ErrorCode::stopped_at_face));
-  stopped_at_face = true;
-  return stop_at_face(motions, contact->room);
-}
-
-/// The rest shape from before an open brush, which moves it; else the present one.
-std::shared_ptr<const Surface> Executor::rest_before(int surface) const {
-  const std::vector<int> selection = state.selection();
-  const auto found = std::ranges::find(selection, surface);
-  if (!state.brush || found == selection.end()) return state.surfaces[static_cast<std::size_t>(surface)].rest;
-  return state.brush->before[static_cast<std::size_t>(found - selection.begin())].rest;
-}
-
-/// All that moved from there, made smaller alike: what is held is linear in displacements.
-Expected<void> Executor::stop_at_face(std::span<const WallMotion> motions, double share) {
-  if (state.stroke) {
-    state.stroke->share *= share;
-    return show_stroke(true);
-  }
-  for (std::size_t k = 0; k < motions.size(); ++k) {
-    const Motion& motion = motions[k].motion;
-    if (!motion.from || !motion.moves()) continue;
-    SceneSurface& s = state.surfaces[k];
-    const bool same = s.rest == s.current;
-    auto current = part_of_way(*motion.from, s.current, share);
-    if (!current) return std::unexpected(current.error());
-    const Motion of_rest = same ? motion : motion_of(rest_before(static_cast<int>(k)), s.rest);
-    auto rest = same           ? current
-                : of_rest.from ? part_of_way(*of_rest.from, s.rest, share)
-                               : Expected<std::shared_ptr<const Surface>>(s.rest);
-    if (!rest) return std::unexpected(rest.error());
-    s.current = std::move(*current);
-    s.rest = std::move(*rest);
-    s.velocity.resize(0, 3);
-  }
-  return check_folds();
+  note_last(act.state, "stopped at another face",
+            fmt::format(": {} would come through {}; \"allow\":\"through\" lets it", s.id, place),
+            read(ErrorCode::stopped_at_face));
+  act.stopped_at_face = true;
+  return stop_at_face(act, motions, contact->room);
 }
 
 }  // namespace knead

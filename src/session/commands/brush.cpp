@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "../brushing.hpp"
+#include "../selection.hpp"
 #include "../shape_fields.hpp"
 #include "knead/base/error_code.hpp"
 
@@ -74,17 +76,17 @@ Expected<void> check(double x, const Range& range, const char* field) {
 }
 
 /// The rows of a pattern, or the shape of a tool as a pattern within the core.
-Expected<StampPattern> pattern_of(const Executor& executor, const BrushCommand& c, double core) {
+Expected<StampPattern> pattern_of(const Act& act, const BrushCommand& c, double core) {
   if (c.pattern.empty() == !c.shape) {
     return input_error("a stamp is either a pattern or a shape", "pattern",
                        R"(give "pattern": [[h, …], …], or "shape": "torus")");
   }
   if (c.shape) {
-    const std::optional<BrushRun>& known = executor.brush_cache;  // a hand that turns it asks again and again
+    const std::optional<BrushRun>& known = act.cache.brush;  // a hand that turns it asks again and again
     if (known && known->shape == *c.shape && known->open.brush.core == core) return known->open.brush.pattern;
     ShapeFields measures;
     measures.radius = 1;
-    const auto shape = make_shape(*c.shape, measures, 1, 1, executor);
+    const auto shape = make_shape(*c.shape, measures, 1, 1, act);
     if (!shape) return std::unexpected(shape.error());
     return stamp_of(*shape, core);
   }
@@ -159,7 +161,7 @@ Expected<void> check_pen(const BrushCommand& c) {
 }
 
 /// The points of the path with their surfaces.
-Expected<std::vector<BrushPoint>> path_of(Executor& executor, const BrushCommand& c) {
+Expected<std::vector<BrushPoint>> path_of(Act& act, const BrushCommand& c) {
   if (c.surface && !c.surfaces.empty()) {
     return input_error("the path is on one surface or on those of its points", "surfaces",
                        "give `surface` or `surfaces`");
@@ -168,10 +170,10 @@ Expected<std::vector<BrushPoint>> path_of(Executor& executor, const BrushCommand
     return input_error(fmt::format("there are {} surfaces for {} points of the path", c.surfaces.size(), c.path.size()),
                        "surfaces", "give one for each");
   }
-  auto surface = executor.selected_surface(c.surface);
+  auto surface = selected_surface(act, c.surface);
   std::vector<BrushPoint> path;
   for (std::size_t k = 0; k < c.path.size() && surface; ++k) {
-    if (!c.surfaces.empty()) surface = executor.selected_surface(c.surfaces[k], "surfaces");
+    if (!c.surfaces.empty()) surface = selected_surface(act, c.surfaces[k], "surfaces");
     if (!surface) break;
     path.push_back({*surface, c.path[k], {}});
     if (!c.pressure.empty() && c.presses != PressureUse::none) path.back().pen.pressure = c.pressure[k];
@@ -276,23 +278,22 @@ void describe(BrushCommand& c, Fields& fields) {
   describe_allowance(c.allow, fields);
 }
 
-template <>
-Expected<void> Executor::execute(const BrushCommand& c) {
-  auto first = selected();
+Expected<void> execute(const BrushCommand& c, Act& act) {
+  auto first = selected(act);
   if (!first) return std::unexpected(first.error());
-  const auto length = diagonal();
+  const auto length = diagonal(act);
   if (!length) return std::unexpected(length.error());
   auto brush = brush_of(c, *length);
   if (!brush) return std::unexpected(brush.error());
   if (c.kind == BrushKind::stamp) {
-    auto pattern = pattern_of(*this, c, brush->core);
+    auto pattern = pattern_of(act, c, brush->core);
     if (!pattern) return std::unexpected(pattern.error());
     brush->pattern = std::move(*pattern);
   }
   auto images = images_of(c, **first);
   if (!images) return std::unexpected(images.error());
   if (auto possible = check_pen(c); !possible) return possible;
-  const auto path = path_of(*this, c);
+  const auto path = path_of(act, c);
   if (!path) return std::unexpected(path.error());
   const double rope = c.steady * brush->radius;
   const auto goes_on = [&](const OpenBrush& open) {
@@ -302,20 +303,20 @@ Expected<void> Executor::execute(const BrushCommand& c) {
     like.factor = open.brush.factor;
     return open.brush == like && open.images == *images && open.rope == rope;
   };
-  if (state.brush && !goes_on(*state.brush)) state.brush.reset();
-  if (c.path.empty() && !state.brush) {
+  if (act.state.brush && !goes_on(*act.state.brush)) act.state.brush.reset();
+  if (c.path.empty() && !act.state.brush) {
     return input_error("the path has no places", "path", "give one or more: [[s, t], ...]");
   }
-  if (!state.brush) begin_brush(*brush, std::move(*images), rope);
-  if (acts_about_one_place(c.kind) && state.brush->path.size() + c.path.size() > 1) {
+  if (!act.state.brush) begin_brush(act, *brush, std::move(*images), rope);
+  if (acts_about_one_place(c.kind) && act.state.brush->path.size() + c.path.size() > 1) {
     return input_error("this kind of brush acts about one place", "path", "give one: [[s, t]]");
   }
-  state.brush->brush = *brush;
-  if (auto done = brush_to(*path); !done) return done;
-  brush_cache->shape = c.shape.value_or("");
+  act.state.brush->brush = *brush;
+  if (auto done = brush_to(act, *path); !done) return done;
+  act.cache.brush->shape = c.shape.value_or("");
   if (c.open.value_or(false)) return {};
-  state.brush.reset();
-  if (brush_cache->stuck) {  // not of a stroke that may still come to where something is free
+  act.state.brush.reset();
+  if (act.cache.brush->stuck) {  // not of a stroke that may still come to where something is free
     return numerical_error("nothing is free to move under the brush", "brush",
                            R"(brush elsewhere, or release what is held or masked: {"do":"release"})",
                            {ErrorCode::nothing_free_at_brush});

@@ -38,8 +38,7 @@ struct BrushCommand {
   friend bool operator==(const BrushCommand&, const BrushCommand&) = default;
 };
 
-template <>
-Expected<void> Executor::execute(const BrushCommand& c);
+Expected<void> execute(const BrushCommand& c, Act& act);
 void describe(BrushCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -1,6 +1,7 @@
 #include "buckling.hpp"
 
 #include "../limits.hpp"
+#include "../selection.hpp"
 #include "scene/model/structural_modes.hpp"
 
 namespace knead {
@@ -10,14 +11,13 @@ void describe(BucklingCommand& c, Fields& fields) {
   fields.add("count", c.count, {.help = "number of factors, the lowest first"});
 }
 
-template <>
-Expected<void> Executor::execute(const BucklingCommand& c) {
-  if (auto chosen = selected(); !chosen) return std::unexpected(chosen.error());
+Expected<void> execute(const BucklingCommand& c, Act& act) {
+  if (auto chosen = selected(act); !chosen) return std::unexpected(chosen.error());
   if (auto few = check_modes(c.count); !few) return few;
-  auto found = linear_buckling(state, c.count);
+  auto found = linear_buckling(act.state, c.count);
   if (!found) return std::unexpected(found.error());
-  state.buckling.clear();
-  for (Eigenmode& mode : *found) state.buckling.push_back({mode.value, mode.residual, std::move(mode.shape)});
+  act.state.buckling.clear();
+  for (Eigenmode& mode : *found) act.state.buckling.push_back({mode.value, mode.residual, std::move(mode.shape)});
   return {};
 }
 

@@ -10,8 +10,7 @@ struct BucklingCommand {
   int count = 3;
 };
 
-template <>
-Expected<void> Executor::execute(const BucklingCommand& c);
+Expected<void> execute(const BucklingCommand& c, Act& act);
 void describe(BucklingCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "../refining.hpp"
+#include "../selection.hpp"
+
 namespace knead {
 
 void describe(CoarsenCommand& c, Fields& fields) {
@@ -11,21 +14,20 @@ void describe(CoarsenCommand& c, Fields& fields) {
   fields.add("tolerance", c.tolerance, {.help = "a length", .unit = Unit::length, .presence = Presence::required});
 }
 
-template <>
-Expected<void> Executor::execute(const CoarsenCommand& c) {
-  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+Expected<void> execute(const CoarsenCommand& c, Act& act) {
+  if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   if (!(std::isfinite(c.tolerance) && c.tolerance >= 0)) {
     return input_error(fmt::format("{} is not a tolerance", c.tolerance), "tolerance", "use a length of 0 or more");
   }
-  for (int index : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+  for (int index : act.state.selection()) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];
     const auto done = coarsen(s, c.tolerance);
     if (!done) return std::unexpected(done.error());
-    state.notes.push_back(
+    act.state.notes.push_back(
         fmt::format("{}: {} knots removed, the shape moved by less than {:.3g}", s.id, done->removed, done->bound));
-    if (done->removed > 0) state.notes.push_back(net_note(s));
+    if (done->removed > 0) act.state.notes.push_back(net_note(s));
     if (done->stopped)
-      state.notes.push_back(fmt::format("{}: at rest, as its velocity does not fit the coarser net", s.id));
+      act.state.notes.push_back(fmt::format("{}: at rest, as its velocity does not fit the coarser net", s.id));
   }
   return {};
 }

@@ -9,8 +9,7 @@ struct CoarsenCommand {
   double tolerance = 0;
 };
 
-template <>
-Expected<void> Executor::execute(const CoarsenCommand& c);
+Expected<void> execute(const CoarsenCommand& c, Act& act);
 void describe(CoarsenCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -6,6 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "../selection.hpp"
+#include "../trimming.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/session/document_regions.hpp"
 
@@ -16,13 +18,13 @@ namespace {
 std::string id_of(const std::string& support) { return support.substr(0, support.find(' ')); }
 
 /// The surfaces of other forms that meet the selected ones; those that cannot be converted are noted.
-Expected<std::vector<std::string>> neighbours(Executor& executor) {
-  if (auto surface = executor.selected(); !surface) return std::unexpected(surface.error());
+Expected<std::vector<std::string>> neighbours(Act& act) {
+  if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   std::vector<std::string> result;
-  const brep::Model* const model = executor.document.model();
+  const brep::Model* const model = act.document.model();
   const auto others = model == nullptr ? std::vector<brep::OtherSurface>() : brep::other_surfaces(*model);
-  for (const int k : executor.state.selection()) {
-    const auto region = executor.visible(executor.state.surfaces[static_cast<std::size_t>(k)]);
+  for (const int k : act.state.selection()) {
+    const auto region = visible(act, act.state.surfaces[static_cast<std::size_t>(k)]);
     if (!region) return std::unexpected(region.error());
     for (const TrimEdge& edge : (*region)->edges) {
       for (const std::string& support : edge.supports) {
@@ -34,7 +36,7 @@ Expected<std::vector<std::string>> neighbours(Executor& executor) {
   }
   std::erase_if(result, [&](const std::string& id) {
     const auto made = brep::exact_spline(*model, id);
-    if (!made) executor.state.notes.push_back(fmt::format("{} stays as it is: {}", id, made.error().what));
+    if (!made) act.state.notes.push_back(fmt::format("{} stays as it is: {}", id, made.error().what));
     return !made;
   });
   if (result.empty()) {
@@ -84,32 +86,31 @@ void describe(ConvertCommand& c, Fields& fields) {
   fields.add("neighbours", c.neighbours, {.help = "all that meet faces on the selected surfaces"});
 }
 
-template <>
-Expected<void> Executor::execute(const ConvertCommand& c) {
+Expected<void> execute(const ConvertCommand& c, Act& act) {
   std::vector<std::string> ids = c.surfaces.value_or(std::vector<std::string>{});
   if (c.surface) ids.insert(ids.begin(), *c.surface);
   if (c.neighbours) {
-    const auto beside = neighbours(*this);
+    const auto beside = neighbours(act);
     if (!beside) return std::unexpected(beside.error());
     ids.insert(ids.end(), beside->begin(), beside->end());
   }
   if (ids.empty()) {
     return input_error("the field is missing", "surface", R"(give "surface", "surfaces" or "neighbours":true)");
   }
-  auto converted = document.with_splines(ids);
+  auto converted = act.document.with_splines(ids);
   if (!converted) return std::unexpected(converted.error());
-  state.document = std::make_shared<const Document>(*std::move(converted));
-  const int order = order_of_holds(state);
+  act.state.document = std::make_shared<const Document>(*std::move(converted));
+  const int order = order_of_holds(act.state);
   std::vector<std::string> made;
-  for (const DocumentSurface& s : state.document->surfaces()) {
-    if (std::ranges::find(state.surfaces, s.id, &SceneSurface::id) != state.surfaces.end()) continue;
+  for (const DocumentSurface& s : act.state.document->surfaces()) {
+    if (std::ranges::find(act.state.surfaces, s.id, &SceneSurface::id) != act.state.surfaces.end()) continue;
     SceneSurface surface = untouched<2>(s.id, s.name, s.unit, s.surface);
     surface.constraints.push_back({TrimHolds{order}, s.surface});
-    state.surfaces.push_back(std::move(surface));
+    act.state.surfaces.push_back(std::move(surface));
     made.push_back(s.id);
   }
-  if (state.surfaces.size() == 1) state.selected = 0;
-  return refresh_neighbours(state, made);
+  if (act.state.surfaces.size() == 1) act.state.selected = 0;
+  return refresh_neighbours(act.state, made);
 }
 
 }  // namespace knead

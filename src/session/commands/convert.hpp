@@ -13,8 +13,7 @@ struct ConvertCommand {
   bool neighbours = false;                                ///< those that meet faces on the selected surfaces
 };
 
-template <>
-Expected<void> Executor::execute(const ConvertCommand& c);
+Expected<void> execute(const ConvertCommand& c, Act& act);
 void describe(ConvertCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -6,6 +6,10 @@
 #include <cmath>
 
 #include "../limits.hpp"
+#include "../refining.hpp"
+#include "../selection.hpp"
+#include "../stepping.hpp"
+#include "../trimming.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "scene/places.hpp"
 #include "spline/basis_terms.hpp"
@@ -86,11 +90,10 @@ void describe(DragCommand& c, Fields& fields) {
   describe_allowance(c.allow, fields);
 }
 
-template <>
-Expected<void> Executor::execute(const DragCommand& c) {
-  const auto chosen = selected_surface(c.surface);
+Expected<void> execute(const DragCommand& c, Act& act) {
+  const auto chosen = selected_surface(act, c.surface);
   if (!chosen) return std::unexpected(chosen.error());
-  SceneSurface& surface = state.surfaces[static_cast<std::size_t>(*chosen)];
+  SceneSurface& surface = act.state.surfaces[static_cast<std::size_t>(*chosen)];
   if (auto few = check_steps(c.steps, "steps"); !few) return few;
   if (!(c.plasticity >= 0 && c.plasticity <= 1)) {
     return input_error(fmt::format("{} is not a plasticity", c.plasticity), "plasticity", "use a number from 0 to 1");
@@ -99,27 +102,27 @@ Expected<void> Executor::execute(const DragCommand& c) {
     return input_error(fmt::format("{} is not a strength", c.strength), "strength",
                        fmt::format("use a number from 0 to {}", max_tool_stiffness));
   }
-  const auto length = diagonal();
+  const auto length = diagonal(act);
   if (!length) return std::unexpected(length.error());
   const double unit = c.relative ? *length : 1, radius = c.radius ? *c.radius * unit : 0.1 * *length;
   if (auto possible = check_radius(radius); !possible) return possible;
-  const auto at = place_on(surface, {c.at, c.middle.value_or(false)});
+  const auto at = place_on(act, surface, {c.at, c.middle.value_or(false)});
   if (!at) return std::unexpected(at.error());
-  if (auto refined = refine_at_trims(surface, *at, radius); !refined) return refined;
+  if (auto refined = refine_at_trims(act, surface, *at, radius); !refined) return refined;
   int first = 0;
-  for (int k : state.selection()) {
+  for (int k : act.state.selection()) {
     if (k == *chosen) break;
-    first += state.surfaces[static_cast<std::size_t>(k)].current->size();
+    first += act.state.surfaces[static_cast<std::size_t>(k)].current->size();
   }
   const auto grip = footprint(*surface.current, first, *at, radius, c.strength);
   if (!grip) return std::unexpected(grip.error());
-  for (int k = 0; k < c.steps && !at_fold; ++k) {
+  for (int k = 0; k < c.steps && !act.at_fold; ++k) {
     std::vector<PointForce> forces = *grip;
     const double share = static_cast<double>(k + 1) / c.steps;
     for (PointForce& force : forces) force.to += share * unit * Point(c.by[0], c.by[1], c.by[2]);
-    if (auto done = run(1, state.evolution, forces, k, c.steps); !done) return done;
+    if (auto done = run(act, 1, act.state.evolution, forces, k, c.steps); !done) return done;
   }
-  return yield(c.plasticity);
+  return yield(act, c.plasticity);
 }
 
 }  // namespace knead

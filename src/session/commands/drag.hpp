@@ -18,8 +18,7 @@ struct DragCommand {
   std::optional<ThroughAllowance> allow = {};
 };
 
-template <>
-Expected<void> Executor::execute(const DragCommand& c);
+Expected<void> execute(const DragCommand& c, Act& act);
 void describe(DragCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -6,6 +6,11 @@
 #include <functional>
 
 #include "../components.hpp"
+#include "../following.hpp"
+#include "../holding.hpp"
+#include "../selection.hpp"
+#include "../trimming.hpp"
+#include "knead/scene/trims.hpp"
 
 namespace knead {
 namespace {
@@ -30,42 +35,42 @@ void forget(SceneSurface& s, const std::string& id) {
 }
 
 /// Holds or frees one edge of the faces on those selected surfaces that have it.
-Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
+Expected<void> hold_face_edge(Act& act, const EdgeCommand& c) {
   const bool follow = c.hold == EdgeCondition::follow || c.hold == EdgeCondition::free;
   const int order = c.hold > EdgeCondition::curvature ? -1 : static_cast<int>(c.hold);
   bool follows = false;
   std::string known;
   std::vector<int> changed;
-  const std::vector<int> selection = executor.state.selection();
+  const std::vector<int> selection = act.state.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {
-    SceneSurface& s = executor.state.surfaces[static_cast<std::size_t>(selection[k])];
-    const auto visible = executor.visible(s);
-    if (!visible) return std::unexpected(visible.error());
-    for (const TrimEdge& edge : (*visible)->edges) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
+    const auto region = visible(act, s);
+    if (!region) return std::unexpected(region.error());
+    for (const TrimEdge& edge : (*region)->edges) {
       known += (known.empty() ? "" : ", ") + edge.id;
       if (edge.id != *c.edge) continue;
       if (changed.empty() || changed.back() != static_cast<int>(k)) changed.push_back(static_cast<int>(k));
       forget(s, edge.id);
       const bool side = edge.neighbours.empty();  // of a surface without faces: there is nothing to follow
-      if (c.hold == EdgeCondition::open) note_opening(executor.state, s, edge);
+      if (c.hold == EdgeCondition::open) note_opening(act.state, s, edge);
       s.constraints.push_back({TrimEdgeHold{edge.id, order, follow && !side}, s.current});
       follows = follows || (follow && !side);
     }
   }
   if (!changed.empty()) {
     if (follows) {
-      if (auto can = executor.follow_edge(*c.edge); !can) return can;
-      executor.hold_likewise();
+      if (auto can = follow_edge(act, *c.edge); !can) return can;
+      hold_likewise(act);
     }
-    return executor.check_constraints_on(changed);
+    return check_constraints_on(act, changed);
   }
   return input_error(fmt::format("no face on the selected surfaces has an edge {}", *c.edge), "which",
                      known.empty() ? "no face lies on them" : "their edges are: " + known);
 }
 
 /// Where a surface without faces holds its sides as faces do their edges, what is asked of one replaces that.
-void hold_bare_sides(Executor& executor, SceneSurface& s, const std::vector<SurfaceEdge>& sides, bool free) {
-  if (!holds_trims(s.constraints) || !executor.visible(s)) return;  // what cannot be followed has faces
+void hold_bare_sides(Act& act, SceneSurface& s, const std::vector<SurfaceEdge>& sides, bool free) {
+  if (!holds_trims(s.constraints) || !visible(act, s)) return;  // what cannot be followed has faces
   for (const SurfaceEdge side : sides) {
     const std::string id = edge_name(side);
     if (std::ranges::find(s.visible->edges, id, &TrimEdge::id) == s.visible->edges.end()) continue;
@@ -149,30 +154,29 @@ std::vector<DomainSide> sides_of(SideChoice which, int directions) {
   return sides;
 }
 
-Expected<void> hold_body_sides(Executor& executor, const EdgeCommand& c) {
-  if (c.edge) return executor.of_surfaces("faces", "give which, one of its sides");
-  if (c.hold > EdgeCondition::free) return executor.of_surfaces("faces", R"(use "hold":"free")");
+Expected<void> hold_body_sides(Act& act, const EdgeCommand& c) {
+  if (c.edge) return of_surfaces(act, "faces", "give which, one of its sides");
+  if (c.hold > EdgeCondition::free) return of_surfaces(act, "faces", R"(use "hold":"free")");
   const auto components = components_of(c.components);
   if (!components) return std::unexpected(components.error());
   const auto hold = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
     const std::vector<DomainSide> sides = sides_of(c.which, D);
     if (sides.empty()) return input_error("a curve has no such end", "which", "use u0, u1 or all");
     hold_sides<SideHold>(s, sides, c.hold, *components);
-    return c.hold == EdgeCondition::free ? Expected<void>() : executor.check_constraints();
+    return c.hold == EdgeCondition::free ? Expected<void>() : check_constraints(act);
   };
-  return std::visit(hold, *executor.body());
+  return std::visit(hold, *body(act));
 }
 
 }  // namespace
 
-template <>
-Expected<void> Executor::execute(const EdgeCommand& c) {
-  if (state.body) return hold_body_sides(*this, c);
-  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+Expected<void> execute(const EdgeCommand& c, Act& act) {
+  if (act.state.body) return hold_body_sides(act, c);
+  if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   const auto components = components_of(c.components);
   if (!components) return std::unexpected(components.error());
   if (c.edge) {
-    if (*components == all_components) return hold_face_edge(*this, c);
+    if (*components == all_components) return hold_face_edge(act, c);
     return input_error("edges of faces are held in all coordinates", "components",
                        "leave it out, or hold a boundary isocurve by which");
   }
@@ -184,12 +188,12 @@ Expected<void> Executor::execute(const EdgeCommand& c) {
     return input_error("a surface has no such edge", "which", "use u0, u1, v0, v1 or all");
   }
   const std::vector<SurfaceEdge> edges = edges_of(edge_choice(c.which));
-  for (int k : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    if (*components == all_components) hold_bare_sides(*this, s, edges, c.hold == EdgeCondition::free);
+  for (int k : act.state.selection()) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+    if (*components == all_components) hold_bare_sides(act, s, edges, c.hold == EdgeCondition::free);
     hold_sides<EdgeHold>(s, edges, c.hold, *components);
   }
-  return c.hold == EdgeCondition::free ? Expected<void>() : check_constraints();
+  return c.hold == EdgeCondition::free ? Expected<void>() : check_constraints(act);
 }
 
 }  // namespace knead

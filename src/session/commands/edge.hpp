@@ -25,8 +25,7 @@ struct EdgeCommand {
 std::span<const Choice> choices(EdgeCondition);
 std::span<const Choice> choices(SideChoice);
 
-template <>
-Expected<void> Executor::execute(const EdgeCommand& c);
+Expected<void> execute(const EdgeCommand& c, Act& act);
 void describe(EdgeCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -1,10 +1,12 @@
 #include "edit_tool.hpp"
 
+#include "../selection.hpp"
+
 namespace knead {
 namespace {
 
 /// The tool's new position, rotation and scale.
-Expected<Placement> placement_of(const EditToolCommand& c, const Placement& before, double unit, Executor& executor) {
+Expected<Placement> placement_of(const EditToolCommand& c, const Placement& before, double unit, Act& act) {
   if (c.axis && c.orientation) {
     return input_error("both axis and orientation are given", "orientation", "give one of them");
   }
@@ -25,9 +27,9 @@ Expected<Placement> placement_of(const EditToolCommand& c, const Placement& befo
   if (c.scale) placement.scale = *c.scale;
   if (c.position) placement.position = unit * Point((*c.position)[0], (*c.position)[1], (*c.position)[2]);
   if (on_surface) {
-    const auto surface = executor.selected();
+    const auto surface = selected(act);
     if (!surface) return std::unexpected(surface.error());
-    const auto point = point_at(executor, **surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
+    const auto point = point_at(act, **surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
     if (!point) return std::unexpected(point.error());
     placement.position = *point;
   }
@@ -64,27 +66,26 @@ void describe(EditToolCommand& c, Fields& fields) {
   fields.add("relative", c.relative, {.help = "lengths and position of this command are fractions of the diagonal"});
 }
 
-template <>
-Expected<void> Executor::execute(const EditToolCommand& c) {
+Expected<void> execute(const EditToolCommand& c, Act& act) {
   if (c.tool && c.name && *c.tool != *c.name) {
     return input_error("tool and name are different", "name", "give one of them: tools are not renamed");
   }
   if (auto done = check_ranges(type_of<EditToolCommand>(), &c); !done) return done;
-  auto found = find_tool(c.tool ? c.tool : c.name);
+  auto found = find_tool(act, c.tool ? c.tool : c.name);
   if (!found) return std::unexpected(found.error());
   Tool edited = **found;
   double unit = 1, length = 0;
   if (c.relative || c.shape) {  // another shape may need a default radius
-    const auto measured = diagonal();
+    const auto measured = diagonal(act);
     if (!measured) return std::unexpected(measured.error());
     length = *measured;
     if (c.relative) unit = length;
   }
   const Shape& before = edited.shape.shape();
-  const auto shape = edited_shape(before, c.shape ? *c.shape : shape_name(before), c.measures, unit, length, *this);
+  const auto shape = edited_shape(before, c.shape ? *c.shape : shape_name(before), c.measures, unit, length, act);
   if (!shape) return std::unexpected(shape.error());
   const Placement& at = edited.shape.placement();
-  const auto placement = placement_of(c, at, unit, *this);
+  const auto placement = placement_of(c, at, unit, act);
   if (!placement) return std::unexpected(placement.error());
   const bool moved_only = *shape == before && placement->scale == at.scale;
   auto placed = moved_only ? edited.shape.moved(placement->rotation, placement->position)

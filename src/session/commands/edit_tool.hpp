@@ -26,8 +26,7 @@ struct EditToolCommand {
   bool relative = false;
 };
 
-template <>
-Expected<void> Executor::execute(const EditToolCommand& c);
+Expected<void> execute(const EditToolCommand& c, Act& act);
 void describe(EditToolCommand& c, Fields& fields);
 
 }  // namespace knead

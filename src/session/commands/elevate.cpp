@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "../refining.hpp"
+#include "../selection.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
@@ -11,13 +13,12 @@ void describe(ElevateCommand& c, Fields& fields) {
   fields.add("by", c.by, {.help = "in u and in v"});
 }
 
-template <>
-Expected<void> Executor::execute(const ElevateCommand& c) {
-  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+Expected<void> execute(const ElevateCommand& c, Act& act) {
+  if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   if (c.by[0] < 0 || c.by[1] < 0) return input_error("a degree cannot be lowered", "by", "use numbers >= 0");
-  for (int index : state.selection()) {
-    auto& s = state.surfaces[static_cast<std::size_t>(index)];
-    auto done = change_net(s, [&](const Surface& shape) -> Expected<Surface> {
+  for (int index : act.state.selection()) {
+    auto& s = act.state.surfaces[static_cast<std::size_t>(index)];
+    auto done = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {
       Expected<Surface> result = shape;
       for (int d = 0; d < 2; ++d) {
         const int degree = shape.knots(d).degree(), times = c.by[static_cast<std::size_t>(d)];

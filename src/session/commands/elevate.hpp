@@ -9,8 +9,7 @@ struct ElevateCommand {
   std::array<int, 2> by = {1, 1};
 };
 
-template <>
-Expected<void> Executor::execute(const ElevateCommand& c);
+Expected<void> execute(const ElevateCommand& c, Act& act);
 void describe(ElevateCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "../stepping.hpp"
+
 namespace knead {
 
 std::span<const Choice> choices(StepWeight) {
@@ -61,8 +63,7 @@ void describe(EvolveCommand& c, Fields& fields) {
       {.help = "rational shapes: the largest error of an entry of the energy's matrix, relative to its diagonal"});
 }
 
-template <>
-Expected<void> Executor::execute(const EvolveCommand& c) {
+Expected<void> execute(const EvolveCommand& c, Act& act) {
   if (!(std::isfinite(c.evolution.lambda) && c.evolution.lambda >= 0)) {
     return input_error(fmt::format("{} is not a step parameter", c.evolution.lambda), "lambda",
                        "use a finite number >= 0");
@@ -76,9 +77,9 @@ Expected<void> Executor::execute(const EvolveCommand& c) {
                        "energy_tolerance", "use a number from 1e-14 to 0.1");
   }
   if (c.evolution.mode == Evolution::stationary) {
-    if (auto done = run(1, c.evolution); !done) return done;
+    if (auto done = run(act, 1, c.evolution); !done) return done;
   }
-  state.evolution = c.evolution;
+  act.state.evolution = c.evolution;
   return {};
 }
 

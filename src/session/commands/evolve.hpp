@@ -17,8 +17,7 @@ std::span<const Choice> choices(Evolution);
 std::span<const Choice> choices(StepAccuracy);
 std::span<const Choice> choices(StepSolver);
 
-template <>
-Expected<void> Executor::execute(const EvolveCommand& c);
+Expected<void> execute(const EvolveCommand& c, Act& act);
 void describe(EvolveCommand& c, Fields& fields);
 
 }  // namespace knead

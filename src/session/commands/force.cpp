@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../selection.hpp"
 #include "scene/places.hpp"
 
 namespace knead {
@@ -120,10 +121,9 @@ void put_force(Scene& scene, SceneForce force) {
   }
 }
 
-template <>
-Expected<void> Executor::execute(const ForceCommand& c) {
-  const SceneBody* const b = body();
-  if (auto some = some_selected(); !some) return some;
+Expected<void> execute(const ForceCommand& c, Act& act) {
+  const SceneBody* const b = body(act);
+  if (auto some = some_selected(act); !some) return some;
   if (b != nullptr && (c.kind == ForceKind::line || c.kind == ForceKind::moment)) {
     return input_error(fmt::format("a {} has no edges", kind_of(*b)), "kind", "use spring, volcano or dead");
   }
@@ -134,13 +134,13 @@ Expected<void> Executor::execute(const ForceCommand& c) {
     const auto u = parameters_at<D>(shape, *c.at);
     return u ? Expected<void>() : std::unexpected(u.error());
   };
-  auto there = b == nullptr ? exists(*state.surfaces[static_cast<std::size_t>(*state.selected)].current)
+  auto there = b == nullptr ? exists(*act.state.surfaces[static_cast<std::size_t>(*act.state.selected)].current)
                             : std::visit([&](const auto& s) { return exists(*s.current); }, *b);
   if (!there) return there;
-  put_force(state, {.name = c.name,
-                    .surface = b == nullptr ? *state.selected : -1,
-                    .body = b == nullptr ? -1 : *state.body,
-                    .force = *std::move(force)});
+  put_force(act.state, {.name = c.name,
+                        .surface = b == nullptr ? *act.state.selected : -1,
+                        .body = b == nullptr ? -1 : *act.state.body,
+                        .force = *std::move(force)});
   return {};
 }
 

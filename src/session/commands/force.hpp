@@ -33,8 +33,7 @@ struct ForceCommand {
 /// Adds a force, or replaces the one of that name.
 void put_force(Scene& scene, SceneForce force);
 
-template <>
-Expected<void> Executor::execute(const ForceCommand& c);
+Expected<void> execute(const ForceCommand& c, Act& act);
 void describe(ForceCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "../holding.hpp"
+#include "../selection.hpp"
 #include "scene/places.hpp"
 
 namespace knead {
@@ -12,17 +14,16 @@ void describe(FreezeCommand& c, Fields& fields) {
              {.help = "`[[s0, s1], [t0, t1]]`", .unit = Unit::fraction, .presence = Presence::required});
 }
 
-template <>
-Expected<void> Executor::execute(const FreezeCommand& c) {
-  auto surface = selected();
+Expected<void> execute(const FreezeCommand& c, Act& act) {
+  auto surface = selected(act);
   if (!surface) return std::unexpected(surface.error());
-  if (auto done = keep(c.freeze); !done) return done;
+  if (auto done = keep(act, c.freeze); !done) return done;
   const auto region = region_at(*(*surface)->rest, c.freeze.region);
   ConstraintList list((*surface)->rest->size());
   const auto frozen = freeze_region(*(*surface)->rest, (*region)[0], (*region)[1], list);
   if (!frozen) return std::unexpected(frozen.error());
-  state.notes.push_back(fmt::format("{}: frozen from u = {:.6g} to {:.6g}, v = {:.6g} to {:.6g}", (*surface)->id,
-                                    frozen->u.lower, frozen->u.upper, frozen->v.lower, frozen->v.upper));
+  act.state.notes.push_back(fmt::format("{}: frozen from u = {:.6g} to {:.6g}, v = {:.6g} to {:.6g}", (*surface)->id,
+                                        frozen->u.lower, frozen->u.upper, frozen->v.lower, frozen->v.upper));
   return {};
 }
 

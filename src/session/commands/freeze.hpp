@@ -9,8 +9,7 @@ struct FreezeCommand {
   Freeze freeze;
 };
 
-template <>
-Expected<void> Executor::execute(const FreezeCommand& c);
+Expected<void> execute(const FreezeCommand& c, Act& act);
 void describe(FreezeCommand& c, Fields& fields);
 
 }  // namespace knead

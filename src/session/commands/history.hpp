@@ -14,12 +14,10 @@ struct RedoCommand {
   static constexpr ActsOn acts_on = ActsOn::scene;
 };
 
-template <>
-Expected<void> Executor::execute(const UndoCommand& c);
+Expected<void> execute(const UndoCommand& c, Act& act);
 void describe(UndoCommand& c, Fields& fields);
 
-template <>
-Expected<void> Executor::execute(const RedoCommand& c);
+Expected<void> execute(const RedoCommand& c, Act& act);
 void describe(RedoCommand& c, Fields& fields);
 
 }  // namespace knead

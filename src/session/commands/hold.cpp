@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "../holding.hpp"
+#include "../selection.hpp"
+#include "../trimming.hpp"
+
 namespace knead {
 
 std::span<const Choice> choices(HoldMode) {
@@ -40,13 +44,12 @@ void hold_edges(SceneSurface& s, HoldMode mode) {
 
 }  // namespace
 
-template <>
-Expected<void> Executor::execute(const HoldCommand& c) {
+Expected<void> execute(const HoldCommand& c, Act& act) {
   const bool all = c.all.value_or(false);
   const HoldMode mode = c.mode.value_or(HoldMode::rows);
   if (!all) {
-    if (auto some = some_selected(); !some) return some;
-    if (state.body && holds_trims(mode)) return of_surfaces("faces", R"(use "mode":"rows")");
+    if (auto some = some_selected(act); !some) return some;
+    if (act.state.body && holds_trims(mode)) return of_surfaces(act, "faces", R"(use "mode":"rows")");
   }
   if (c.rows < 0) return input_error(fmt::format("{} rows cannot be held", c.rows), "rows", "use 0 or more");
   const auto hold = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
@@ -55,11 +58,11 @@ Expected<void> Executor::execute(const HoldCommand& c) {
     return {};
   };
   if (!all) {
-    if (auto done = each_selected(hold); !done) return done;
-    return state.body ? check_constraints() : holds_trims(mode) ? know_trims() : Expected<void>();
+    if (auto done = each_selected(act, hold); !done) return done;
+    return act.state.body ? check_constraints(act) : holds_trims(mode) ? know_trims(act) : Expected<void>();
   }
-  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
-    if (auto done = hold(state.surfaces[k]); !done) return done;
+  for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
+    if (auto done = hold(act.state.surfaces[k]); !done) return done;
   }
   return {};
 }

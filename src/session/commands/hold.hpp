@@ -18,8 +18,7 @@ struct HoldCommand {
   std::optional<bool> all = {};       ///< for every surface of the document, not just the selected ones
 };
 
-template <>
-Expected<void> Executor::execute(const HoldCommand& c);
+Expected<void> execute(const HoldCommand& c, Act& act);
 void describe(HoldCommand& c, Fields& fields);
 
 }  // namespace knead

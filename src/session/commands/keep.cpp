@@ -1,5 +1,7 @@
 #include "keep.hpp"
 
+#include "../holding.hpp"
+
 namespace knead {
 
 void describe(KeepCommand& c, Fields& fields) {
@@ -13,14 +15,13 @@ void describe(KeepCommand& c, Fields& fields) {
              {.help = "of a polyline: it moves by no more than this share of the motion around it"});
 }
 
-template <>
-Expected<void> Executor::execute(const KeepCommand& c) {
+Expected<void> execute(const KeepCommand& c, Act& act) {
   const int ways = static_cast<int>(c.keep.u.has_value()) + static_cast<int>(c.keep.v.has_value()) +
                    static_cast<int>(!c.keep.curve.empty());
   if (ways != 1) {
     return input_error("one of u, v and curve is needed", "keep", "give exactly one of them");
   }
-  return keep(c.keep);
+  return keep(act, c.keep);
 }
 
 }  // namespace knead

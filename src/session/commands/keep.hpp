@@ -9,8 +9,7 @@ struct KeepCommand {
   Keep keep;
 };
 
-template <>
-Expected<void> Executor::execute(const KeepCommand& c);
+Expected<void> execute(const KeepCommand& c, Act& act);
 void describe(KeepCommand& c, Fields& fields);
 
 }  // namespace knead

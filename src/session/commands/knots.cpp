@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "../refining.hpp"
+#include "../selection.hpp"
+
 namespace knead {
 
 void describe(KnotsCommand& c, Fields& fields) {
@@ -14,9 +17,8 @@ void describe(KnotsCommand& c, Fields& fields) {
        .presence = Presence::required});
 }
 
-template <>
-Expected<void> Executor::execute(const KnotsCommand& c) {
-  auto surface = selected_alone();
+Expected<void> execute(const KnotsCommand& c, Act& act) {
+  auto surface = selected_alone(act);
   if (!surface) return std::unexpected(surface.error());
   SceneSurface& s = **surface;
   if (c.direction != "u" && c.direction != "v") {
@@ -41,7 +43,7 @@ Expected<void> Executor::execute(const KnotsCommand& c) {
     return input_error("the surface would be torn along a knot", "knots",
                        fmt::format("keep knots inside the domain to a multiplicity of {}", made->degree()));
   }
-  return change_basis(s, [&](const Surface& shape) {
+  return change_basis(act, s, [&](const Surface& shape) {
     std::array<KnotVector, 2> knots = shape.knots();
     knots[static_cast<std::size_t>(d)] = *made;
     return Surface::create(std::move(knots), shape.control_points(), {shape.weights().begin(), shape.weights().end()});

@@ -10,8 +10,7 @@ struct KnotsCommand {
   std::vector<double> knots;  ///< the whole vector, as many as before, on the same domain
 };
 
-template <>
-Expected<void> Executor::execute(const KnotsCommand& c);
+Expected<void> execute(const KnotsCommand& c, Act& act);
 void describe(KnotsCommand& c, Fields& fields);
 
 }  // namespace knead

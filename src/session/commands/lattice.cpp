@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "../limits.hpp"
+#include "../selection.hpp"
+#include "../stepping.hpp"
 #include "knead/scene/lattice.hpp"
 
 namespace knead {
@@ -37,10 +39,10 @@ void describe(LatticeCommand& c, Fields& fields) {
 namespace {
 
 /// The control points of the block after tools have acted on it.
-Expected<Points> pressed(Executor& executor, const LatticeCommand& c, const Lattice& lattice) {
+Expected<Points> pressed(Act& act, const LatticeCommand& c, const Lattice& lattice) {
   auto held = lattice.faces(c.hold, 1);
   if (!held) return std::unexpected(held.error());
-  const auto tools = tools_and_images(executor.state);
+  const auto tools = tools_and_images(act.state);
   if (!tools) return std::unexpected(tools.error());
   ActiveSettings<3> settings;
   settings.lambda = c.lambda;
@@ -53,7 +55,7 @@ Expected<Points> pressed(Executor& executor, const LatticeCommand& c, const Latt
     auto step = model->step(active, *tools);
     if (!step) return std::unexpected(step.error());
     active.control_points = std::move(step->control_points);
-    if (auto on = executor.carries_on(k + 1, c.steps); !on) return std::unexpected(on.error());
+    if (auto on = carries_on(act, k + 1, c.steps); !on) return std::unexpected(on.error());
   }
   return std::move(active.control_points);
 }
@@ -80,42 +82,42 @@ Expected<Points> moved_by_hand(const LatticeCommand& c, Points points) {
 
 }  // namespace
 
-template <>
-Expected<void> Executor::execute(const LatticeCommand& c) {
-  auto surface = selected();
+Expected<void> execute(const LatticeCommand& c, Act& act) {
+  auto surface = selected(act);
   if (!surface) return std::unexpected(surface.error());
   if (auto few = check_steps(c.steps, "steps"); !few) return few;
   const bool by_hand = !c.which.empty() || c.by.has_value();
   if (by_hand && !c.hold.empty()) return input_error("faces hold against tools only", "hold", "leave it out, or which");
   if (c.again && !by_hand)
     return input_error("tools press a block of their own", "again", "leave it out, or add which");
-  const PulledLattice* on = c.again ? lattice_to_pull_on(state, c.margin, c.degree, c.net) : nullptr;
+  const PulledLattice* on = c.again ? lattice_to_pull_on(act.state, c.margin, c.degree, c.net) : nullptr;
   if (c.again && on == nullptr) {
     return input_error("the surfaces are not as a block of this kind has left them", "again",
                        "leave it out: a block is put round them as they are");
   }
-  PulledLattice pulled{c.net, c.degree, c.margin, {}, state.selection(), {}, {}};
+  PulledLattice pulled{c.net, c.degree, c.margin, {}, act.state.selection(), {}, {}};
   for (std::size_t k = 0; k < pulled.surfaces.size(); ++k) {
-    pulled.before.push_back(on ? on->before[k] : state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])].current);
+    pulled.before.push_back(on ? on->before[k]
+                               : act.state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])].current);
   }
   const auto lattice = lattice_around(pulled.before, c.margin, c.degree, c.net);
   if (!lattice) return std::unexpected(lattice.error());
   auto after =
-      by_hand ? moved_by_hand(c, on ? on->points : lattice->rest().control_points()) : pressed(*this, c, *lattice);
+      by_hand ? moved_by_hand(c, on ? on->points : lattice->rest().control_points()) : pressed(act, c, *lattice);
   if (!after) return std::unexpected(after.error());
   for (std::size_t k = 0; k < pulled.surfaces.size(); ++k) {
     const auto points = lattice->deformed(pulled.before[k]->control_points(), *after);
     if (!points) return std::unexpected(points.error());
     auto moved = pulled.before[k]->with_control_points(*points);
     if (!moved) return std::unexpected(moved.error());
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])];
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])];
     s.current = s.rest = std::make_shared<const Surface>(std::move(*moved));  // the block carries the energy, not they
     s.velocity.resize(0, 3);
     pulled.after.push_back(s.current);
   }
   pulled.points = std::move(*after);
-  state.lattice.reset();
-  if (by_hand) state.lattice = std::move(pulled);
+  act.state.lattice.reset();
+  if (by_hand) act.state.lattice = std::move(pulled);
   return {};
 }
 

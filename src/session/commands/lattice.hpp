@@ -19,8 +19,7 @@ struct LatticeCommand {
   std::optional<ThroughAllowance> allow = {};
 };
 
-template <>
-Expected<void> Executor::execute(const LatticeCommand& c);
+Expected<void> execute(const LatticeCommand& c, Act& act);
 void describe(LatticeCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "../selection.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/extremum.hpp"
 
@@ -15,17 +16,16 @@ void describe(LimitCommand& c, Fields& fields) {
   fields.add("relative", c.relative, {.help = "`distance` is a fraction of the diagonal"});
 }
 
-template <>
-Expected<void> Executor::execute(const LimitCommand& c) {
+Expected<void> execute(const LimitCommand& c, Act& act) {
   if (!c.distance) {
-    state.limit.reset();
+    act.state.limit.reset();
     return {};
   }
   if (!(std::isfinite(*c.distance) && *c.distance > 0)) {
     return input_error(fmt::format("{} is not a distance", *c.distance), "distance",
                        "use a number > 0, or leave it out");
   }
-  for (const SceneSurface& s : state.surfaces) {
+  for (const SceneSurface& s : act.state.surfaces) {
     if (same_basis(*s.opened, *s.current)) continue;
     return input_error(fmt::format("weights or knots of {} were edited, and a limit is measured on those it was opened "
                                    "with",
@@ -35,11 +35,11 @@ Expected<void> Executor::execute(const LimitCommand& c) {
   }
   double unit = 1;
   if (c.relative) {
-    const auto length = diagonal();
+    const auto length = diagonal(act);
     if (!length) return std::unexpected(length.error());
     unit = *length;
   }
-  state.limit = *c.distance * unit;
+  act.state.limit = *c.distance * unit;
   return {};
 }
 

@@ -11,8 +11,7 @@ struct LimitCommand {
   bool relative = false;
 };
 
-template <>
-Expected<void> Executor::execute(const LimitCommand& c);
+Expected<void> execute(const LimitCommand& c, Act& act);
 void describe(LimitCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -1,5 +1,7 @@
 #include "load.hpp"
 
+#include "../selection.hpp"
+
 namespace knead {
 
 std::span<const Choice> choices(LoadMeasure) {
@@ -31,8 +33,7 @@ void describe(LoadCommand& c, Fields& fields) {
               .fallback = "1e-6 of the largest of a component"});
 }
 
-template <>
-Expected<void> Executor::execute(const LoadCommand& c) {
+Expected<void> execute(const LoadCommand& c, Act& act) {
   if (c.load.samples.empty() && c.load.counts != std::array<int, 2>{0, 0}) {
     return input_error("counts are given without samples", "samples", "give m n forces");
   }
@@ -41,11 +42,11 @@ Expected<void> Executor::execute(const LoadCommand& c) {
   }
   if (auto checked = check_ranges(type_of<LoadCommand>(), &c); !checked) return checked;
   if (c.load.varies()) {
-    auto surface = selected();
+    auto surface = selected(act);
     if (!surface) return std::unexpected(surface.error());
     if (auto fields = load_fields(c.load, *(*surface)->reference); !fields) return std::unexpected(fields.error());
   }
-  state.load = c.load;
+  act.state.load = c.load;
   return {};
 }
 

@@ -12,8 +12,7 @@ struct LoadCommand {
 
 std::span<const Choice> choices(LoadMeasure);
 
-template <>
-Expected<void> Executor::execute(const LoadCommand& c);
+Expected<void> execute(const LoadCommand& c, Act& act);
 void describe(LoadCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../limits.hpp"
+#include "../selection.hpp"
 
 namespace knead {
 namespace {
@@ -34,15 +35,14 @@ void describe(MaskCommand& c, Fields& fields) {
   fields.add("relative", c.relative, {.help = "`radius` is a fraction of the diagonal"});
 }
 
-template <>
-Expected<void> Executor::execute(const MaskCommand& c) {
-  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
-  const auto length = diagonal();
+Expected<void> execute(const MaskCommand& c, Act& act) {
+  if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
+  const auto length = diagonal(act);
   if (!length) return std::unexpected(length.error());
   const double radius = c.radius ? *c.radius * (c.relative ? *length : 1) : default_mask_radius * *length;
   if (auto possible = check_radius(radius); !possible) return possible;
-  for (int k : state.selection()) {
-    auto done = change_mask(state.surfaces[static_cast<std::size_t>(k)], c.change, radius);
+  for (int k : act.state.selection()) {
+    auto done = change_mask(act.state.surfaces[static_cast<std::size_t>(k)], c.change, radius);
     if (!done) return done;
   }
   return {};

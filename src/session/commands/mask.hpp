@@ -14,8 +14,7 @@ struct MaskCommand {
   bool relative = false;
 };
 
-template <>
-Expected<void> Executor::execute(const MaskCommand& c);
+Expected<void> execute(const MaskCommand& c, Act& act);
 void describe(MaskCommand& c, Fields& fields);
 
 }  // namespace knead

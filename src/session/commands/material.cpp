@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "../selection.hpp"
 #include "knead/energy/paint.hpp"
 #include "scene/formula_field.hpp"
 #include "scene/places.hpp"
@@ -336,10 +337,9 @@ void describe(MaterialCommand& c, Fields& fields) {
                       "what strokes leave"});
 }
 
-template <>
-Expected<void> Executor::execute(const MaterialCommand& given) {
-  if (state.body) return set_body_material(*this, given);
-  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+Expected<void> execute(const MaterialCommand& given, Act& act) {
+  if (act.state.body) return set_body_material(act, given);
+  if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   if (!names_something(given)) {
     return input_error(
         "no field is given", "alpha",
@@ -352,14 +352,14 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
     preset = &presets[static_cast<std::size_t>(*c.preset)];
     if (!c.alpha) c.alpha = list_of(preset->material.alpha);
     if (!c.beta) c.beta = list_of(preset->material.beta);
-    state.evolution.lambda = preset->lambda;
+    act.state.evolution.lambda = preset->lambda;
   }
   Material constants;
   if (c.alpha) std::ranges::copy(*c.alpha, constants.alpha.begin());
   if (c.beta) std::ranges::copy(*c.beta, constants.beta.begin());
   if (auto material = validated(constants); !material) return std::unexpected(material.error());
-  for (int k : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+  for (int k : act.state.selection()) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
     if (c.reset) reset_material(s);
     auto next = c.coefficient && !varies_shell(c) ? varied(c, s) : c.region ? painted(c, s) : everywhere(c, s);
     if (!next) return std::unexpected(next.error());

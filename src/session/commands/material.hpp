@@ -62,10 +62,9 @@ void reset_material(SceneShape<D>& s) {
 }
 
 /// What it does to the selected curve or volume: fields that only surfaces have are errors.
-[[nodiscard]] Expected<void> set_body_material(Executor& executor, const MaterialCommand& c);
+[[nodiscard]] Expected<void> set_body_material(Act& act, const MaterialCommand& c);
 
-template <>
-Expected<void> Executor::execute(const MaterialCommand& c);
+Expected<void> execute(const MaterialCommand& c, Act& act);
 void describe(MaterialCommand& c, Fields& fields);
 
 }  // namespace knead

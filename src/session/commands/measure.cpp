@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "../selection.hpp"
+#include "../trimming.hpp"
 #include "scene/places.hpp"
 
 namespace knead {
@@ -17,27 +19,26 @@ void describe(MeasureCommand& c, Fields& fields) {
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
 }
 
-template <>
-Expected<void> Executor::execute(const MeasureCommand& c) {
-  int index = state.selected.value_or(0);
+Expected<void> execute(const MeasureCommand& c, Act& act) {
+  int index = act.state.selected.value_or(0);
   if (c.surface) {
-    const auto found = find_surface(*c.surface);
+    const auto found = find_surface(act, *c.surface);
     if (!found) return std::unexpected(found.error());
     index = *found;
-  } else if (auto chosen = selected(); !chosen) {
+  } else if (auto chosen = selected(act); !chosen) {
     return std::unexpected(chosen.error());
   }
-  SceneSurface& surface = state.surfaces[static_cast<std::size_t>(index)];
-  const auto at = place_on(surface, {c.at, c.middle.value_or(false)});
+  SceneSurface& surface = act.state.surfaces[static_cast<std::size_t>(index)];
+  const auto at = place_on(act, surface, {c.at, c.middle.value_or(false)});
   if (!at) return std::unexpected(at.error());
   if (auto u = parameters_at(*surface.current, *at); !u) return std::unexpected(u.error());
   Probe probe{"measurements", c.name, index, *at};
-  const auto same =
-      std::ranges::find_if(state.probes, [&](const Probe& p) { return p.list == probe.list && p.name == probe.name; });
-  if (same != state.probes.end()) {
+  const auto same = std::ranges::find_if(act.state.probes,
+                                         [&](const Probe& p) { return p.list == probe.list && p.name == probe.name; });
+  if (same != act.state.probes.end()) {
     *same = std::move(probe);
   } else {
-    state.probes.push_back(std::move(probe));
+    act.state.probes.push_back(std::move(probe));
   }
   return {};
 }

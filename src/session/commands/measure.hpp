@@ -13,8 +13,7 @@ struct MeasureCommand {
   std::optional<bool> middle = {};  ///< of the visible part, instead of `at`
 };
 
-template <>
-Expected<void> Executor::execute(const MeasureCommand& c);
+Expected<void> execute(const MeasureCommand& c, Act& act);
 void describe(MeasureCommand& c, Fields& fields);
 
 }  // namespace knead

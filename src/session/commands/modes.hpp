@@ -10,8 +10,7 @@ struct ModesCommand {
   int count = 10;
 };
 
-template <>
-Expected<void> Executor::execute(const ModesCommand& c);
+Expected<void> execute(const ModesCommand& c, Act& act);
 void describe(ModesCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -1,5 +1,7 @@
 #include "move.hpp"
 
+#include "../selection.hpp"
+
 namespace knead {
 
 void describe(MoveCommand& c, Fields& fields) {
@@ -9,13 +11,12 @@ void describe(MoveCommand& c, Fields& fields) {
   fields.add("relative", c.relative, {.help = "`by` is in fractions of the diagonal"});
 }
 
-template <>
-Expected<void> Executor::execute(const MoveCommand& c) {
-  auto tool = find_tool(c.tool);
+Expected<void> execute(const MoveCommand& c, Act& act) {
+  auto tool = find_tool(act, c.tool);
   if (!tool) return std::unexpected(tool.error());
   double unit = 1;
   if (c.relative) {
-    const auto length = diagonal();
+    const auto length = diagonal(act);
     if (!length) return std::unexpected(length.error());
     unit = *length;
   }

@@ -11,8 +11,7 @@ struct MoveCommand {
   bool relative = false;  ///< `by` is in fractions of the bounding-box diagonal
 };
 
-template <>
-Expected<void> Executor::execute(const MoveCommand& c);
+Expected<void> execute(const MoveCommand& c, Act& act);
 void describe(MoveCommand& c, Fields& fields);
 
 }  // namespace knead

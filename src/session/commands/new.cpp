@@ -6,6 +6,7 @@
 #include <cmath>
 #include <variant>
 
+#include "../act.hpp"
 #include "../limits.hpp"
 #include "../new_body.hpp"
 #include "exchange/step/write/text.hpp"
@@ -215,16 +216,15 @@ void describe(NewCommand& c, Fields& fields) {
   fields.add("name", c.name, {.help = "its label in the file", .fallback = "its kind"});
 }
 
-template <>
-Expected<void> Executor::execute(const NewCommand& c) {
-  if (!document.is_fresh()) {
+Expected<void> execute(const NewCommand& c, Act& act) {
+  if (!act.document.is_fresh()) {
     return input_error("surfaces can only be made in a document without a file", {},
                        "start with `knead sculpt --new`, without a FILE");
   }
-  const bool first = state.surfaces.empty() && state.bodies.empty();
-  const std::string present = first                    ? document.unit()
-                              : state.surfaces.empty() ? common_of(state.bodies.front()).unit
-                                                       : state.surfaces.front().unit;
+  const bool first = act.state.surfaces.empty() && act.state.bodies.empty();
+  const std::string present = first                        ? act.document.unit()
+                              : act.state.surfaces.empty() ? common_of(act.state.bodies.front()).unit
+                                                           : act.state.surfaces.front().unit;
   const std::string unit = c.unit.value_or(present);
   if (!is_length_unit(unit)) {
     return input_error(fmt::format("\"{}\" is not a unit", unit), "unit", "use " + list_of_length_units());
@@ -233,34 +233,34 @@ Expected<void> Executor::execute(const NewCommand& c) {
     return input_error(fmt::format("the surfaces of this document are in {}", present), "unit",
                        "give lengths in that unit: a file has one");
   }
-  const std::string id = fmt::format("#{}", state.surfaces.size() + state.bodies.size() + 1);
-  state.together.clear();
+  const std::string id = fmt::format("#{}", act.state.surfaces.size() + act.state.bodies.size() + 1);
+  act.state.together.clear();
   if (makes_body(c)) {
     std::vector<std::string> notes;
     auto body = new_body(c, notes);
     if (!body) return std::unexpected(body.error());
-    state.notes.insert(state.notes.end(), notes.begin(), notes.end());
-    if (auto fits = check_document_size(state, control_points_of(*body).rows()); !fits) return fits;
+    act.state.notes.insert(act.state.notes.end(), notes.begin(), notes.end());
+    if (auto fits = check_document_size(act.state, control_points_of(*body).rows()); !fits) return fits;
     const auto label = [&](auto& s) {
       s.id = id;
       s.name = c.name.value_or(!c.points.empty() ? c.shape : s.name);
       s.unit = unit;
     };
     std::visit(label, *body);
-    state.bodies.push_back(*std::move(body));
-    state.body = static_cast<int>(state.bodies.size()) - 1;
-    state.selected.reset();
+    act.state.bodies.push_back(*std::move(body));
+    act.state.body = static_cast<int>(act.state.bodies.size()) - 1;
+    act.state.selected.reset();
     return {};
   }
   auto made = shape_of(c);
   if (!made) return std::unexpected(made.error());
-  if (auto fits = check_document_size(state, made->size()); !fits) return fits;
+  if (auto fits = check_document_size(act.state, made->size()); !fits) return fits;
   auto at = placed(*std::move(made), c.position);
   if (!at) return std::unexpected(at.error().within("position"));
   const std::string name = c.name.value_or(!c.points.empty() ? "surface" : c.shape == "plane" ? "sheet" : c.shape);
-  state.surfaces.push_back(untouched<2>(id, name, unit, std::make_shared<const Surface>(*std::move(at))));
-  state.selected = static_cast<int>(state.surfaces.size()) - 1;
-  state.body.reset();
+  act.state.surfaces.push_back(untouched<2>(id, name, unit, std::make_shared<const Surface>(*std::move(at))));
+  act.state.selected = static_cast<int>(act.state.surfaces.size()) - 1;
+  act.state.body.reset();
   return {};
 }
 

@@ -38,8 +38,7 @@ struct NewCommand {
   return list.size() == 1 ? list[0] : list[d];
 }
 
-template <>
-Expected<void> Executor::execute(const NewCommand& c);
+Expected<void> execute(const NewCommand& c, Act& act);
 void describe(NewCommand& c, Fields& fields);
 
 /// The error for a measure that the shape of the command does not have; nothing for other fields.

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "../components.hpp"
+#include "../holding.hpp"
+#include "../selection.hpp"
 #include "scene/places.hpp"
 
 namespace knead {
@@ -27,7 +29,7 @@ void describe(PinCommand& c, Fields& fields) {
 namespace {
 
 template <int D>
-Expected<void> pin(Executor& executor, SceneShape<D>& s, const PinCommand& c) {
+Expected<void> pin(Act& act, SceneShape<D>& s, const PinCommand& c) {
   constexpr const char* give_at = D == 2 ? "give at, the surface point" : "give at, the point";
   if (c.to && !c.at) return input_error("there is no point to move there", "to", give_at);
   if (c.control_points.empty() && !c.at) {
@@ -54,25 +56,24 @@ Expected<void> pin(Executor& executor, SceneShape<D>& s, const PinCommand& c) {
     }
     s.pins.insert(point);
   }
-  if (!c.at) return D == 2 ? Expected<void>() : executor.check_constraints();
+  if (!c.at) return D == 2 ? Expected<void>() : check_constraints(act);
   if (auto u = parameters_at<D>(*s.rest, *c.at); !u) return std::unexpected(u.error());
   PointPinOf<D> place{.to = c.to, .components = *components};
   std::ranges::copy(*c.at, place.at.begin());
   s.constraints.push_back({std::move(place), s.current});
   // Points belong to one surface.
-  const std::vector<int> others = std::exchange(executor.state.together, {});
-  auto done = executor.check_constraints();
-  executor.state.together = others;
+  const std::vector<int> others = std::exchange(act.state.together, {});
+  auto done = check_constraints(act);
+  act.state.together = others;
   return done;
 }
 
 }  // namespace
 
-template <>
-Expected<void> Executor::execute(const PinCommand& c) {
-  if (state.body) return std::visit([&](auto& s) { return pin(*this, s, c); }, *body());
-  auto surface = selected();
-  return surface ? pin(*this, **surface, c) : std::unexpected(surface.error());
+Expected<void> execute(const PinCommand& c, Act& act) {
+  if (act.state.body) return std::visit([&](auto& s) { return pin(act, s, c); }, *body(act));
+  auto surface = selected(act);
+  return surface ? pin(act, **surface, c) : std::unexpected(surface.error());
 }
 
 }  // namespace knead

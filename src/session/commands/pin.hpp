@@ -13,8 +13,7 @@ struct PinCommand {
   std::optional<std::string> components = {};    ///< of that point: "x", "yz", …; default: all
 };
 
-template <>
-Expected<void> Executor::execute(const PinCommand& c);
+Expected<void> execute(const PinCommand& c, Act& act);
 void describe(PinCommand& c, Fields& fields);
 
 }  // namespace knead

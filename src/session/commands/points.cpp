@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "../selection.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/extremum.hpp"
 #include "scene/places.hpp"
@@ -79,12 +80,12 @@ void describe(PointsCommand& c, Fields& fields) {
 namespace {
 
 template <int D>
-Expected<std::vector<int>> named_of(Executor& executor, const NamedPoints& named, const Spline<D>& shape) {
+Expected<std::vector<int>> named_of(Act& act, const NamedPoints& named, const Spline<D>& shape) {
   if constexpr (D == 2) {
     return indices_of(named, shape.net());
   } else {
-    if (!named.rows_u.empty()) return executor.of_surfaces("rows_u", "give which");
-    if (!named.rows_v.empty()) return executor.of_surfaces("rows_v", "give which");
+    if (!named.rows_u.empty()) return of_surfaces(act, "rows_u", "give which");
+    if (!named.rows_v.empty()) return of_surfaces(act, "rows_v", "give which");
     std::vector<int> points;
     for (std::size_t k = 0; k < named.which.size(); ++k) {
       const int number = named.which[k];
@@ -100,14 +101,13 @@ Expected<std::vector<int>> named_of(Executor& executor, const NamedPoints& named
 }
 
 /// All control points after the command.
-Expected<Points> points_after(Executor& executor, const PointsCommand& c, const std::vector<int>& named,
-                              const Points& before) {
+Expected<Points> points_after(Act& act, const PointsCommand& c, const std::vector<int>& named, const Points& before) {
   if (c.by.has_value() == !c.to.empty()) {
     return input_error("one of by and to is needed", "by", "give [dx, dy, dz], or a list of positions");
   }
   if (!c.to.empty() && c.relative) {
     return input_error("positions are not relative", "relative",
-                       executor.state.body ? "leave it out" : "leave it out, or give by");
+                       act.state.body ? "leave it out" : "leave it out, or give by");
   }
   if (!c.to.empty() && c.to.size() != named.size()) {
     return input_error(fmt::format("{} positions for {} control points", c.to.size(), named.size()), "to",
@@ -115,7 +115,7 @@ Expected<Points> points_after(Executor& executor, const PointsCommand& c, const 
   }
   double unit = 1;
   if (c.relative) {
-    const auto length = executor.diagonal();
+    const auto length = diagonal(act);
     if (!length) return std::unexpected(length.error());
     unit = *length;
   }
@@ -132,9 +132,8 @@ Expected<Points> points_after(Executor& executor, const PointsCommand& c, const 
 }
 
 /// Whether a limit allows a surface to become this one.
-Expected<void> within_limit(const Executor& executor, const SceneSurface& s, const Surface& current,
-                            const char* field) {
-  const std::optional<double>& limit = executor.state.limit;
+Expected<void> within_limit(const Act& act, const SceneSurface& s, const Surface& current, const char* field) {
+  const std::optional<double>& limit = act.state.limit;
   if (!limit) return {};
   const double was = largest_distance(*s.current, *s.opened), is = largest_distance(current, *s.opened);
   if (is <= *limit * (1 + limit_tolerance) || is <= was) return {};
@@ -175,10 +174,10 @@ Expected<void> move_all(SceneShape<D>& s, const std::vector<int>& named, std::sh
 }
 
 template <int D>
-Expected<void> move_by_hand(Executor& executor, SceneShape<D>& s, const PointsCommand& c) {
-  const auto named = named_of<D>(executor, c.points, *s.current);
+Expected<void> move_by_hand(Act& act, SceneShape<D>& s, const PointsCommand& c) {
+  const auto named = named_of<D>(act, c.points, *s.current);
   if (!named) return std::unexpected(named.error());
-  const auto after = points_after(executor, c, *named, s.current->control_points());
+  const auto after = points_after(act, c, *named, s.current->control_points());
   if (!after) return std::unexpected(after.error());
   if constexpr (D == 2) {
     if (auto may = allowed(s, *named, *after - s.current->control_points()); !may) return may;
@@ -193,18 +192,17 @@ Expected<void> move_by_hand(Executor& executor, SceneShape<D>& s, const PointsCo
   }
   auto current = std::make_shared<const Spline<D>>(*std::move(moved));
   if constexpr (D == 2) {
-    if (auto within = within_limit(executor, s, *current, field); !within) return within;
+    if (auto within = within_limit(act, s, *current, field); !within) return within;
   }
   return move_all<D>(s, *named, std::move(current));
 }
 
 }  // namespace
 
-template <>
-Expected<void> Executor::execute(const PointsCommand& c) {
-  if (state.body) return std::visit([&](auto& s) { return move_by_hand(*this, s, c); }, *body());
-  auto surface = selected_alone();
-  return surface ? move_by_hand(*this, **surface, c) : std::unexpected(surface.error());
+Expected<void> execute(const PointsCommand& c, Act& act) {
+  if (act.state.body) return std::visit([&](auto& s) { return move_by_hand(act, s, c); }, *body(act));
+  auto surface = selected_alone(act);
+  return surface ? move_by_hand(act, **surface, c) : std::unexpected(surface.error());
 }
 
 }  // namespace knead

@@ -15,8 +15,7 @@ struct PointsCommand {
   std::optional<ThroughAllowance> allow = {};
 };
 
-template <>
-Expected<void> Executor::execute(const PointsCommand& c);
+Expected<void> execute(const PointsCommand& c, Act& act);
 void describe(PointsCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "../limits.hpp"
+#include "../refining.hpp"
+#include "../selection.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "scene/places.hpp"
 
@@ -36,30 +38,29 @@ namespace {
 bool names_nothing(const RefineCommand& c) { return !c.under && !c.region && c.knots_u.empty() && c.knots_v.empty(); }
 
 /// Halves all spans of the selected curve or volume.
-Expected<void> halve(Executor& executor, const RefineCommand& c) {
+Expected<void> halve(Act& act, const RefineCommand& c) {
   constexpr const char* all = "leave it out: every span is halved";
-  if (c.under) return executor.of_surfaces("under", all);
-  if (c.region) return executor.of_surfaces("region", all);
-  if (!names_nothing(c)) return executor.of_surfaces(c.knots_u.empty() ? "knots_v" : "knots_u", all);
-  SceneBody& body = *executor.body();
-  const std::string& id = common_of(body).id;
+  if (c.under) return of_surfaces(act, "under", all);
+  if (c.region) return of_surfaces(act, "region", all);
+  if (!names_nothing(c)) return of_surfaces(act, c.knots_u.empty() ? "knots_v" : "knots_u", all);
+  SceneBody& chosen = *body(act);
+  const std::string& id = common_of(chosen).id;
   double size = 1;
-  for (const int n : net_of(body)) size *= 2.0 * n;
+  for (const int n : net_of(chosen)) size *= 2.0 * n;
   if (size > static_cast<double>(max_net_size)) {
     return input_error(fmt::format("the net could get more than {} control points", max_net_size), id,
                        "work on a smaller net");
   }
-  if (auto done = halve_spans(body); !done) return done;
-  executor.state.notes.push_back(fmt::format("{}: the net is now {}", id, fmt::join(net_of(body), " by ")));
+  if (auto done = halve_spans(chosen); !done) return done;
+  act.state.notes.push_back(fmt::format("{}: the net is now {}", id, fmt::join(net_of(chosen), " by ")));
   return {};
 }
 
 }  // namespace
 
-template <>
-Expected<void> Executor::execute(const RefineCommand& c) {
-  if (state.body && (!c.permission || !names_nothing(c))) return halve(*this, c);
-  if (c.permission) state.permission = *c.permission;
+Expected<void> execute(const RefineCommand& c, Act& act) {
+  if (act.state.body && (!c.permission || !names_nothing(c))) return halve(act, c);
+  if (c.permission) act.state.permission = *c.permission;
   const bool knots = !c.knots_u.empty() || !c.knots_v.empty();
   const int ways =
       static_cast<int>(c.region.has_value()) + static_cast<int>(c.under.has_value()) + static_cast<int>(knots);
@@ -67,30 +68,30 @@ Expected<void> Executor::execute(const RefineCommand& c) {
   if (ways != 1) {
     return input_error("what to refine is not clear", "region", "give one of region, under, and knots_u with knots_v");
   }
-  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   if (c.under) {
-    auto tool = find_tool(c.under);
+    auto tool = find_tool(act, c.under);
     if (!tool) return std::unexpected(tool.error());
-    const auto any = refine_under(**tool);
+    const auto any = refine_under(act, **tool);
     if (!any) return std::unexpected(any.error());
     if (!*any)
       return input_error(fmt::format("the tool {} does not reach the surface", *c.under), "under", "move it nearer");
     return {};
   }
-  for (int index : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+  for (int index : act.state.selection()) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];
     Expected<void> done;
     if (c.region) {
       const auto region = region_at(*s.current, *c.region);
       if (!region) return std::unexpected(region.error());
-      done = change_net(s, [&](const Surface& shape) { return refine_region<2>(shape, *region); });
+      done = change_net(act, s, [&](const Surface& shape) { return refine_region<2>(shape, *region); });
     } else {
       const auto [m, n] = s.current->net();
       const auto finer = [](int count, const std::vector<double>& added) {
         return count + static_cast<int>(std::min<std::size_t>(added.size(), max_net_size));
       };
       if (auto fits = check_net_size({finer(m, c.knots_u), finer(n, c.knots_v)}); !fits) return fits;
-      done = change_net(s, [&](const Surface& shape) { return insert_knots<2>(shape, {c.knots_u, c.knots_v}); });
+      done = change_net(act, s, [&](const Surface& shape) { return insert_knots<2>(shape, {c.knots_u, c.knots_v}); });
     }
     if (!done) return done;
   }

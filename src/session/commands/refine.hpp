@@ -15,8 +15,7 @@ struct RefineCommand {
 
 std::span<const Choice> choices(RefinePermission);
 
-template <>
-Expected<void> Executor::execute(const RefineCommand& c);
+Expected<void> execute(const RefineCommand& c, Act& act);
 void describe(RefineCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "../limits.hpp"
+#include "../selection.hpp"
+#include "../stepping.hpp"
 #include "knead/energy/domain_scaling.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "scene/places.hpp"
@@ -72,15 +75,14 @@ void describe(RelaxCommand& c, Fields& fields) {
   describe_allowance(c.allow, fields);
 }
 
-template <>
-Expected<void> Executor::execute(const RelaxCommand& c) {
-  const auto chosen = selected_surface(c.surface);
+Expected<void> execute(const RelaxCommand& c, Act& act) {
+  const auto chosen = selected_surface(act, c.surface);
   if (!chosen) return std::unexpected(chosen.error());
-  const SceneSurface& surface = state.surfaces[static_cast<std::size_t>(*chosen)];
+  const SceneSurface& surface = act.state.surfaces[static_cast<std::size_t>(*chosen)];
   if (!(c.strength > 0 && c.strength <= 1)) {
     return input_error(fmt::format("{} is not a strength", c.strength), "strength", "use a number > 0, up to 1");
   }
-  const auto length = diagonal();
+  const auto length = diagonal(act);
   if (!length) return std::unexpected(length.error());
   const double radius = c.radius ? *c.radius * (c.relative ? *length : 1) : 0.1 * *length;
   if (auto possible = check_radius(radius); !possible) return possible;
@@ -88,13 +90,13 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   if (!centre_at) return std::unexpected(centre_at.error());
   const auto centre = evaluate_point<2>(*surface.current, *centre_at);
   if (!centre) return std::unexpected(centre.error());
-  const auto scaling = normalised_scaling(*state.surfaces[static_cast<std::size_t>(*state.selected)].reference);
+  const auto scaling = normalised_scaling(*act.state.surfaces[static_cast<std::size_t>(*act.state.selected)].reference);
   if (!scaling) return std::unexpected(scaling.error());
 
   // A thin plate without a rest shape, with everything outside pinned: the step of the model in a state of its
   // own.
   const double unit_radius = radius / scaling->length, bend = bend_share * unit_radius * unit_radius;
-  SessionState trial = state;
+  SessionState trial = act.state;
   trial.tools.clear();
   trial.forces.clear();
   trial.load = {};
@@ -119,14 +121,14 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   EvolutionPolicy plate;
   const double share = std::min(c.strength, 0.999);  // 1 would be the static solution
   plate.lambda = resistance / (unit_radius * unit_radius) * (1 - share) / share;
-  Models own_models;  // those of steps stay
-  std::optional<StrokeModel> unused;
-  std::optional<BrushRun> unused_run;
-  Executor own{document, own_models, unused, unused_run, conditions, faces, trial, progress};
-  if (auto done = own.run(1, plate); !done) return done;
+  Act own{act.document, trial, act.cache, act.progress};
+  Models of_steps = std::exchange(act.cache.models, {});  // they stay
+  const auto done = run(own, 1, plate);
+  act.cache.models = std::move(of_steps);
+  if (!done) return done;
 
-  for (int index : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+  for (int index : act.state.selection()) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];
     const auto& relaxed = trial.surfaces[static_cast<std::size_t>(index)].current;
     if (relaxed->control_points() == s.current->control_points()) continue;
     auto rest =

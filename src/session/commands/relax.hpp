@@ -15,8 +15,7 @@ struct RelaxCommand {
   std::optional<ThroughAllowance> allow = {};
 };
 
-template <>
-Expected<void> Executor::execute(const RelaxCommand& c);
+Expected<void> execute(const RelaxCommand& c, Act& act);
 void describe(RelaxCommand& c, Fields& fields);
 
 }  // namespace knead

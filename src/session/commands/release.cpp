@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "../selection.hpp"
+
 namespace knead {
 namespace {
 
@@ -45,14 +47,13 @@ void describe(ReleaseCommand& c, Fields& fields) {
       {.help = "some of `hold`, `pins`, `edges`, `freeze`, `keep`, `symmetry`, `mask`", .fallback = "all of them"});
 }
 
-template <>
-Expected<void> Executor::execute(const ReleaseCommand& c) {
-  if (auto some = some_selected(); !some) return some;
+Expected<void> execute(const ReleaseCommand& c, Act& act) {
+  if (auto some = some_selected(act); !some) return some;
   if (auto known = check_release(c); !known) return known;
   const auto meant = [&](std::string_view kind) {
     return !c.what || std::ranges::find(*c.what, kind) != c.what->end();
   };
-  return each_selected([&]<int D>(SceneShape<D>& s) -> Expected<void> {
+  return each_selected(act, [&]<int D>(SceneShape<D>& s) -> Expected<void> {
     if (meant("hold")) s.hold_rows = 0;
     if (meant("pins")) s.pins.clear();
     std::erase_if(s.constraints, [&](const KeptConstraintOf<D>& kept) {

@@ -10,8 +10,7 @@ struct ReleaseCommand {
   std::optional<std::vector<std::string>> what;  ///< left out: all
 };
 
-template <>
-Expected<void> Executor::execute(const ReleaseCommand& c);
+Expected<void> execute(const ReleaseCommand& c, Act& act);
 void describe(ReleaseCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -11,8 +11,7 @@ struct RemoveCommand {
   std::optional<std::string> measurement;  ///< its name, instead of a tool
 };
 
-template <>
-Expected<void> Executor::execute(const RemoveCommand& c);
+Expected<void> execute(const RemoveCommand& c, Act& act);
 void describe(RemoveCommand& c, Fields& fields);
 
 }  // namespace knead

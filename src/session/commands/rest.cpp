@@ -1,5 +1,7 @@
 #include "rest.hpp"
 
+#include "../selection.hpp"
+
 namespace knead {
 
 std::span<const Choice> choices(RestMode) {
@@ -15,10 +17,9 @@ void describe(RestCommand& c, Fields& fields) {
   fields.add("mode", c.mode, {.help = "of what the energy is"});
 }
 
-template <>
-Expected<void> Executor::execute(const RestCommand& c) {
-  if (auto some = some_selected(); !some) return some;
-  return each_selected([&](auto& s) -> Expected<void> {
+Expected<void> execute(const RestCommand& c, Act& act) {
+  if (auto some = some_selected(act); !some) return some;
+  return each_selected(act, [&](auto& s) -> Expected<void> {
     s.rest = s.reference = s.current;
     s.mode = c.mode;
     return {};

@@ -12,8 +12,7 @@ struct RestCommand {
 
 std::span<const Choice> choices(RestMode);
 
-template <>
-Expected<void> Executor::execute(const RestCommand& c);
+Expected<void> execute(const RestCommand& c, Act& act);
 void describe(RestCommand& c, Fields& fields);
 
 }  // namespace knead

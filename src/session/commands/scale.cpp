@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "../selection.hpp"
+
 namespace knead {
 
 void describe(ScaleCommand& c, Fields& fields) {
@@ -10,9 +12,8 @@ void describe(ScaleCommand& c, Fields& fields) {
   fields.add("by", c.by, {.help = "`[a, b, c]`, factors > 0", .presence = Presence::required});
 }
 
-template <>
-Expected<void> Executor::execute(const ScaleCommand& c) {
-  auto tool = find_tool(c.tool);
+Expected<void> execute(const ScaleCommand& c, Act& act) {
+  auto tool = find_tool(act, c.tool);
   if (!tool) return std::unexpected(tool.error());
   Placement at = (*tool)->shape.placement();
   for (std::size_t k = 0; k < 3; ++k) {

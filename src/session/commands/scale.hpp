@@ -11,8 +11,7 @@ struct ScaleCommand {
   Vector3 by = {1, 1, 1};
 };
 
-template <>
-Expected<void> Executor::execute(const ScaleCommand& c);
+Expected<void> execute(const ScaleCommand& c, Act& act);
 void describe(ScaleCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -1,5 +1,7 @@
 #include "scaling.hpp"
 
+#include "../act.hpp"
+
 namespace knead {
 
 std::span<const Choice> choices(ScalingMode) {
@@ -14,9 +16,8 @@ void describe(ScalingCommand& c, Fields& fields) {
   fields.add("mode", c.mode, {.help = "in which units numbers are"});
 }
 
-template <>
-Expected<void> Executor::execute(const ScalingCommand& c) {
-  state.scaling = c.mode;
+Expected<void> execute(const ScalingCommand& c, Act& act) {
+  act.state.scaling = c.mode;
   return {};
 }
 

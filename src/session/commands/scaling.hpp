@@ -11,8 +11,7 @@ struct ScalingCommand {
 
 std::span<const Choice> choices(ScalingMode);
 
-template <>
-Expected<void> Executor::execute(const ScalingCommand& c);
+Expected<void> execute(const ScalingCommand& c, Act& act);
 void describe(ScalingCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "../act.hpp"
+
 namespace knead {
 
 void describe(SeamsCommand& c, Fields& fields) {
@@ -17,12 +19,11 @@ void describe(SeamsCommand& c, Fields& fields) {
                "freedom"});
 }
 
-template <>
-Expected<void> Executor::execute(const SeamsCommand& c) {
+Expected<void> execute(const SeamsCommand& c, Act& act) {
   if (c.seams.tolerance && !(*c.seams.tolerance > 0)) {
     return input_error(fmt::format("{} is not a tolerance", *c.seams.tolerance), "tolerance", "use a length > 0");
   }
-  state.seams = c.seams;
+  act.state.seams = c.seams;
   return {};
 }
 

@@ -10,8 +10,7 @@ struct SeamsCommand {
   SeamPolicy seams;
 };
 
-template <>
-Expected<void> Executor::execute(const SeamsCommand& c);
+Expected<void> execute(const SeamsCommand& c, Act& act);
 void describe(SeamsCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "../holding.hpp"
+#include "../selection.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/energy/domain_scaling.hpp"
 
@@ -74,20 +76,19 @@ void describe(SelectCommand& c, Fields& fields) {
              {.help = "id of a curve or a volume, instead; it is selected alone. Those of a file are its free curves"});
 }
 
-template <>
-Expected<void> Executor::execute(const SelectCommand& c) {
+Expected<void> execute(const SelectCommand& c, Act& act) {
   if (c.body) {
     if (c.surface || c.surfaces || c.connected) {
       return input_error("both surfaces and a body are named", "body", "curves and volumes are selected alone");
     }
-    return select_body(*c.body, document, state);
+    return select_body(*c.body, act.document, act.state);
   }
   std::vector<std::string> ids = c.surfaces.value_or(std::vector<std::string>{});
   if (c.surface) ids.insert(ids.begin(), *c.surface);
   if (ids.empty()) return input_error("the field is missing", "surface", "give \"surface\", \"surfaces\" or \"body\"");
   std::vector<int> chosen;
   for (const std::string& id : ids) {
-    auto index = find_surface(id);
+    auto index = find_surface(act, id);
     if (!index) {
       if (&id - ids.data() >= (c.surface ? 1 : 0) && index.error().where == "surface") index.error().where = "surfaces";
       return std::unexpected(index.error());
@@ -95,14 +96,14 @@ Expected<void> Executor::execute(const SelectCommand& c) {
     if (std::ranges::find(chosen, *index) == chosen.end()) chosen.push_back(*index);
   }
   if (c.connected) {
-    auto all = connected(std::move(chosen), state);
+    auto all = connected(std::move(chosen), act.state);
     if (!all) return std::unexpected(all.error());
     chosen = std::move(*all);
   }
-  state.body.reset();
-  state.selected = chosen.front();
-  state.together.assign(chosen.begin() + 1, chosen.end());
-  hold_likewise();
+  act.state.body.reset();
+  act.state.selected = chosen.front();
+  act.state.together.assign(chosen.begin() + 1, chosen.end());
+  hold_likewise(act);
   return {};
 }
 

@@ -14,8 +14,7 @@ struct SelectCommand {
   std::optional<std::string> body;                   ///< a curve or a volume, instead of surfaces
 };
 
-template <>
-Expected<void> Executor::execute(const SelectCommand& c);
+Expected<void> execute(const SelectCommand& c, Act& act);
 void describe(SelectCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -1,5 +1,7 @@
 #include "smooth.hpp"
 
+#include "../selection.hpp"
+
 namespace knead {
 
 void describe(SmoothCommand& c, Fields& fields) {
@@ -9,11 +11,10 @@ void describe(SmoothCommand& c, Fields& fields) {
   fields.add("poles", c.poles, {.help = "edges collapsed to a point keep their tangent plane"});
 }
 
-template <>
-Expected<void> Executor::execute(const SmoothCommand& c) {
-  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
-  for (int k : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+Expected<void> execute(const SmoothCommand& c, Act& act) {
+  if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
+  for (int k : act.state.selection()) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
     s.smooth_knot_lines = c.knot_lines;
     s.smooth_poles = c.poles;
   }

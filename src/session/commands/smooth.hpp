@@ -10,8 +10,7 @@ struct SmoothCommand {
   bool poles = true;
 };
 
-template <>
-Expected<void> Executor::execute(const SmoothCommand& c);
+Expected<void> execute(const SmoothCommand& c, Act& act);
 void describe(SmoothCommand& c, Fields& fields);
 
 }  // namespace knead

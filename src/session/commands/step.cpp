@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "../limits.hpp"
+#include "../selection.hpp"
+#include "../stepping.hpp"
 
 namespace knead {
 
@@ -25,20 +27,19 @@ void describe(StepCommand& c, Fields& fields) {
              {.help = "of a shell: the load is applied in this many equal parts", .fallback = "1"});
 }
 
-template <>
-Expected<void> Executor::execute(const StepCommand& c) {
+Expected<void> execute(const StepCommand& c, Act& act) {
   if (auto few = check_steps(c.count, "count", 0); !few) return few;
-  EvolutionPolicy evolution = state.evolution;
+  EvolutionPolicy evolution = act.state.evolution;
   if (c.lambda) evolution.lambda = *c.lambda;
   if (c.weight) evolution.weight = *c.weight;
-  if (state.body && c.increments) return of_surfaces("increments");
+  if (act.state.body && c.increments) return of_surfaces(act, "increments");
   if (c.increments) {
     if (auto few = check_steps(*c.increments, "increments", 1); !few) return few;
   }
-  increments = c.increments;
-  allow_held = c.allow == StepAllowance::held || c.allow == StepAllowance::all;
-  may_stop = !state.body;
-  return run(c.count, evolution);
+  act.increments = c.increments;
+  act.allow_held = c.allow == StepAllowance::held || c.allow == StepAllowance::all;
+  act.may_stop = !act.state.body;
+  return run(act, c.count, evolution);
 }
 
 }  // namespace knead

@@ -20,8 +20,7 @@ struct StepCommand {
   std::optional<int> increments = {};  ///< of a shell; default: 1
 };
 
-template <>
-Expected<void> Executor::execute(const StepCommand& c);
+Expected<void> execute(const StepCommand& c, Act& act);
 void describe(StepCommand& c, Fields& fields);
 
 }  // namespace knead

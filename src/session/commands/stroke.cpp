@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include "../limits.hpp"
+#include "../selection.hpp"
+#include "../stepping.hpp"
+#include "../stroking.hpp"
 
 namespace knead {
 namespace {
@@ -44,47 +47,47 @@ void describe(StrokeCommand& c, Fields& fields) {
   describe_allowance(c.allow, fields);
 }
 
-template <>
-Expected<void> Executor::execute(const StrokeCommand& c) {
-  if (state.stroke && (c.plastic == StrokePlasticity::release || (c.tool && *c.tool != state.stroke->tool))) {
-    if (auto lifted = lift(); !lifted) return lifted;
+Expected<void> execute(const StrokeCommand& c, Act& act) {
+  if (act.state.stroke && (c.plastic == StrokePlasticity::release || (c.tool && *c.tool != act.state.stroke->tool))) {
+    if (auto lifted = lift(act); !lifted) return lifted;
   }
-  auto tool = find_tool(c.tool ? c.tool : state.stroke ? std::optional(state.stroke->tool) : std::nullopt);
+  auto tool = find_tool(act, c.tool ? c.tool : act.state.stroke ? std::optional(act.state.stroke->tool) : std::nullopt);
   if (!tool) return std::unexpected(tool.error());
-  if (c.path.empty() && !state.stroke) {
+  if (c.path.empty() && !act.state.stroke) {
     return input_error("the path has no positions", "path", "give one or more: [[x, y, z], ...]");
   }
   if (auto few = check_steps(c.steps, "steps", 1, c.path.size()); !few) return few;
   if (!(c.plasticity >= 0 && c.plasticity <= 1)) {
     return input_error(fmt::format("{} is not a plasticity", c.plasticity), "plasticity", "use a number from 0 to 1");
   }
-  const auto length = diagonal();
+  const auto length = diagonal(act);
   if (!length) return std::unexpected(length.error());
   const PlacedShape before = (*tool)->shape;
   const Placement& at = before.placement();
-  const Point home = state.stroke ? state.stroke->home : at.position;
+  const Point home = act.state.stroke ? act.state.stroke->home : at.position;
   std::vector<Point> points;
   for (const Vector3& given : c.path) {
     points.emplace_back(given[0], given[1], given[2]);
     if (c.relative) points.back() = home + *length * points.back();
   }
-  if (state.stroke || leaves_along(c, state)) {
-    if (!state.stroke) {
-      if (auto begun = begin_stroke((*tool)->name, c.plasticity); !begun) return begun;
+  if (act.state.stroke || leaves_along(c, act.state)) {
+    if (!act.state.stroke) {
+      if (auto begun = begin_stroke(act, (*tool)->name, c.plasticity); !begun) return begun;
     }
-    if (auto done = stroke_to(points); !done) return done;
-    return c.open.value_or(false) ? Expected<void>() : lift();
+    if (auto done = stroke_to(act, points); !done) return done;
+    return c.open.value_or(false) ? Expected<void>() : lift(act);
   }
-  const auto index = static_cast<std::size_t>(*tool - state.tools.data());
+  const auto index = static_cast<std::size_t>(*tool - act.state.tools.data());
   const int total = c.steps * static_cast<int>(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
     auto moved = before.moved(at.rotation, points[k]);
     if (!moved) return std::unexpected(moved.error().within(fmt::format("path[{}]", k)));
-    state.tools[index].shape = std::move(*moved);
-    if (auto done = run(c.steps, state.evolution, {}, static_cast<int>(k) * c.steps, total); !done) return done;
+    act.state.tools[index].shape = std::move(*moved);
+    if (auto done = run(act, c.steps, act.state.evolution, {}, static_cast<int>(k) * c.steps, total); !done)
+      return done;
   }
-  state.tools[index].shape = before;
-  return yield(c.plasticity);
+  act.state.tools[index].shape = before;
+  return yield(act, c.plasticity);
 }
 
 }  // namespace knead

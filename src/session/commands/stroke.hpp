@@ -25,8 +25,7 @@ struct StrokeCommand {
   std::optional<ThroughAllowance> allow = {};
 };
 
-template <>
-Expected<void> Executor::execute(const StrokeCommand& c);
+Expected<void> execute(const StrokeCommand& c, Act& act);
 void describe(StrokeCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "../holding.hpp"
+#include "../selection.hpp"
 #include "knead/hold/constraints.hpp"
 #include "refine.hpp"
 
@@ -18,9 +20,8 @@ void describe(SymmetryCommand& c, Fields& fields) {
   fields.add("normal", c.normal, {.help = "`[x, y, z]` of the plane", .fallback = "for `mirror`: of the best plane"});
 }
 
-template <>
-Expected<void> Executor::execute(const SymmetryCommand& c) {
-  auto surface = selected();
+Expected<void> execute(const SymmetryCommand& c, Act& act) {
+  auto surface = selected(act);
   if (!surface) return std::unexpected(surface.error());
   if (c.edge.has_value() == c.mirror.has_value()) {
     return input_error("one of edge and mirror is needed", "symmetry", "give exactly one of them");
@@ -29,7 +30,7 @@ Expected<void> Executor::execute(const SymmetryCommand& c) {
   if (c.mirror && *c.mirror != "u" && *c.mirror != "v") {
     return input_error(fmt::format("\"{}\" is not a direction", *c.mirror), "mirror", "use u or v");
   }
-  if (c.mirror && state.permission == RefinePermission::automatic) {
+  if (c.mirror && act.state.permission == RefinePermission::automatic) {
     // Exactly the knots that make the net symmetric.
     const int direction = *c.mirror == "u" ? 0 : 1;
     const auto plane = mirror_plane(*(*surface)->reference, direction);
@@ -39,15 +40,15 @@ Expected<void> Executor::execute(const SymmetryCommand& c) {
     if (!report->insert.empty()) {
       RefineCommand refine;
       (direction == 0 ? refine.knots_u : refine.knots_v) = report->insert;
-      if (auto done = execute(refine); !done) return done;
+      if (auto done = execute(refine, act); !done) return done;
     }
   }
   std::optional<MirrorPlane> plane;
   if (c.point && c.normal) {
     plane = {Point((*c.point)[0], (*c.point)[1], (*c.point)[2]), Point((*c.normal)[0], (*c.normal)[1], (*c.normal)[2])};
   }
-  if (c.edge) return keep(EdgeSymmetry{*c.edge, *plane});
-  return keep(MirrorSymmetry{*c.mirror == "u" ? 0 : 1, plane});
+  if (c.edge) return keep(act, EdgeSymmetry{*c.edge, *plane});
+  return keep(act, MirrorSymmetry{*c.mirror == "u" ? 0 : 1, plane});
 }
 
 }  // namespace knead

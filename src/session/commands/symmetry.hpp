@@ -12,8 +12,7 @@ struct SymmetryCommand {
   std::optional<Vector3> point, normal;
 };
 
-template <>
-Expected<void> Executor::execute(const SymmetryCommand& c);
+Expected<void> execute(const SymmetryCommand& c, Act& act);
 void describe(SymmetryCommand& c, Fields& fields);
 
 }  // namespace knead

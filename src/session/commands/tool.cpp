@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../selection.hpp"
+#include "../trimming.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "scene/places.hpp"
 
@@ -12,7 +14,7 @@ namespace knead {
 namespace {
 
 /// The tool's position, rotation and scale.
-Expected<Placement> placement_of(const ToolCommand& c, double unit, Executor& executor) {
+Expected<Placement> placement_of(const ToolCommand& c, double unit, Act& act) {
   Placement placement;
   if (c.axis && c.orientation) {
     return input_error("both axis and orientation are given", "orientation", "give one of them");
@@ -31,9 +33,9 @@ Expected<Placement> placement_of(const ToolCommand& c, double unit, Executor& ex
   if (c.position) {
     placement.position = unit * point_of(*c.position);
   } else if (c.at || c.middle.value_or(false)) {
-    const auto surface = executor.selected();
+    const auto surface = selected(act);
     if (!surface) return std::unexpected(surface.error());
-    const auto point = point_at(executor, **surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
+    const auto point = point_at(act, **surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
     if (!point) return std::unexpected(point.error());
     placement.position = *point;
   }
@@ -54,8 +56,8 @@ Expected<Eigen::Quaterniond> rotation_of(const std::array<double, 4>& q) {
   return input_error("this is not a rotation", "orientation", "give a quaternion [x, y, z, w] that is not zero");
 }
 
-Expected<Point> point_at(Executor& executor, SceneSurface& surface, const SurfacePlace& place) {
-  const auto at = executor.place_on(surface, place);
+Expected<Point> point_at(Act& act, SceneSurface& surface, const SurfacePlace& place) {
+  const auto at = place_on(act, surface, place);
   if (!at) return std::unexpected(at.error());
   const auto u = parameters_at(*surface.current, *at);
   if (!u) return std::unexpected(u.error());
@@ -113,9 +115,8 @@ void describe(ToolCommand& c, Fields& fields) {
   fields.add("relative", c.relative, {.help = "lengths and position are fractions of the diagonal"});
 }
 
-template <>
-Expected<void> Executor::execute(const ToolCommand& c) {
-  if (auto some = some_selected(); !some) return some;
+Expected<void> execute(const ToolCommand& c, Act& act) {
+  if (auto some = some_selected(act); !some) return some;
   const bool on_surface = c.at || c.middle.value_or(false);
   const bool own_place = c.shape == "surface" && !c.position && !on_surface;  // a surface stays in place
   if (!own_place && c.position.has_value() == on_surface) {
@@ -127,14 +128,14 @@ Expected<void> Executor::execute(const ToolCommand& c) {
   const bool infinite = c.shape == "plane";
   double length = 0;
   if (c.relative || !c.measures.radius || infinite) {
-    const auto measured = diagonal();
+    const auto measured = diagonal(act);
     if (!measured) return std::unexpected(measured.error());
     length = *measured;
   }
   const double unit = c.relative ? length : 1;
-  const auto shape = make_shape(c.shape, c.measures, unit, length, *this);
+  const auto shape = make_shape(c.shape, c.measures, unit, length, act);
   if (!shape) return std::unexpected(shape.error());
-  const auto placement = placement_of(c, unit, *this);
+  const auto placement = placement_of(c, unit, act);
   if (!placement) return std::unexpected(placement.error());
   auto placed = PlacedShape::create(*shape, *placement);
   if (!placed) {
@@ -151,11 +152,11 @@ Expected<void> Executor::execute(const ToolCommand& c) {
   made.direction = c.direction;
   made.touches = c.touches;
   if (auto tool = validated(made); !tool) return std::unexpected(tool.error());
-  const auto same = std::ranges::find(state.tools, c.name, [](const Tool& t) { return t.name; });
-  if (same != state.tools.end()) {
+  const auto same = std::ranges::find(act.state.tools, c.name, [](const Tool& t) { return t.name; });
+  if (same != act.state.tools.end()) {
     *same = std::move(made);
   } else {
-    state.tools.push_back(std::move(made));
+    act.state.tools.push_back(std::move(made));
   }
   return {};
 }

@@ -33,8 +33,7 @@ std::span<const Choice> choices(ToolDirection);
 
 std::span<const Choice> choices(ToolTouch);
 
-template <>
-Expected<void> Executor::execute(const ToolCommand& c);
+Expected<void> execute(const ToolCommand& c, Act& act);
 void describe(ToolCommand& c, Fields& fields);
 
 /// The error for a field that the shape of the command does not have; nothing for other fields.
@@ -44,6 +43,6 @@ void describe(ToolCommand& c, Fields& fields);
 [[nodiscard]] Expected<Eigen::Quaterniond> rotation_of(const std::array<double, 4>& orientation);
 
 /// The surface point at fractions of the domain, or in the middle of the visible part. Errors: those of `place_on`.
-[[nodiscard]] Expected<Point> point_at(Executor& executor, SceneSurface& surface, const SurfacePlace& place);
+[[nodiscard]] Expected<Point> point_at(Act& act, SceneSurface& surface, const SurfacePlace& place);
 
 }  // namespace knead

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "../selection.hpp"
+
 namespace knead {
 
 void describe(TurnCommand& c, Fields& fields) {
@@ -14,9 +16,8 @@ void describe(TurnCommand& c, Fields& fields) {
               .presence = Presence::required});
 }
 
-template <>
-Expected<void> Executor::execute(const TurnCommand& c) {
-  auto tool = find_tool(c.tool);
+Expected<void> execute(const TurnCommand& c, Act& act) {
+  auto tool = find_tool(act, c.tool);
   if (!tool) return std::unexpected(tool.error());
   const Point axis(c.axis[0], c.axis[1], c.axis[2]);
   if (!(axis.norm() > 0)) return input_error("the axis has no direction", "axis", "use a vector that is not zero");

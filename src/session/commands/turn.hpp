@@ -12,8 +12,7 @@ struct TurnCommand {
   double angle = 0;  ///< degrees
 };
 
-template <>
-Expected<void> Executor::execute(const TurnCommand& c);
+Expected<void> execute(const TurnCommand& c, Act& act);
 void describe(TurnCommand& c, Fields& fields);
 
 }  // namespace knead

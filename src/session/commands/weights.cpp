@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "../refining.hpp"
+#include "../selection.hpp"
+
 namespace knead {
 
 void describe(WeightsCommand& c, Fields& fields) {
@@ -13,9 +16,8 @@ void describe(WeightsCommand& c, Fields& fields) {
   fields.add("by", c.by, {.help = "a factor > 0 by which each weight is multiplied"});
 }
 
-template <>
-Expected<void> Executor::execute(const WeightsCommand& c) {
-  auto surface = selected_alone();
+Expected<void> execute(const WeightsCommand& c, Act& act) {
+  auto surface = selected_alone(act);
   if (!surface) return std::unexpected(surface.error());
   SceneSurface& s = **surface;
   const auto named = indices_of(c.points, s.current->net());
@@ -41,7 +43,7 @@ Expected<void> Executor::execute(const WeightsCommand& c) {
     }
   }
   return change_basis(
-      s, [&](const Surface& shape) { return Surface::create(shape.knots(), shape.control_points(), weights); });
+      act, s, [&](const Surface& shape) { return Surface::create(shape.knots(), shape.control_points(), weights); });
 }
 
 }  // namespace knead

@@ -11,8 +11,7 @@ struct WeightsCommand {
   std::optional<double> by;      ///< a factor > 0
 };
 
-template <>
-Expected<void> Executor::execute(const WeightsCommand& c);
+Expected<void> execute(const WeightsCommand& c, Act& act);
 void describe(WeightsCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -1,3 +1,5 @@
+#include "holding.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -5,9 +7,11 @@
 #include <numbers>
 #include <ranges>
 
-#include "executor.hpp"
+#include "following.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/scene/trims.hpp"
+#include "selection.hpp"
+#include "trimming.hpp"
 
 namespace knead {
 namespace {
@@ -76,19 +80,47 @@ bool nothing_said(const SceneSurface& s) {
 
 }  // namespace
 
-void Executor::hold_likewise() {
+Expected<void> keep(Act& act, const Constraint& constraint) {
+  if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
+  for (int k : act.state.selection()) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+    s.constraints.push_back({constraint, s.current});
+  }
+  return check_constraints(act);
+}
+
+Expected<void> check_constraints(Act& act) {
+  if (act.state.body) {
+    const auto check = [&]<int D>(const SceneShape<D>&) -> Expected<void> {
+      const auto model = make_model(model_input<D>(act.state, trial_evolution()));
+      return model ? Expected<void>() : std::unexpected(model.error());
+    };
+    return std::visit(check, *body(act));
+  }
+  if (auto known = know_trims(act); !known) return known;
+  if (auto known = know_followed(act); !known) return known;
+  return act.cache.conditions.check(model_input(act.state, trial_evolution()));
+}
+
+Expected<void> check_constraints_on(Act& act, std::span<const int> changed) {
+  if (auto known = know_trims(act); !known) return known;
+  const ModelInput input = model_input(act.state, trial_evolution());
+  return check_conditions(asks_for_motion(input) ? input : part_of(input, changed));
+}
+
+void hold_likewise(Act& act) {
   std::optional<int> order;
-  for (const int k : state.selection()) {
-    const auto own = order_of_all(std::as_const(state.surfaces)[static_cast<std::size_t>(k)]);
+  for (const int k : act.state.selection()) {
+    const auto own = order_of_all(std::as_const(act.state.surfaces)[static_cast<std::size_t>(k)]);
     if (!order && own.value_or(-1) >= 0) order = own;
   }
   if (!order) return;
-  for (const int k : state.selection()) {
-    if (!nothing_said(std::as_const(state.surfaces)[static_cast<std::size_t>(k)])) continue;
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    const auto region = visible(s);
+  for (const int k : act.state.selection()) {
+    if (!nothing_said(std::as_const(act.state.surfaces)[static_cast<std::size_t>(k)])) continue;
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+    const auto region = visible(act, s);
     if (!region) {
-      state.notes.push_back(region.error().what + "; they are not held, and may open");
+      act.state.notes.push_back(region.error().what + "; they are not held, and may open");
       continue;
     }
     if ((*region)->edges.empty()) continue;
@@ -96,16 +128,16 @@ void Executor::hold_likewise() {
   }
 }
 
-Expected<void> Executor::check_held_edges(const Scene& before) {
+Expected<void> check_held_edges(Act& act, const Scene& before) {
   std::vector<std::string> ids;
   MovedTrim worst;
   std::string surface;
-  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
-    const SceneSurface& present = std::as_const(state.surfaces)[k];
+  for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
+    const SceneSurface& present = std::as_const(act.state.surfaces)[k];
     const auto was = std::ranges::find(before.surfaces, present.id, &SceneSurface::id);
     if (was == before.surfaces.end() || was->current == present.current || !holds_trims(present.constraints)) continue;
-    SceneSurface& s = state.surfaces[k];
-    const auto region = visible(s);
+    SceneSurface& s = act.state.surfaces[k];
+    const auto region = visible(act, s);
     if (!region) return std::unexpected(region.error());
     std::vector<int> orders = trim_orders(s.constraints, **region);
     for (std::size_t e = 0; e < orders.size(); ++e) {
@@ -137,6 +169,43 @@ Expected<std::vector<PartedEdge>> Session::parted_edges() const {
   const auto contacts = edge_contacts(*model, moved);
   if (!contacts) return std::unexpected(contacts.error());
   return knead::parted_edges(state(), *contacts);
+}
+
+bool holds_edges(const Scene& scene) {
+  return std::ranges::any_of(
+      scene.selection(), [&](int k) { return holds_trims(scene.surfaces[static_cast<std::size_t>(k)].constraints); });
+}
+
+Error all_held(const Scene& scene, const std::string& tool) {
+  std::string by, remedy;
+  Diagnostic diagnostic{ErrorCode::nothing_free, {{"tool", tool}}};
+  const auto say = [&](ErrorCode code, const NamedValue& surface, const NamedValue& more) {
+    if (code > diagnostic.code) diagnostic = {code, {{"tool", tool}, surface, more}};
+  };
+  for (int k : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    const auto [m, n] = s.current->net();
+    std::string what;
+    if (s.hold_rows > 0) {
+      what = fmt::format("hold of {} rows on its net of {} x {}", s.hold_rows, m, n);
+      remedy = R"(hold the edges of the face instead, {"do":"hold","mode":"trim"}, or fewer rows, or refine first)";
+      say(ErrorCode::nothing_free_in_rows, {"surface", s.id}, {"rows", static_cast<double>(s.hold_rows)});
+    } else if (holds_trims(s.constraints)) {
+      what = fmt::format("hold of the edges of its faces on its net of {} x {}", m, n);
+      remedy = scene.permission == RefinePermission::never
+                   ? R"(permit refining, {"do":"refine","permission":"trims"}, or free an edge)"
+                   : "press farther from the edges, or free the one that is near";
+      say(ErrorCode::nothing_free_at_edges, {"surface", s.id},
+          {"permission", scene.permission == RefinePermission::never ? "never" : "trims"});
+    } else {
+      what = "pins, frozen regions and held lines";
+      remedy = "release some of it";
+    }
+    by += fmt::format("{}{}: {}", by.empty() ? "" : "; ", s.id, what);
+  }
+  return Error(ErrorKind::numerical, fmt::format("nothing is free to move under the tool {} ({})", tool, by), "step",
+               remedy + R"(; or go on regardless with "allow":"held")")
+      .with(std::move(diagnostic));
 }
 
 }  // namespace knead

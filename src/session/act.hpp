@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "brush_run.hpp"
+#include "knead/scene/model.hpp"
+#include "knead/session/document_regions.hpp"
+#include "knead/session/session.hpp"
+#include "motion_law.hpp"
+#include "scene/model/met_conditions.hpp"
+#include "stroke_model.hpp"
+#include "through_walls.hpp"
+
+namespace knead {
+
+/// What acts remember for those after them: without it they give the same bits, later.
+struct ActCache {
+  Models models;                      ///< of steps
+  std::optional<StrokeModel> stroke;  ///< that strokes and brushes press
+  std::optional<BrushRun> brush;
+  MetConditions conditions;  ///< those there are, as of the last check
+  KnownFaces faces;          ///< of the document
+};
+
+/// One command as it is carried out, on a copy of the state that takes effect only if no error is returned. Each
+/// command's file defines `execute` for its fields; what commands share are functions of an act, in headers by subject.
+struct Act {
+  const Document& document;
+  SessionState& state;  ///< with the steps and notes so far
+  ActCache& cache;
+  const Session::Progress& progress;
+  bool allow_held = false;             ///< a tool may touch what is held alone
+  std::optional<int> increments = {};  ///< of the load of a shell
+  bool may_stop = false;               ///< the command may end after any of its steps
+  std::optional<int> stopped = {};     ///< after so many steps
+  DocumentRegions regions = DocumentRegions(document);
+  std::optional<MotionLaw> law = {};  ///< what the command has asked for so far
+  bool unruled = false;               ///< what acts has another law
+  bool at_fold = false;               ///< the last step was made smaller, as more would fold a face: none follows
+  Through through = Through::note;    ///< what the command may do at other faces
+  bool stopped_at_face = false;       ///< it was made smaller there
+  bool met_at_each_step = false;      ///< nothing of it is left to be compared with them
+};
+
+}  // namespace knead
