@@ -29,17 +29,10 @@ struct Act {
   SessionState& state;  ///< with the steps and notes so far
   ActCache& cache;
   const Session::Progress& progress;
-  bool allow_held = false;             ///< a tool may touch what is held alone
-  std::optional<int> increments = {};  ///< of the load of a shell
-  bool may_stop = false;               ///< the command may end after any of its steps
-  std::optional<int> stopped = {};     ///< after so many steps
   DocumentRegions regions = DocumentRegions(document);
-  std::optional<MotionLaw> law = {};  ///< what the command has asked for so far
-  bool unruled = false;               ///< what acts has another law
-  bool at_fold = false;               ///< the last step was made smaller, as more would fold a face: none follows
-  Through through = Through::note;    ///< what the command may do at other faces
-  bool stopped_at_face = false;       ///< it was made smaller there
-  bool met_at_each_step = false;      ///< nothing of it is left to be compared with them
+  MotionLaw law = {};                   ///< what the command has asked for so far
+  FaceMeeting meeting = FaceMeeting();  ///< with other faces
+  std::optional<int> steps_kept = {};   ///< it was stopped after so many steps, which stay
 };
 
 }  // namespace knead

@@ -77,14 +77,15 @@ bool stands_alone(const BrushPlace& place, const OpenBrush& open) {
 
 bool BrushRun::reaches() const { return std::ranges::any_of(histories, &BrushHistory::reaches); }
 
-void begin_brush(Act& act, const Brush& brush, std::vector<BrushImage> images, double rope) {
-  OpenBrush open{brush, std::move(images), rope, {}, {}, {}};
-  for (int k : act.state.selection()) {
-    const SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+Expected<void> BrushStroke::begin(const Begin& begin) {
+  OpenBrush open{begin.brush, begin.images, begin.rope, {}, {}, {}};
+  for (int k : act_.state.selection()) {
+    const SceneSurface& s = act_.state.surfaces[static_cast<std::size_t>(k)];
     open.before.push_back({s.rest, s.current});
     open.masks.push_back(s.mask);
   }
-  act.state.brush = std::move(open);
+  act_.state.brush = std::move(open);
+  return {};
 }
 
 namespace {
@@ -187,7 +188,7 @@ Expected<Points> brushed(Act& act) {
   Points asked = blended(copies);
   const bool grabs = open.brush.kind == BrushKind::grab;
   const double most = std::max(std::sqrt(asked.rowwise().squaredNorm().maxCoeff()), grabs ? open.brush.by.norm() : 0);
-  ask_of_brush(act, most);
+  act.law.ask_of_brush(open, most);
   const ActiveSurface& model = act.cache.stroke->scene.model;
   Points c = local_coefficients(*act.cache.stroke, asked);
   if (grabs && open.brush.by.squaredNorm() > 0) {
@@ -297,11 +298,11 @@ Expected<void> show_brush(Act& act, const Points& displacement) {
 
 }  // namespace
 
-Expected<void> brush_to(Act& act, const std::vector<BrushPoint>& path) {
-  OpenBrush& open = *act.state.brush;
-  const std::vector<int> selection = act.state.selection();
+Expected<void> BrushStroke::lead(const std::vector<BrushPoint>& path) {
+  OpenBrush& open = *act_.state.brush;
+  const std::vector<int> selection = act_.state.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {  // places and nets are those of the shapes from before
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
+    SceneSurface& s = act_.state.surfaces[static_cast<std::size_t>(selection[k])];
     s.rest = open.before[k].rest;
     s.current = open.before[k].current;
     s.mask = open.masks[k];
@@ -309,30 +310,35 @@ Expected<void> brush_to(Act& act, const std::vector<BrushPoint>& path) {
   const std::size_t known = open.path.size();
   for (const BrushPoint& at : path) open.path.push_back(at);
   std::vector<BrushPoint> places;
-  const BrushPath way = path_of(open, act.state);
+  const BrushPath way = path_of(open, act_.state);
   for (std::size_t k = known; k < open.path.size(); ++k) {
     const auto more =
         k == 0 ? std::vector<BrushPoint>{open.path[0]} : way.places(open.path[k - 1], open.path[k], open.path[k - 1]);
     if (!more) return std::unexpected(more.error());
     places.insert(places.end(), more->begin(), more->end());
   }
-  if (auto refined = refine_for_brush(act, places); !refined) return refined;
+  if (auto refined = refine_for_brush(act_, places); !refined) return refined;
   const bool paints = open.brush.kind == BrushKind::mask || open.brush.kind == BrushKind::unmask;
-  Attempts tried = attempts(act);
+  Attempts tried(act_.state);
   while (true) {
-    if (auto made = prepare_brush_model(act); !made) return made;
-    if (auto started = start_brush_run(act); !started) return started;
-    if (auto led = lead_brush(act); !led) return led;
-    if (paints) return show_mask(act);
-    const auto displacement = brushed(act);
+    if (auto made = prepare_brush_model(act_); !made) return made;
+    if (auto started = start_brush_run(act_); !started) return started;
+    if (auto led = lead_brush(act_); !led) return led;
+    if (paints) return show_mask(act_);
+    const auto displacement = brushed(act_);
     if (!displacement) return std::unexpected(displacement.error());
-    const Scene before = act.state;
-    if (auto shown = show_brush(act, *displacement); !shown) return shown;
-    const auto closed = together(act, tried);
+    const Scene before = act_.state;
+    if (auto shown = show_brush(act_, *displacement); !shown) return shown;
+    const auto closed = tried.together(act_.state);
     if (!closed) return std::unexpected(closed.error());
     if (*closed) return {};
-    act.state.surfaces = before.surfaces;
+    act_.state.surfaces = before.surfaces;
   }
+}
+
+Expected<void> BrushStroke::lift() {
+  act_.state.brush.reset();
+  return {};
 }
 
 }  // namespace knead

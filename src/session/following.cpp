@@ -124,23 +124,22 @@ Expected<void> unite_followed(Act& act) {
   return refine_seams(act, true);
 }
 
-Expected<void> check_followed(Act& act, const Scene& before) {
-  if (std::ranges::equal(act.state.surfaces, before.surfaces,
+Expected<void> check_followed(const Scene& scene, const Scene& before) {
+  if (std::ranges::equal(scene.surfaces, before.surfaces,
                          [](const SceneSurface& a, const SceneSurface& b) { return a.current == b.current; })) {
     return {};  // nothing moved
   }
-  for (const FollowedEdge& edge : act.state.followed) {
+  for (const FollowedEdge& edge : scene.followed) {
     if (!edge.course) continue;
     bool following = true, changed = false;
     for (const std::string& id : edge.course->surfaces()) {
-      const auto is = std::ranges::find(act.state.surfaces, id, &SceneSurface::id);
+      const auto is = std::ranges::find(scene.surfaces, id, &SceneSurface::id);
       const auto was = std::ranges::find(before.surfaces, id, &SceneSurface::id);
-      following = following && is != act.state.surfaces.end() && follows(*is, edge.id);
-      changed =
-          changed || was == before.surfaces.end() || is == act.state.surfaces.end() || was->current != is->current;
+      following = following && is != scene.surfaces.end() && follows(*is, edge.id);
+      changed = changed || was == before.surfaces.end() || is == scene.surfaces.end() || was->current != is->current;
     }
     if (!following || !changed) continue;
-    const auto apart = parting(act.state, *edge.course);
+    const auto apart = parting(scene, *edge.course);
     if (!apart) return std::unexpected(apart.error());
     if (apart->distance > apart->tolerance) {
       const Point& p = apart->place;
@@ -160,7 +159,7 @@ Expected<void> check_followed(Act& act, const Scene& before) {
           "edge", R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it "clamped")",
           {ErrorCode::edge_would_part, {{"edge", edge.id}}});
     }
-    const auto stuck = stuck_vertex(act.state, *edge.course);
+    const auto stuck = stuck_vertex(scene, *edge.course);
     if (!stuck) return std::unexpected(stuck.error());
     if (*stuck) {
       return numerical_error(fmt::format("the vertex {} of the edge {} would move by {:.2g}, but the edge {} stays",
@@ -171,22 +170,23 @@ Expected<void> check_followed(Act& act, const Scene& before) {
   return {};
 }
 
-Attempts attempts(const Act& act) {
-  Attempts result;
-  for (const SceneSurface& s : act.state.surfaces) result.before.push_back(s.current);
-  return result;
+Attempts::Attempts(const Scene& scene, std::span<const OpenStroke::Before> selected) {
+  for (const SceneSurface& s : scene.surfaces) before_.push_back(s.current);
+  const std::vector<int> selection = scene.selection();
+  for (std::size_t k = 0; k < selected.size(); ++k) {
+    before_[static_cast<std::size_t>(selection[k])] = selected[k].current;
+  }
 }
 
 namespace {
 
 /// By how much points of an edge moved, on its first surface.
-Expected<void> append_motion(const Act& act, const SharedEdge& edge,
+Expected<void> append_motion(const Scene& scene, const SharedEdge& edge,
                              std::span<const std::shared_ptr<const Surface>> before, std::vector<Point>& to) {
-  const auto index = find_surface(act, edge.surfaces().front());
-  if (!index) return std::unexpected(index.error());
-  const auto k = static_cast<std::size_t>(*index);
+  const auto k = static_cast<std::size_t>(
+      std::ranges::find(scene.surfaces, edge.surfaces().front(), &SceneSurface::id) - scene.surfaces.begin());
   for (const SharedEdge::Sample& sample : edge.samples()) {
-    const auto way = displacement_at(*before[k], *act.state.surfaces[k].current, sample.feet.front());
+    const auto way = displacement_at(*before[k], *scene.surfaces[k].current, sample.feet.front());
     if (!way) return std::unexpected(way.error());
     to.push_back(*way);
   }
@@ -195,52 +195,51 @@ Expected<void> append_motion(const Act& act, const SharedEdge& edge,
 
 }  // namespace
 
-Expected<bool> together(Act& act, Attempts& attempts) {
+Expected<bool> Attempts::together(SessionState& state) {
   double excess = 0, across = 0, along = 0, angle = 0;
   std::vector<Point> motion;
-  for (const FollowedInput& edge : followed_inputs(act.state)) {
-    const auto apart = parting(act.state, *edge.course);
+  for (const FollowedInput& edge : followed_inputs(state)) {
+    const auto apart = parting(state, *edge.course);
     if (!apart) return std::unexpected(apart.error());
     excess = std::max(excess, apart->distance / apart->tolerance);
     angle = std::max(angle, apart->angle / accepted_bend(*apart));
     across = std::max(across, apart->kink_across);
     along = std::max(along, apart->kink_along);
-    if (auto moved = append_motion(act, *edge.course, attempts.before, motion); !moved) {
+    if (auto moved = append_motion(state, *edge.course, before_, motion); !moved) {
       return std::unexpected(moved.error());
     }
   }
-  auto& [before, best] = attempts;
-  if (best &&
-      share_of(best->motion, motion) < kept_motion) {  // what is asked for would take the freedom that the edges have
-    act.state.surfaces = std::move(best->surfaces);
-    act.state.coupling = best->coupling;
-    act.state.bend = accepted_angle;
-    act.state.notes.push_back(fmt::format(
+  if (best_ &&
+      share_of(best_->motion, motion) < kept_motion) {  // what is asked for would take the freedom that the edges have
+    state.surfaces = std::move(best_->surfaces);
+    state.coupling = best_->coupling;
+    state.bend = accepted_angle;
+    state.notes.push_back(fmt::format(
         "smooth edges that follow may open by up to {:.2g} degrees from here on: within the {:.2g} that are "
         "asked for they could hardly move; finer nets beside them would help, {{\"do\":\"refine\"}}",
         in_degrees(accepted_angle), in_degrees(asked_angle)));
     return true;
   }
-  const CouplingTolerance was = act.state.coupling;
+  const CouplingTolerance was = state.coupling;
   if (excess <= 1 && angle <= 1) {
-    if (act.state.bend > asked_angle) return true;
-    best = {act.state.surfaces, was, best ? std::move(best->motion) : std::move(motion)};
+    if (state.bend > asked_angle) return true;
+    best_ = {state.surfaces, was, best_ ? std::move(best_->motion) : std::move(motion)};
   }
-  if (std::max(excess, along) > 1) tighten(act.state.coupling.position, std::max(excess, along));
-  if (across > 1) tighten(act.state.coupling.tangent, across);
-  return act.state.coupling == was;
+  if (std::max(excess, along) > 1) tighten(state.coupling.position, std::max(excess, along));
+  if (across > 1) tighten(state.coupling.tangent, across);
+  return state.coupling == was;
 }
 
-Expected<bool> take_together(Act& act, const ActiveStep& step, Attempts& attempts) {
+Expected<bool> Attempts::accept(Act& act, const ActiveStep& step) {
   const Scene before = act.state;
   if (auto taken = take(act, step); !taken) return std::unexpected(taken.error());
-  const auto closed = together(act, attempts);
+  const auto closed = together(act.state);
   if (!closed) return closed;
   if (!*closed) {
     act.state.surfaces = before.surfaces;
     return false;
   }
-  if (auto checked = check_followed(act, before); !checked) return std::unexpected(checked.error());
+  if (auto checked = check_followed(act.state, before); !checked) return std::unexpected(checked.error());
   return true;
 }
 

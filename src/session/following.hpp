@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,26 +21,32 @@ namespace knead {
 [[nodiscard]] Expected<void> unite_followed(Act& act);
 /// Whether all edges that follow are still closed after surfaces changed from `before`. Errors (numerical): one is not,
 /// and by how much; a vertex of it moved that another edge holds.
-[[nodiscard]] Expected<void> check_followed(Act& act, const Scene& before);
+[[nodiscard]] Expected<void> check_followed(const Scene& scene, const Scene& before);
 
-/// The same motion, made again and again with edges coupled more tightly.
-struct Attempts {
+/// One motion, made again and again with edges that follow coupled more tightly, until they are closed.
+class Attempts {
+ public:
+  /// From the shapes as they are; of the selected surfaces from these, where some are given.
+  explicit Attempts(const Scene& scene, std::span<const OpenStroke::Before> selected = {});
+
+  /// Whether the surfaces may stay as they are: edges that follow are closed, and as smooth as asked. If not, couples
+  /// them more tightly and returns false: what moved the surfaces must be made again. Where that would keep the edges
+  /// from moving, the tightest attempt that could be accepted is taken. What cannot be is left to `check_followed`.
+  [[nodiscard]] Expected<bool> together(SessionState& state);
+  /// Takes a step unless it must be made again; returns whether it was taken. Errors: those of `check_followed`.
+  [[nodiscard]] Expected<bool> accept(Act& act, const ActiveStep& step);
+
+  /// The shape of each surface of the scene from which the motion is measured.
+  [[nodiscard]] std::span<const std::shared_ptr<const Surface>> before() const { return before_; }
+
+ private:
   struct Best {
     SharedItems<SceneSurface> surfaces;
     CouplingTolerance coupling;
-    std::vector<Point> motion;  ///< of points of the edges, in the first one that could be accepted
+    std::vector<Point> motion;  // of points of the edges, in the first one that could be accepted
   };
-  std::vector<std::shared_ptr<const Surface>> before;  ///< of each surface of the scene
-  std::optional<Best> best = {};                       ///< the tightest that could be accepted
+  std::vector<std::shared_ptr<const Surface>> before_;
+  std::optional<Best> best_;  // the tightest that could be accepted
 };
-
-[[nodiscard]] Attempts attempts(const Act& act);
-/// Whether the surfaces may stay as they are: edges that follow are closed, and as smooth as asked. If not, couples
-/// them more tightly and returns false: what moved the surfaces must be made again. Where that would keep the edges
-/// from moving, the tightest attempt that could be accepted is taken. What cannot be is left to `check_followed`.
-[[nodiscard]] Expected<bool> together(Act& act, Attempts& attempts);
-/// Takes a step unless `together` says that it must be made again; returns whether it was taken. Errors: those of
-/// `check_followed`.
-[[nodiscard]] Expected<bool> take_together(Act& act, const ActiveStep& step, Attempts& attempts);
 
 }  // namespace knead

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "brushing.hpp"
 #include "commands.hpp"
 #include "following.hpp"
 #include "holding.hpp"
@@ -94,24 +95,25 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   if (cache_->faces.document != state().document) cache_->faces = {state().document};
   Act act{document(), *next, *cache_, progress};
   if (!fields_of<StrokeCommand>(command)) {
-    if (auto lifted = lift(act); !lifted) return lifted;
+    if (auto lifted = Stroke(act).lift(); !lifted) return lifted;
     if (auto kept = keep_law(act); !kept) return kept;
   }
-  if (!fields_of<BrushCommand>(command)) next->brush.reset();
-  const auto through = through_of(meant, stops_at_faces_);
-  act.through = through.value_or(Through::allow);
+  if (!fields_of<BrushCommand>(command)) {
+    if (auto lifted = BrushStroke(act).lift(); !lifted) return lifted;
+  }
+  act.meeting = FaceMeeting(through_of(meant, stops_at_faces_).value_or(Through::allow));
   const auto applied = [&](const auto& fields) { return apply(fields, act); };
   if (auto done = std::visit(applied, meant.any().fields); !done) return done;
   if (auto kept = keep_law(act); !kept) return kept;
-  if (auto met = meet_faces(act, state()); !met) return met;
-  if (auto closed = check_followed(act, state()); !closed) return closed;
+  if (auto met = act.meeting.at_end(act, state()); !met) return met;
+  if (auto closed = check_followed(*next, state()); !closed) return closed;
   if (!moves_a_model(meant)) {
     if (auto closed = check_held_edges(act, state()); !closed) return closed;
   }
-  if (act.stopped_at_face) meant = that_stops(meant);
-  if (act.stopped) {
+  if (act.meeting.stopped()) meant = that_stops(meant);
+  if (act.steps_kept) {
     StepCommand made = *fields_of<StepCommand>(meant);
-    made.count = *act.stopped;
+    made.count = *act.steps_kept;
     meant = make_command(std::move(made));
   }
   if (only_looks(meant) && !state().stroke && !state().brush) {

@@ -52,26 +52,12 @@ std::string note_of(const ActiveStep& step) {
       step.coarseness, halvings == 1 ? "once" : fmt::format("{} times", halvings));
 }
 
-namespace {
+namespace {}  // namespace
 
-bool keeps_steps(Act& act, int done) {
-  if (!act.may_stop || done == 0) return false;
-  act.stopped = done;
-  Interruption::settle();
-  return true;
-}
-
-}  // namespace
-
-Expected<bool> carries_on(Act& act, int done, int total) {
-  if (Interruption::asked_for()) {
-    if (!keeps_steps(act, done)) return interrupted_error();
-    return false;
-  }
-  if (!act.progress || act.progress(done, total) || done >= total) return true;
-  if (!act.may_stop) return input_error(fmt::format("it was stopped after {} of {} steps", done, total));
-  act.stopped = done;
-  return false;
+Expected<void> tell_progress(const Act& act, int done, int of) {
+  if (Interruption::asked_for()) return interrupted_error();
+  if (!act.progress || act.progress(done, of) || done >= of) return {};
+  return input_error(fmt::format("it was stopped after {} of {} steps", done, of));
 }
 
 namespace {
@@ -79,29 +65,6 @@ namespace {
 Expected<void> know_what_holds(Act& act) {
   if (auto known = know_trims(act); !known) return known;
   return know_followed(act);
-}
-
-Expected<ActiveStep> next_step(Act& act, const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
-                               double& seconds) {
-  if (auto known = know_what_holds(act); !known) return std::unexpected(known.error());
-  const auto kept = act.cache.models.of(act.state, evolution);
-  if (!kept) return std::unexpected(kept.error());
-  Model& model = **kept;
-  const auto tools = tools_and_images(act.state);
-  if (!tools) return std::unexpected(tools.error());
-  auto loads = model.loads(act.state, more);
-  if (!loads) return std::unexpected(loads.error());
-  const ActiveState before = active_state(act.state);
-  if (!act.state.energy_before) act.state.energy_before = model.energy(before);
-  const auto start = std::chrono::steady_clock::now();
-  auto step = model.step(before, *tools, *loads, act.increments.value_or(1));
-  if (step && goes_too_far(act, *step, *loads, model)) {
-    loads->reach = act.law->reach;
-    loads->original = points_of_law(act);
-    step = model.step(before, *tools, *loads);
-  }
-  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return step;
 }
 
 Expected<void> check_limit(const Scene& scene) {
@@ -119,32 +82,14 @@ Expected<void> check_limit(const Scene& scene) {
   return {};
 }
 
-Expected<void> run_body(Act& act, int count, const EvolutionPolicy& evolution) {
-  for (int k = 0; k < count; ++k) {
-    double seconds = 0;
-    const auto step = next_step(act, evolution, {}, seconds);
-    if (!step && Interruption::asked_for() && keeps_steps(act, k)) break;
-    if (!step) return std::unexpected(step.error());
-    if (!std::isfinite(step->energy) || !std::isfinite(step->residual)) return beyond_numbers();
-    if (auto taken = take(act, *step); !taken) return taken;
-    record(act, *step, seconds, note_of(*step));
-    for (const std::string& note : act.cache.models.last()->notes()) note_once(act.state, note);
-    const auto on = carries_on(act, k + 1, count);
-    if (!on) return std::unexpected(on.error());
-    if (!*on) break;
-  }
-  return {};
-}
-
 }  // namespace
 
-/// Notes where tools press on what nothing holds: it moves as a whole.
-void note_loose(Act& act) {
-  if (!act.law || act.unruled || !(act.law->reach > 0)) return;
+void note_loose(SessionState& state, const MotionLaw& law) {
+  if (!law.bounds()) return;
   std::string loose;
   std::vector<std::string> ids;
-  for (const int k : act.state.selection()) {
-    const SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+  for (const int k : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
     if (holds_anything(s)) return;
     loose += (loose.empty() ? "" : ", ") + s.id;
     ids.push_back(s.id);
@@ -155,22 +100,21 @@ void note_loose(Act& act) {
                         "outer rows, {{\"do\":\"hold\",\"rows\":2}}",
                         loose),
             {ErrorCode::surface_loose, {{"surfaces", ids}}});
-  note_once(act.state, std::move(note));
+  note_once(state, std::move(note));
 }
 
 namespace {
 
 /// Whether what the tools have done becomes the rest shape.
-bool imprints(const Act& act, const ActiveStep& step) {
-  return step.gap > 0 &&
-         std::ranges::any_of(act.state.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
+bool imprints(const Scene& scene, const ActiveStep& step) {
+  return step.gap > 0 && std::ranges::any_of(scene.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
 }
 
 }  // namespace
 
 Expected<void> take(Act& act, const ActiveStep& step) {
   Eigen::Index first = 0;
-  const bool imprinting = imprints(act, step);
+  const bool imprinting = imprints(act.state, step);
   return each_selected(act, [&]<int D>(SceneShape<D>& s) -> Expected<void> {
     const Eigen::Index n = s.current->size();
     auto moved = s.current->with_control_points(step.control_points.middleRows(first, n));
@@ -206,25 +150,20 @@ StepRecord record_of(const ActiveStep& step, double seconds, std::string note) {
   return record;
 }
 
-void record(Act& act, const ActiveStep& step, double seconds, std::string note) {
+void record(SessionState& state, const ActiveStep& step, double seconds, std::string note) {
   StepRecord record = record_of(step, seconds, std::move(note));
-  record.surface = act.state.selected.value_or(-1);
-  if (act.state.body) record.largest_displacement = largest_displacement(*body(act));
-  for (int index : act.state.selection()) {
-    const SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];
+  record.surface = state.selected.value_or(-1);
+  if (state.body)
+    record.largest_displacement = largest_displacement(state.bodies[static_cast<std::size_t>(*state.body)]);
+  for (int index : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
     record.largest_displacement = std::max(record.largest_displacement, largest_distance(*s.current, *s.opened));
   }
-  act.state.steps.push_back(std::move(record));
+  state.steps.push_back(std::move(record));
 }
 
 void note_model(Act& act, std::span<const SeamReport> seams, std::span<const std::string> notes) {
-  act.state.seam_reports.assign(seams.begin(), seams.end());
-  const std::vector<int> selection = act.state.selection();
-  for (SeamReport& report : act.state.seam_reports) {
-    for (PatchEdge* edge : {&report.seam.a, &report.seam.b}) {
-      edge->patch = selection[static_cast<std::size_t>(edge->patch)];
-    }
-  }
+  act.state.seam_reports = seams_in_scene(seams, act.state);
   for (const std::string& note : notes) note_once(act.state, note);
   note_creases(act, seams);
 }
@@ -245,77 +184,151 @@ Expected<void> yield(Act& act, double plasticity) {
   return {};
 }
 
-Expected<void> run(Act& act, int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more, int done,
-                   int total) {
-  if (act.state.body) return run_body(act, count, evolution);
-  auto selection = selected(act);
-  if (!selection) return std::unexpected(selection.error());
-  if (act.increments && !has_shells(act.state)) {
-    return input_error("only the load of a shell is increased in parts", "increments",
-                       R"(leave it out, or give {"do":"material","model":"shell"} with young and thickness)",
-                       {ErrorCode::shell_needed});
-  }
-  if (act.state.permission == RefinePermission::automatic) {
-    if (auto refined = refine_seams(act); !refined) return refined;
-  }
-  if (auto refined = refine_trims(act); !refined) return refined;
-  if (auto united = unite_followed(act); !united) return united;
-  int refinements = 0, stepped = 0;
-  act.at_fold = false;
-  std::optional<Attempts> tried;
-  while (stepped < count) {
-    double seconds = 0;
-    if (stepped == 0) {
-      if (auto known = know_what_holds(act); !known) return known;
-      if (auto asked = ask_of_motion(act, evolution, more); !asked) return asked;
-      note_loose(act);
+namespace {
+
+/// The steps of one command, on their way.
+class Stepping {
+ public:
+  Stepping(Act& act, const Steps& asked) : act_(act), state_(act.state), asked_(asked) {}
+
+  Expected<StepsMade> run() {
+    if (auto ready = prepare(); !ready) return std::unexpected(ready.error());
+    while (made_.count < asked_.count) {
+      const auto stepped = step();
+      if (!stepped && Interruption::asked_for() && keeps_steps()) break;
+      if (!stepped) return std::unexpected(stepped.error());
+      if (!*stepped) continue;
+      ++made_.count;
+      if (made_.at_fold) break;
+      const auto on = tell_progress(act_, asked_.before + made_.count, asked_.of > 0 ? asked_.of : asked_.count);
+      if (!on && keeps_steps()) break;
+      if (!on) return std::unexpected(on.error());
     }
-    const auto step = next_step(act, evolution, more, seconds);
-    if (!step && Interruption::asked_for() && keeps_steps(act, stepped)) break;
+    const Model* const model = act_.cache.models.last();
+    if (!state_.body && made_.count > 0 && model != nullptr) note_model(act_, model->seams(), model->notes());
+    return made_;
+  }
+
+ private:
+  /// Finer nets where edges need them, before the first step.
+  Expected<void> prepare() {
+    if (state_.body) return {};
+    if (auto surface = selected(act_); !surface) return std::unexpected(surface.error());
+    if (asked_.increments && !has_shells(state_)) {
+      return input_error("only the load of a shell is increased in parts", "increments",
+                         R"(leave it out, or give {"do":"material","model":"shell"} with young and thickness)",
+                         {ErrorCode::shell_needed});
+    }
+    if (state_.permission == RefinePermission::automatic) {
+      if (auto refined = refine_seams(act_); !refined) return refined;
+    }
+    if (auto refined = refine_trims(act_); !refined) return refined;
+    return unite_followed(act_);
+  }
+
+  /// Whether a command that was stopped ends with the steps it has made.
+  bool keeps_steps() {
+    if (!asked_.may_stop || made_.count == 0) return false;
+    made_.stopped = true;
+    if (Interruption::asked_for()) Interruption::settle();
+    return true;
+  }
+
+  /// Makes the next step; false: it is to be made again.
+  Expected<bool> step() {
+    if (!state_.body && made_.count == 0) {
+      if (auto known = know_what_holds(act_); !known) return std::unexpected(known.error());
+      if (auto asked = act_.law.ask_of_steps(state_, asked_.evolution, asked_.grips); !asked) {
+        return std::unexpected(asked.error());
+      }
+      note_loose(state_, act_.law);
+    }
+    double seconds = 0;
+    const auto step = solve(seconds);
     if (!step) return std::unexpected(step.error());
     if (!std::isfinite(step->energy) || !std::isfinite(step->residual)) return beyond_numbers();
-    if (step->coarseness > coarse && act.state.permission == RefinePermission::automatic &&
-        refinements < max_refinements && more.empty()) {
-      bool any = false;
-      for (const Tool& tool : act.state.tools) {
-        auto refined = refine_under(act, tool, true);
-        if (!refined) return std::unexpected(refined.error());
-        any = any || *refined;
-      }
-      if (any) {  // this step again, on the finer net
-        ++refinements;
-        continue;
-      }
+    if (state_.body) {
+      if (auto taken = take(act_, *step); !taken) return std::unexpected(taken.error());
+      record(state_, *step, seconds, note_of(*step));
+      for (const std::string& note : act_.cache.models.last()->notes()) note_once(state_, note);
+      return true;
     }
-    std::string note = note_of(*step);
-    if (!act.allow_held && more.empty() && step->gap > 0 && nothing_moved(act.state, *step)) {
-      const Error error = all_held(act.state, step->gap_tool);
-      if (holds_edges(act.state)) return std::unexpected(error);
+    if (const auto finer = refine_nets(*step); !finer || *finer) {
+      return finer ? Expected<bool>(false) : std::unexpected(finer.error());
+    }
+    return accept(*step, seconds);
+  }
+
+  /// What the model makes of the present state, within what was asked for.
+  Expected<ActiveStep> solve(double& seconds) {
+    if (auto known = know_what_holds(act_); !known) return std::unexpected(known.error());
+    const auto kept = act_.cache.models.of(state_, asked_.evolution);
+    if (!kept) return std::unexpected(kept.error());
+    Model& model = **kept;
+    const auto tools = tools_and_images(state_);
+    if (!tools) return std::unexpected(tools.error());
+    auto loads = model.loads(state_, asked_.grips);
+    if (!loads) return std::unexpected(loads.error());
+    const ActiveState before = active_state(state_);
+    if (!state_.energy_before) state_.energy_before = model.energy(before);
+    const auto start = std::chrono::steady_clock::now();
+    auto step = model.step(before, *tools, *loads, asked_.increments.value_or(1));
+    if (step && act_.law.shortens(state_, *step, *loads, model)) step = model.step(before, *tools, *loads);
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return step;
+  }
+
+  /// Finer nets under tools that the present ones cannot follow. Whether there are any: then the step is made again.
+  Expected<bool> refine_nets(const ActiveStep& step) {
+    if (step.coarseness <= coarse || state_.permission != RefinePermission::automatic ||
+        refinements_ >= max_refinements || !asked_.grips.empty()) {
+      return false;
+    }
+    bool any = false;
+    for (const Tool& tool : state_.tools) {
+      auto refined = refine_under(act_, tool, true);
+      if (!refined) return refined;
+      any = any || *refined;
+    }
+    refinements_ += any ? 1 : 0;
+    return any;
+  }
+
+  /// Makes a step the shapes, as far as it may go; false: it is to be made again, with edges coupled more tightly.
+  Expected<bool> accept(const ActiveStep& step, double seconds) {
+    std::string note = note_of(step);
+    if (!asked_.allow_held && asked_.grips.empty() && step.gap > 0 && nothing_moved(state_, step)) {
+      const Error error = all_held(state_, step.gap_tool);
+      if (holds_edges(state_)) return std::unexpected(error);
       note = error.what + "; " + error.remedy;  // requested, row by row or point by point: reported, not refused
     }
-    if (!tried) tried = attempts(act);
-    const auto taken = take_together(act, *step, *tried);
-    if (!taken) return std::unexpected(taken.error());
-    if (!*taken) continue;
-    const auto smaller = keep_step_unfolded(act, tried->before, done + stepped == 0, evolution);
+    if (!tried_) tried_.emplace(state_);
+    const auto taken = tried_->accept(act_, step);
+    if (!taken || !*taken) return taken;
+    const bool first = asked_.before + made_.count == 0;
+    const auto smaller = keep_step_unfolded(state_, tried_->before(), first, asked_.evolution);
     if (!smaller) return std::unexpected(smaller.error());
-    if (!smaller->empty()) note = *smaller;
-    if (act.through == Through::stop) {  // as equal steps that are one command, and as many
-      act.met_at_each_step = true;
-      if (auto stops = meet_faces(act, tried->before); !stops) return stops;
+    if (!smaller->empty()) {
+      made_.at_fold = true;
+      note = *smaller;
     }
-    tried.reset();
-    if (auto within = check_limit(act.state); !within) return within;
-    record(act, *step, seconds, std::move(note));
-    ++stepped;
-    if (act.at_fold) break;
-    const auto on = carries_on(act, done + stepped, total > 0 ? total : count);
-    if (!on) return std::unexpected(on.error());
-    if (!*on) break;
+    if (auto stops = act_.meeting.after_step(act_, tried_->before()); !stops) return std::unexpected(stops.error());
+    tried_.reset();
+    if (auto within = check_limit(state_); !within) return std::unexpected(within.error());
+    record(state_, step, seconds, std::move(note));
+    return true;
   }
-  if (const Model* model = act.cache.models.last(); stepped > 0 && model != nullptr)
-    note_model(act, model->seams(), model->notes());
-  return {};
-}
+
+  Act& act_;
+  SessionState& state_;
+  const Steps& asked_;
+  StepsMade made_;
+  int refinements_ = 0;            // of nets under tools
+  std::optional<Attempts> tried_;  // at the present step
+};
+
+}  // namespace
+
+Expected<StepsMade> run(Act& act, const Steps& asked) { return Stepping(act, asked).run(); }
 
 }  // namespace knead

@@ -96,19 +96,16 @@ Expected<ActiveStep> press_shell_on_bed(Act& act, const std::vector<Tool>& tools
 /// before the stroke: beside what is held inside a tool a surface swings out, far beyond the tool where that is large.
 Expected<ActiveStep> within_depth(const Act& act, ActiveStep step, const ActiveState& from, std::span<const Tool> tools,
                                   ActiveLoads loads) {
-  if (loads.limit > 0 || !held_all_round(act, act.cache.stroke->scene.seams)) return step;
+  const StrokeModel& model = *act.cache.stroke;
+  if (loads.limit > 0 || !held_all_round(act.state, seams_in_scene(model.scene.seams, act.state))) return step;
   const double room = 1 + 0.5 * law_tolerance;
-  const double moved =
-      std::sqrt(act.cache.stroke->at_abscissae(step.control_points).rowwise().squaredNorm().maxCoeff());
-  if (moved <= room * act.cache.stroke->depth_of(tools)) return step;
-  double depth = 0;
-  for (const OpenStroke::Before& before : act.state.stroke->before) {
-    depth = std::max({depth, depth_in(*before.current, tools, nullptr), standing_in(*before.current, tools)});
-  }
+  const double moved = std::sqrt(model.at_abscissae(step.control_points).rowwise().squaredNorm().maxCoeff());
+  if (moved <= room * model.depth_of(tools)) return step;
+  const double depth = depth_in_shapes(act.state.stroke->before, tools);
   if (moved <= room * depth) return step;
   loads.reach = depth;
   loads.original = from.control_points;
-  auto shorter = act.cache.stroke->scene.model.step(from, tools, loads);
+  auto shorter = model.scene.model.step(from, tools, loads);
   if (shorter) shorter->control_points -= from.control_points;
   return shorter;
 }

@@ -80,55 +80,55 @@ std::vector<Travel> travels_of(const std::vector<Tool>& was, const std::vector<T
 
 }  // namespace
 
-Expected<void> begin_stroke(Act& act, const std::string& name, double share) {
-  auto surface = selected(act);
+Expected<void> Stroke::begin(const Begin& begin) {
+  auto surface = selected(act_);
   if (!surface) return std::unexpected(surface.error());
-  const auto tool = find_tool(act, name);
+  const auto tool = find_tool(act_, begin.tool);
   if (!tool) return std::unexpected(tool.error());
-  if (act.state.scaling == ScalingMode::raw) {
+  if (act_.state.scaling == ScalingMode::raw) {
     return input_error("strokes that leave their groove as they go need a model in normalised units", "plastic",
                        R"(give {"do":"scaling","mode":"normalised"}, or "plastic":"release")",
                        {ErrorCode::scaling_is_raw});
   }
-  if (act.state.permission == RefinePermission::automatic) {
-    if (auto refined = refine_seams(act); !refined) return refined;
+  if (act_.state.permission == RefinePermission::automatic) {
+    if (auto refined = refine_seams(act_); !refined) return refined;
   }
   double size = (*tool)->shape.size();
   if (!std::isfinite(size)) {
-    const auto length = diagonal(act);
+    const auto length = diagonal(act_);
     if (!length) return std::unexpected(length.error());
     size = 0.1 * *length;
   }
   const PlasticPolicy& policy = (*surface)->plastic;
   const double unit = policy.in_radii ? size : 1;
   OpenStroke stroke;
-  stroke.tool = name;
+  stroke.tool = begin.tool;
   stroke.home = (*tool)->shape.placement().position;
   stroke.path.spacing = size / places_per_size;
-  stroke.plasticity = {share * policy.share, policy.yield * unit};
-  stroke.lambda = act.state.evolution.lambda > 0 ? act.state.evolution.lambda : 1;
+  stroke.plasticity = {begin.share * policy.share, policy.yield * unit};
+  stroke.lambda = act_.state.evolution.lambda > 0 ? act_.state.evolution.lambda : 1;
   std::map<int, DomainScaling<2>> scalings;
-  for (const int k : act.state.selection()) {
-    const auto scaling = normalised_scaling<2>(*act.state.surfaces[static_cast<std::size_t>(k)].reference);
+  for (const int k : act_.state.selection()) {
+    const auto scaling = normalised_scaling<2>(*act_.state.surfaces[static_cast<std::size_t>(k)].reference);
     if (!scaling) return std::unexpected(scaling.error());
     scalings.emplace(k, *scaling);
   }
   if (policy.locality > 0) {
-    const Locality bed = bed_of(act.state, scalings, policy.locality * unit);
+    const Locality bed = bed_of(act_.state, scalings, policy.locality * unit);
     stroke.lambda = bed.lambda;
     stroke.tension = bed.tension;
   }
   // The further a dent is felt, the more a tool has to bear.
-  const double felt = felt_area(act.state, scalings.at(*act.state.selected), stroke);
+  const double felt = felt_area(act_.state, scalings.at(*act_.state.selected), stroke);
   stroke.stiffness = hard * stroke.lambda * std::max(1.0, 16 * felt / (size * size));
   Eigen::Index rows = 0;
-  for (int k : act.state.selection()) {
-    const SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+  for (int k : act_.state.selection()) {
+    const SceneSurface& s = act_.state.surfaces[static_cast<std::size_t>(k)];
     stroke.before.push_back({s.rest, s.current});
     rows += s.current->size();
   }
   stroke.history = Points::Zero(rows, 3);
-  act.state.stroke = std::move(stroke);
+  act_.state.stroke = std::move(stroke);
   return {};
 }
 
@@ -207,23 +207,25 @@ Expected<bool> refine_stroke(Act& act, const ActiveStep* step) {
   return true;
 }
 
+}  // namespace
+
 /// The rest shapes with what stays so far, and the shapes with the dent that the tool is in where it is down.
-Expected<void> show_remembered(Act& act, bool down) {
-  const OpenStroke& stroke = *act.state.stroke;
-  const StrokeModel& model = *act.cache.stroke;
-  const Points stays = stroke.share * unmasked(act.state, staying(stroke.history, stroke.plasticity));
+Expected<void> Stroke::show_remembered(bool down) {
+  const OpenStroke& stroke = *act_.state.stroke;
+  const StrokeModel& model = *act_.cache.stroke;
+  const Points stays = stroke.share * unmasked(act_.state, staying(stroke.history, stroke.plasticity));
   Points shown = stays;
   if (down && stroke.last.rows() > 0)
-    remember(shown, stroke.share * unmasked(act.state, model.at_abscissae(stroke.last)));
+    remember(shown, stroke.share * unmasked(act_.state, model.at_abscissae(stroke.last)));
   const bool same = shown == stays;
   // The largest of many displacements is none that coupled surfaces allow on both sides; then the nearest one stays.
   const auto allowed = [&](const Points& values) { return model.allowed(model.control_points(values)); };
   const Points resting = allowed(stays);
   const Points showing = same ? resting : allowed(shown);
   Eigen::Index first = 0;
-  const std::vector<int> selection = act.state.selection();
+  const std::vector<int> selection = act_.state.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
+    SceneSurface& s = act_.state.surfaces[static_cast<std::size_t>(selection[k])];
     const OpenStroke::Before& before = stroke.before[k];
     const auto n = static_cast<Eigen::Index>(before.current->size());
     const auto with = [&](const std::shared_ptr<const Surface>& shape,
@@ -246,97 +248,98 @@ Expected<void> show_remembered(Act& act, bool down) {
   return {};
 }
 
-}  // namespace
-
-/// Shows the open stroke with edges that follow closed, and as smooth as asked.
-Expected<void> show_stroke(Act& act, bool down) {
-  Attempts tried = attempts(act);
-  const std::vector<int> selection = act.state.selection();
-  for (std::size_t k = 0; k < selection.size(); ++k) {
-    tried.before[static_cast<std::size_t>(selection[k])] = act.state.stroke->before[k].current;
-  }
+/// Edges that follow are closed, and as smooth as asked: what is remembered is kept, and only its image in the
+/// constraints is made again.
+Expected<void> Stroke::show(bool down) {
+  Attempts tried(act_.state, act_.state.stroke->before);
   while (true) {
-    if (auto made = prepare_stroke_model(act); !made) return made;
-    if (auto shown = show_remembered(act, down); !shown) return shown;
-    const auto closed =
-        together(act, tried);  // what is remembered is kept; only its image in the constraints is made again
+    if (auto made = prepare_stroke_model(act_); !made) return made;
+    if (auto shown = show_remembered(down); !shown) return shown;
+    const auto closed = tried.together(act_.state);
     if (!closed) return std::unexpected(closed.error());
     if (*closed) return {};
   }
 }
 
-namespace {
-
-Expected<std::string> keep_stroke_unfolded(Act& act) {
-  return keep_unfolded(act.state, "stroke", act.state.stroke->share, [&act](double share) {
-    act.state.stroke->share = share;
-    return show_stroke(act, true);
-  });
+Expected<void> Stroke::keep_share(double share) {
+  act_.state.stroke->share *= share;
+  return show(true);
 }
 
-Expected<void> press_along(Act& act, const std::vector<Point>& places) {
+/// Puts the tool there, and presses it into the shapes from before the stroke, on nets that are fine enough.
+/// \param tools with their images: where they were, and then are
+Expected<ActiveStep> Stroke::press_at(const Point& place, std::vector<Tool>& tools) {
+  if (auto put = put_tool(act_, place); !put) return std::unexpected(put.error());
+  auto present = tools_and_images(act_.state);
+  if (!present) return std::unexpected(present.error());
+  const std::vector<Travel> travels = travels_of(tools, *present);
+  tools = std::move(*present);
+  if (auto refined = refine_stroke(act_, nullptr); !refined) return std::unexpected(refined.error());
+  auto step = press(act_, tools, travels);
+  for (int k = 0; k < max_refinements && step; ++k) {
+    const auto refined = refine_stroke(act_, &*step);
+    if (!refined) return std::unexpected(refined.error());
+    if (!*refined) break;
+    step = press(act_, tools, travels);
+  }
+  return step;
+}
+
+Expected<void> Stroke::press_along(const std::vector<Point>& places) {
   if (places.empty()) return {};
+  SessionState& state = act_.state;
   const auto start = std::chrono::steady_clock::now();
   ActiveStep last;
   int done = 0, iterations = 0;
   std::string note;
   bool converged = true;
-  const std::vector<int> selection = act.state.selection();
+  const std::vector<int> selection = state.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {  // nets are refined for the shapes from before the stroke
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
-    s.rest = act.state.stroke->before[k].rest;
-    s.current = act.state.stroke->before[k].current;
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
+    s.rest = state.stroke->before[k].rest;
+    s.current = state.stroke->before[k].current;
   }
-  auto was = tools_and_images(act.state);
-  if (!was) return std::unexpected(was.error());
-  keep_what_stroke_left(act);
+  auto tools = tools_and_images(state);
+  if (!tools) return std::unexpected(tools.error());
+  act_.law.keep_what_stroke_left(state);
   for (const Point& place : places) {
-    if (auto put = put_tool(act, place); !put) return put;
-    auto is = tools_and_images(act.state);
-    if (!is) return std::unexpected(is.error());
-    const std::vector<Travel> travels = travels_of(*was, *is);
-    if (auto refined = refine_stroke(act, nullptr); !refined) return std::unexpected(refined.error());
-    auto step = press(act, *is, travels);
-    for (int k = 0; k < max_refinements && step; ++k) {
-      const auto refined = refine_stroke(act, &*step);
-      if (!refined) return std::unexpected(refined.error());
-      if (!*refined) break;
-      step = press(act, *is, travels);
-    }
+    auto step = press_at(place, *tools);
     if (!step) return std::unexpected(step.error());
-    was = std::move(is);
-    OpenStroke& stroke = *act.state.stroke;
+    OpenStroke& stroke = *state.stroke;
     stroke.last = step->control_points;
-    const Points asked = act.cache.stroke->at_abscissae(stroke.last);
+    const Points asked = act_.cache.stroke->at_abscissae(stroke.last);
     remember(stroke.history, asked);
-    ask_of_stroke(act, std::sqrt(asked.rowwise().squaredNorm().maxCoeff()), *was);
+    const double moved = std::sqrt(asked.rowwise().squaredNorm().maxCoeff());
+    act_.law.ask_of_stroke(stroke, *act_.cache.stroke, moved, *tools);
     iterations += step->iterations;
     converged = converged && step->converged;
     if (note.empty()) note = note_of(*step);
     last = std::move(*step);
-    if (auto on = carries_on(act, ++done, static_cast<int>(places.size())); !on) return std::unexpected(on.error());
+    if (auto told = tell_progress(act_, ++done, static_cast<int>(places.size())); !told) return told;
   }
-  note_loose(act);
-  if (last.gap > 0 && (act.state.stroke->history.array() == 0).all())
-    return std::unexpected(all_held(act.state, last.gap_tool));
-  if (auto shown = show_stroke(act, true); !shown) return shown;
-  const auto shallower = keep_stroke_unfolded(act);
+  note_loose(state, act_.law);
+  if (last.gap > 0 && (state.stroke->history.array() == 0).all()) {
+    return std::unexpected(all_held(state, last.gap_tool));
+  }
+  if (auto shown = show(true); !shown) return shown;
+  const auto shallower = keep_unfolded(state, "stroke", state.stroke->share, [&](double share) {
+    state.stroke->share = share;
+    return show(true);
+  });
   if (!shallower) return std::unexpected(shallower.error());
   if (!shallower->empty()) note = *shallower;
-  note_model(act, act.cache.stroke->scene.seams, act.cache.stroke->scene.notes);
+  note_model(act_, act_.cache.stroke->scene.seams, act_.cache.stroke->scene.notes);
   last.iterations = iterations;
   last.converged = converged;
-  record(act, last, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), std::move(note));
+  record(state, last, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), std::move(note));
   return {};
 }
 
-}  // namespace
-
-Expected<void> stroke_to(Act& act, const std::vector<Point>& points) {
-  OpenStroke& stroke = *act.state.stroke;
+Expected<void> Stroke::lead(const std::vector<Point>& path) {
+  OpenStroke& stroke = *act_.state.stroke;
   double length = 0;
-  Point at = stroke.path.begun || points.empty() ? stroke.path.end : points.front();
-  for (const Point& point : points) {
+  Point at = stroke.path.begun || path.empty() ? stroke.path.end : path.front();
+  for (const Point& point : path) {
     if (!point.allFinite()) return input_error("a coordinate is not a finite number", "path");
     length += (point - at).norm();
     at = point;
@@ -347,18 +350,18 @@ Expected<void> stroke_to(Act& act, const std::vector<Point>& points) {
                        "path", "give it in parts, or use a larger tool");
   }
   std::vector<Point> places;
-  for (const Point& point : points) stroke.path.go_to(point, places);
-  return press_along(act, places);
+  for (const Point& point : path) stroke.path.go_to(point, places);
+  return press_along(places);
 }
 
-Expected<void> lift(Act& act) {
-  if (!act.state.stroke) return {};
+Expected<void> Stroke::lift() {
+  if (!is_open()) return {};
   std::vector<Point> places;
-  act.state.stroke->path.finish(places);
-  if (auto pressed = press_along(act, places); !pressed) return pressed;
-  if (auto shown = show_stroke(act, false); !shown) return shown;
-  if (auto put = put_tool(act, act.state.stroke->home); !put) return put;
-  act.state.stroke.reset();
+  act_.state.stroke->path.finish(places);
+  if (auto pressed = press_along(places); !pressed) return pressed;
+  if (auto shown = show(false); !shown) return shown;
+  if (auto put = put_tool(act_, act_.state.stroke->home); !put) return put;
+  act_.state.stroke.reset();
   return {};
 }
 

@@ -114,39 +114,34 @@ std::string face_on(Act& act, const std::string& surface) {
 }
 
 /// Of each surface the shape from which the motion of this command is measured; null: there was none.
-std::vector<std::shared_ptr<const Surface>> shapes_before(const Act& act, const Scene& before) {
+std::vector<std::shared_ptr<const Surface>> shapes_before(const Scene& scene, const Scene& before) {
   std::vector<std::shared_ptr<const Surface>> shapes;
-  for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
-    const std::string& id = std::as_const(act.state.surfaces)[k].id;
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+    const std::string& id = std::as_const(scene.surfaces)[k].id;
     const bool in_place = k < before.surfaces.size() && before.surfaces[k].id == id;
     const auto found = in_place ? before.surfaces.begin() + static_cast<std::ptrdiff_t>(k)
                                 : std::ranges::find(before.surfaces, id, &SceneSurface::id);
     shapes.push_back(found == before.surfaces.end() ? nullptr : found->current);
   }
-  const std::vector<OpenStroke::Before>* const open = act.state.stroke  ? &act.state.stroke->before
-                                                      : act.state.brush ? &act.state.brush->before
-                                                                        : nullptr;
-  const std::vector<int> selection = act.state.selection();
-  for (std::size_t k = 0; open != nullptr && k < std::min(open->size(), selection.size()); ++k) {
-    shapes[static_cast<std::size_t>(selection[k])] = (*open)[k].current;
+  const std::span<const OpenStroke::Before> open = before_gesture(scene);
+  const std::vector<int> selection = scene.selection();
+  for (std::size_t k = 0; k < std::min(open.size(), selection.size()); ++k) {
+    shapes[static_cast<std::size_t>(selection[k])] = open[k].current;
   }
   return shapes;
 }
 
 /// The rest shape from before an open brush, which moves it; else the present one.
-std::shared_ptr<const Surface> rest_before(const Act& act, int surface) {
-  const std::vector<int> selection = act.state.selection();
+std::shared_ptr<const Surface> rest_before(const Scene& scene, int surface) {
+  const std::vector<int> selection = scene.selection();
   const auto found = std::ranges::find(selection, surface);
-  if (!act.state.brush || found == selection.end()) return act.state.surfaces[static_cast<std::size_t>(surface)].rest;
-  return act.state.brush->before[static_cast<std::size_t>(found - selection.begin())].rest;
+  if (!scene.brush || found == selection.end()) return scene.surfaces[static_cast<std::size_t>(surface)].rest;
+  return scene.brush->before[static_cast<std::size_t>(found - selection.begin())].rest;
 }
 
 /// All that moved from there, made smaller alike: what is held is linear in displacements.
 Expected<void> stop_at_face(Act& act, std::span<const WallMotion> motions, double share) {
-  if (act.state.stroke) {
-    act.state.stroke->share *= share;
-    return show_stroke(act, true);
-  }
+  if (act.state.stroke) return Stroke(act).keep_share(share);
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const Motion& motion = motions[k].motion;
     if (!motion.from || !motion.moves()) continue;
@@ -154,7 +149,7 @@ Expected<void> stop_at_face(Act& act, std::span<const WallMotion> motions, doubl
     const bool same = s.rest == s.current;
     auto current = part_of_way(*motion.from, s.current, share);
     if (!current) return std::unexpected(current.error());
-    const Motion of_rest = same ? motion : motion_of(rest_before(act, static_cast<int>(k)), s.rest);
+    const Motion of_rest = same ? motion : motion_of(rest_before(act.state, static_cast<int>(k)), s.rest);
     auto rest = same           ? current
                 : of_rest.from ? part_of_way(*of_rest.from, s.rest, share)
                                : Expected<std::shared_ptr<const Surface>>(s.rest);
@@ -168,12 +163,18 @@ Expected<void> stop_at_face(Act& act, std::span<const WallMotion> motions, doubl
 
 }  // namespace
 
-Expected<void> meet_faces(Act& act, const Scene& before) {
-  if (act.through == Through::allow || act.met_at_each_step) return {};
-  return meet_faces(act, shapes_before(act, before));
+Expected<void> FaceMeeting::after_step(Act& act, std::span<const std::shared_ptr<const Surface>> before) {
+  if (through_ != Through::stop) return {};
+  each_step_ = true;
+  return meet(act, before);
 }
 
-Expected<void> meet_faces(Act& act, std::span<const std::shared_ptr<const Surface>> before) {
+Expected<void> FaceMeeting::at_end(Act& act, const Scene& before) {
+  if (through_ == Through::allow || each_step_) return {};
+  return meet(act, shapes_before(act.state, before));
+}
+
+Expected<void> FaceMeeting::meet(Act& act, std::span<const std::shared_ptr<const Surface>> before) {
   std::vector<WallMotion> motions;
   bool any = false;
   double tolerance = 0;
@@ -208,7 +209,7 @@ Expected<void> meet_faces(Act& act, std::span<const std::shared_ptr<const Surfac
   const auto read = [&](ErrorCode code) -> Diagnostic {
     return {code, {{"surface", s.id}, {"other", to}, {"x", at.x()}, {"y", at.y()}, {"z", at.z()}, {"depth", deep}}};
   };
-  if (act.through == Through::note) {
+  if (through_ == Through::note) {
     note_last(act.state, "through another face",
               fmt::format(": {} comes to {}, and goes on; press less deep, or say "
                           "\"allow\":\"through\"",
@@ -219,7 +220,7 @@ Expected<void> meet_faces(Act& act, std::span<const std::shared_ptr<const Surfac
   note_last(act.state, "stopped at another face",
             fmt::format(": {} would come through {}; \"allow\":\"through\" lets it", s.id, place),
             read(ErrorCode::stopped_at_face));
-  act.stopped_at_face = true;
+  stopped_ = true;
   return stop_at_face(act, motions, contact->room);
 }
 

@@ -154,17 +154,17 @@ Expected<std::string> keep_unfolded(const Scene& scene, std::string_view what, d
   return fmt::format("the {} keeps {:.0f} % of its depth, as more would fold a face", what, 100 * safe * flat);
 }
 
-Expected<std::string> keep_step_unfolded(Act& act, std::span<const std::shared_ptr<const Surface>> from, bool first,
+Expected<std::string> keep_step_unfolded(Scene& scene, std::span<const std::shared_ptr<const Surface>> from, bool first,
                                          const EvolutionPolicy& evolution) {
-  const auto sound = check_folds(act.state);
+  const auto sound = check_folds(scene);
   if (sound) return std::string();
   if (evolution.mode == Evolution::stationary) return std::unexpected(sound.error());
-  const Scene whole = act.state;
+  const Scene whole = scene;
   const auto shows = [&](double share) -> Expected<void> {
-    for (const int k : act.state.selection()) {
+    for (const int k : scene.selection()) {
       const auto at = static_cast<std::size_t>(k);
       const SceneSurface& moved = whole.surfaces[at];
-      SceneSurface& s = act.state.surfaces[at];
+      SceneSurface& s = scene.surfaces[at];
       auto nearer = part_of_way(*from[at], moved.current, share);
       if (!nearer) return std::unexpected(nearer.error());
       if (*nearer == moved.current) continue;
@@ -174,12 +174,8 @@ Expected<std::string> keep_step_unfolded(Act& act, std::span<const std::shared_p
     }
     return {};
   };
-  auto note = keep_unfolded(act.state, "step", 1, shows);
-  if (note || first) {
-    act.at_fold = note && !note->empty();
-    return note;
-  }
-  act.at_fold = true;
+  auto note = keep_unfolded(scene, "step", 1, shows);
+  if (note || first) return note;
   if (auto back = shows(0); !back) return std::unexpected(back.error());
   return "the step is not made, as it would fold a face";
 }

@@ -35,8 +35,9 @@ struct SurfacePlace;
 [[nodiscard]] Expected<std::string> keep_unfolded(const Scene& scene, std::string_view what, double whole,
                                                   const std::function<Expected<void>(double)>& shows);
 /// The same of a step from these shapes, but not of an equilibrium. Of a step that is not the first, nothing may be
-/// left.
-[[nodiscard]] Expected<std::string> keep_step_unfolded(Act& act, std::span<const std::shared_ptr<const Surface>> from,
-                                                       bool first, const EvolutionPolicy& evolution);
+/// left of it; then too a note says so.
+[[nodiscard]] Expected<std::string> keep_step_unfolded(Scene& scene,
+                                                       std::span<const std::shared_ptr<const Surface>> from, bool first,
+                                                       const EvolutionPolicy& evolution);
 
 }  // namespace knead

@@ -307,16 +307,15 @@ Expected<void> execute(const BrushCommand& c, Act& act) {
   if (c.path.empty() && !act.state.brush) {
     return input_error("the path has no places", "path", "give one or more: [[s, t], ...]");
   }
-  if (!act.state.brush) begin_brush(act, *brush, std::move(*images), rope);
-  if (acts_about_one_place(c.kind) && act.state.brush->path.size() + c.path.size() > 1) {
+  const std::size_t known = act.state.brush ? act.state.brush->path.size() : 0;
+  if (acts_about_one_place(c.kind) && known + c.path.size() > 1) {
     return input_error("this kind of brush acts about one place", "path", "give one: [[s, t]]");
   }
-  act.state.brush->brush = *brush;
-  if (auto done = brush_to(act, *path); !done) return done;
+  if (act.state.brush) act.state.brush->brush = *brush;
+  const bool open = c.open.value_or(false);
+  if (auto done = make(BrushStroke(act), {*brush, *images, rope}, *path, open); !done) return done;
   act.cache.brush->shape = c.shape.value_or("");
-  if (c.open.value_or(false)) return {};
-  act.state.brush.reset();
-  if (act.cache.brush->stuck) {  // not of a stroke that may still come to where something is free
+  if (act.cache.brush->stuck && !open) {  // not of a stroke that may still come to where something is free
     return numerical_error("nothing is free to move under the brush", "brush",
                            R"(brush elsewhere, or release what is held or masked: {"do":"release"})",
                            {ErrorCode::nothing_free_at_brush});

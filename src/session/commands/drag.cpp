@@ -116,11 +116,14 @@ Expected<void> execute(const DragCommand& c, Act& act) {
   }
   const auto grip = footprint(*surface.current, first, *at, radius, c.strength);
   if (!grip) return std::unexpected(grip.error());
-  for (int k = 0; k < c.steps && !act.at_fold; ++k) {
-    std::vector<PointForce> forces = *grip;
+  bool at_fold = false;
+  for (int k = 0; k < c.steps && !at_fold; ++k) {
+    Steps steps{.evolution = act.state.evolution, .grips = *grip, .before = k, .of = c.steps};
     const double share = static_cast<double>(k + 1) / c.steps;
-    for (PointForce& force : forces) force.to += share * unit * Point(c.by[0], c.by[1], c.by[2]);
-    if (auto done = run(act, 1, act.state.evolution, forces, k, c.steps); !done) return done;
+    for (PointForce& force : steps.grips) force.to += share * unit * Point(c.by[0], c.by[1], c.by[2]);
+    const auto made = run(act, steps);
+    if (!made) return std::unexpected(made.error());
+    at_fold = made->at_fold;
   }
   return yield(act, c.plasticity);
 }

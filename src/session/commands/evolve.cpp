@@ -77,7 +77,7 @@ Expected<void> execute(const EvolveCommand& c, Act& act) {
                        "energy_tolerance", "use a number from 1e-14 to 0.1");
   }
   if (c.evolution.mode == Evolution::stationary) {
-    if (auto done = run(act, 1, c.evolution); !done) return done;
+    if (auto made = run(act, {.evolution = c.evolution}); !made) return std::unexpected(made.error());
   }
   act.state.evolution = c.evolution;
   return {};

@@ -39,7 +39,7 @@ void describe(LatticeCommand& c, Fields& fields) {
 namespace {
 
 /// The control points of the block after tools have acted on it.
-Expected<Points> pressed(Act& act, const LatticeCommand& c, const Lattice& lattice) {
+Expected<Points> pressed(const Act& act, const LatticeCommand& c, const Lattice& lattice) {
   auto held = lattice.faces(c.hold, 1);
   if (!held) return std::unexpected(held.error());
   const auto tools = tools_and_images(act.state);
@@ -55,7 +55,7 @@ Expected<Points> pressed(Act& act, const LatticeCommand& c, const Lattice& latti
     auto step = model->step(active, *tools);
     if (!step) return std::unexpected(step.error());
     active.control_points = std::move(step->control_points);
-    if (auto on = carries_on(act, k + 1, c.steps); !on) return std::unexpected(on.error());
+    if (auto told = tell_progress(act, k + 1, c.steps); !told) return std::unexpected(told.error());
   }
   return std::move(active.control_points);
 }

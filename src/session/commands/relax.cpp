@@ -123,9 +123,9 @@ Expected<void> execute(const RelaxCommand& c, Act& act) {
   plate.lambda = resistance / (unit_radius * unit_radius) * (1 - share) / share;
   Act own{act.document, trial, act.cache, act.progress};
   Models of_steps = std::exchange(act.cache.models, {});  // they stay
-  const auto done = run(own, 1, plate);
+  const auto done = run(own, {.evolution = plate});
   act.cache.models = std::move(of_steps);
-  if (!done) return done;
+  if (!done) return std::unexpected(done.error());
 
   for (int index : act.state.selection()) {
     SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];

@@ -36,10 +36,14 @@ Expected<void> execute(const StepCommand& c, Act& act) {
   if (c.increments) {
     if (auto few = check_steps(*c.increments, "increments", 1); !few) return few;
   }
-  act.increments = c.increments;
-  act.allow_held = c.allow == StepAllowance::held || c.allow == StepAllowance::all;
-  act.may_stop = !act.state.body;
-  return run(act, c.count, evolution);
+  const auto made = run(act, {.count = c.count,
+                              .evolution = evolution,
+                              .increments = c.increments,
+                              .allow_held = c.allow == StepAllowance::held || c.allow == StepAllowance::all,
+                              .may_stop = !act.state.body});
+  if (!made) return std::unexpected(made.error());
+  if (made->stopped) act.steps_kept = made->count;
+  return {};
 }
 
 }  // namespace knead

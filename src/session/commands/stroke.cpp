@@ -49,7 +49,7 @@ void describe(StrokeCommand& c, Fields& fields) {
 
 Expected<void> execute(const StrokeCommand& c, Act& act) {
   if (act.state.stroke && (c.plastic == StrokePlasticity::release || (c.tool && *c.tool != act.state.stroke->tool))) {
-    if (auto lifted = lift(act); !lifted) return lifted;
+    if (auto lifted = Stroke(act).lift(); !lifted) return lifted;
   }
   auto tool = find_tool(act, c.tool ? c.tool : act.state.stroke ? std::optional(act.state.stroke->tool) : std::nullopt);
   if (!tool) return std::unexpected(tool.error());
@@ -71,11 +71,7 @@ Expected<void> execute(const StrokeCommand& c, Act& act) {
     if (c.relative) points.back() = home + *length * points.back();
   }
   if (act.state.stroke || leaves_along(c, act.state)) {
-    if (!act.state.stroke) {
-      if (auto begun = begin_stroke(act, (*tool)->name, c.plasticity); !begun) return begun;
-    }
-    if (auto done = stroke_to(act, points); !done) return done;
-    return c.open.value_or(false) ? Expected<void>() : lift(act);
+    return make(Stroke(act), {(*tool)->name, c.plasticity}, points, c.open.value_or(false));
   }
   const auto index = static_cast<std::size_t>(*tool - act.state.tools.data());
   const int total = c.steps * static_cast<int>(points.size());
@@ -83,8 +79,10 @@ Expected<void> execute(const StrokeCommand& c, Act& act) {
     auto moved = before.moved(at.rotation, points[k]);
     if (!moved) return std::unexpected(moved.error().within(fmt::format("path[{}]", k)));
     act.state.tools[index].shape = std::move(*moved);
-    if (auto done = run(act, c.steps, act.state.evolution, {}, static_cast<int>(k) * c.steps, total); !done)
-      return done;
+    const auto made =
+        run(act,
+            {.count = c.steps, .evolution = act.state.evolution, .before = static_cast<int>(k) * c.steps, .of = total});
+    if (!made) return std::unexpected(made.error());
   }
   act.state.tools[index].shape = before;
   return yield(act, c.plasticity);
