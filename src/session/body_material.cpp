@@ -5,7 +5,7 @@
 
 #include "commands/material.hpp"
 
-#include "selection.hpp"
+#include "acts/selection.hpp"
 
 namespace knead {
 namespace {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <set>
 
+#include "acts/limits.hpp"
 #include "knead/base/printable.hpp"
-#include "limits.hpp"
 
 namespace knead {
 namespace {

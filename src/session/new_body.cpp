@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "acts/limits.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/revolution.hpp"
 #include "knead/spline/site_values.hpp"
 #include "knead/spline/spline_refinement.hpp"
-#include "limits.hpp"
 
 namespace knead {
 namespace {

@@ -10,16 +10,16 @@
 #include <type_traits>
 #include <utility>
 
-#include "brushing.hpp"
+#include "acts/following.hpp"
+#include "acts/holding.hpp"
+#include "acts/selection.hpp"
 #include "commands.hpp"
-#include "following.hpp"
-#include "holding.hpp"
+#include "gestures/brushing.hpp"
+#include "gestures/stroking.hpp"
 #include "knead/base/interruption.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/session/document_regions.hpp"
 #include "knead/spline/extremum.hpp"
-#include "selection.hpp"
-#include "stroking.hpp"
 
 namespace knead {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "acts/selection.hpp"
 #include "described_json.hpp"
 #include "knead/tool/describe_shape.hpp"
-#include "selection.hpp"
 
 namespace knead {
 namespace {

@@ -1,5 +1,5 @@
 // The way of a brush over a closed surface.
-#include "session/brush_path.hpp"
+#include "session/gestures/brush_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Scripts that ask for more than there is memory, time or numbers for.
-#include "session/limits.hpp"
+#include "session/acts/limits.hpp"
 
 #include <fmt/format.h>
 

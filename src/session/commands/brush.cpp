@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "../brushing.hpp"
-#include "../selection.hpp"
 #include "../shape_fields.hpp"
 #include "knead/base/error_code.hpp"
+#include "session/acts/selection.hpp"
+#include "session/gestures/brushing.hpp"
 
 namespace knead {
 namespace {

@@ -1,8 +1,8 @@
 #include "buckling.hpp"
 
-#include "../limits.hpp"
-#include "../selection.hpp"
 #include "scene/model/structural_modes.hpp"
+#include "session/acts/limits.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "../refining.hpp"
-#include "../selection.hpp"
+#include "session/acts/refining.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 
@@ -19,8 +19,7 @@ Expected<void> execute(const CoarsenCommand& c, Act& act) {
   if (!(std::isfinite(c.tolerance) && c.tolerance >= 0)) {
     return input_error(fmt::format("{} is not a tolerance", c.tolerance), "tolerance", "use a length of 0 or more");
   }
-  for (int index : act.state.selection()) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];
+  for (SceneSurface& s : selected_surfaces(act.state)) {
     const auto done = coarsen(s, c.tolerance);
     if (!done) return std::unexpected(done.error());
     act.state.notes.push_back(

@@ -6,10 +6,10 @@
 #include <memory>
 #include <utility>
 
-#include "../selection.hpp"
-#include "../trimming.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/session/document_regions.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/trimming.hpp"
 
 namespace knead {
 namespace {

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../limits.hpp"
-#include "../refining.hpp"
-#include "../selection.hpp"
-#include "../stepping.hpp"
-#include "../trimming.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "scene/places.hpp"
+#include "session/acts/limits.hpp"
+#include "session/acts/refining.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/stepping.hpp"
+#include "session/acts/trimming.hpp"
 #include "spline/basis_terms.hpp"
 
 namespace knead {

@@ -6,11 +6,11 @@
 #include <functional>
 
 #include "../components.hpp"
-#include "../following.hpp"
-#include "../holding.hpp"
-#include "../selection.hpp"
-#include "../trimming.hpp"
 #include "knead/scene/trims.hpp"
+#include "session/acts/following.hpp"
+#include "session/acts/holding.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/trimming.hpp"
 
 namespace knead {
 namespace {
@@ -188,8 +188,7 @@ Expected<void> execute(const EdgeCommand& c, Act& act) {
     return input_error("a surface has no such edge", "which", "use u0, u1, v0, v1 or all");
   }
   const std::vector<SurfaceEdge> edges = edges_of(edge_choice(c.which));
-  for (int k : act.state.selection()) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+  for (SceneSurface& s : selected_surfaces(act.state)) {
     if (*components == all_components) hold_bare_sides(act, s, edges, c.hold == EdgeCondition::free);
     hold_sides<EdgeHold>(s, edges, c.hold, *components);
   }

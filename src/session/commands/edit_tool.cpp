@@ -1,6 +1,6 @@
 #include "edit_tool.hpp"
 
-#include "../selection.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 namespace {

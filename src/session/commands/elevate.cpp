@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "../refining.hpp"
-#include "../selection.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "session/acts/refining.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

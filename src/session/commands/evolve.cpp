@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../stepping.hpp"
+#include "session/acts/stepping.hpp"
 
 namespace knead {
 

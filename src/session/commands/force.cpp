@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../selection.hpp"
 #include "scene/places.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

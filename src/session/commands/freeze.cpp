@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "../holding.hpp"
-#include "../selection.hpp"
 #include "scene/places.hpp"
+#include "session/acts/holding.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "../holding.hpp"
-#include "../selection.hpp"
-#include "../trimming.hpp"
+#include "session/acts/holding.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/trimming.hpp"
 
 namespace knead {
 

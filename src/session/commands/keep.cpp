@@ -1,6 +1,6 @@
 #include "keep.hpp"
 
-#include "../holding.hpp"
+#include "session/acts/holding.hpp"
 
 namespace knead {
 

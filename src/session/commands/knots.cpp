@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "../refining.hpp"
-#include "../selection.hpp"
+#include "session/acts/refining.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

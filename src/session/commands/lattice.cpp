@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../limits.hpp"
-#include "../selection.hpp"
-#include "../stepping.hpp"
 #include "knead/scene/lattice.hpp"
+#include "session/acts/limits.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/stepping.hpp"
 
 namespace knead {
 

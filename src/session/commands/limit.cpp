@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "../selection.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/extremum.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

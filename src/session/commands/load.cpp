@@ -1,6 +1,6 @@
 #include "load.hpp"
 
-#include "../selection.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "../limits.hpp"
-#include "../selection.hpp"
+#include "session/acts/limits.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 namespace {

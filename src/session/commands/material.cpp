@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "../selection.hpp"
 #include "knead/energy/paint.hpp"
 #include "scene/formula_field.hpp"
 #include "scene/places.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 namespace {
@@ -358,8 +358,7 @@ Expected<void> execute(const MaterialCommand& given, Act& act) {
   if (c.alpha) std::ranges::copy(*c.alpha, constants.alpha.begin());
   if (c.beta) std::ranges::copy(*c.beta, constants.beta.begin());
   if (auto material = validated(constants); !material) return std::unexpected(material.error());
-  for (int k : act.state.selection()) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+  for (SceneSurface& s : selected_surfaces(act.state)) {
     if (c.reset) reset_material(s);
     auto next = c.coefficient && !varies_shell(c) ? varied(c, s) : c.region ? painted(c, s) : everywhere(c, s);
     if (!next) return std::unexpected(next.error());

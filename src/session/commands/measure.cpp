@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "../selection.hpp"
-#include "../trimming.hpp"
 #include "scene/places.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/trimming.hpp"
 
 namespace knead {
 

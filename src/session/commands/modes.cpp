@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "../limits.hpp"
-#include "../selection.hpp"
 #include "scene/model/structural_modes.hpp"
+#include "session/acts/limits.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

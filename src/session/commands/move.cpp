@@ -1,6 +1,6 @@
 #include "move.hpp"
 
-#include "../selection.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <variant>
 
-#include "../act.hpp"
-#include "../limits.hpp"
 #include "../new_body.hpp"
 #include "exchange/step/write/text.hpp"
 #include "knead/spline/revolution.hpp"
+#include "session/acts/act.hpp"
+#include "session/acts/limits.hpp"
 
 namespace knead {
 namespace {

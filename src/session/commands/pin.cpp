@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "../components.hpp"
-#include "../holding.hpp"
-#include "../selection.hpp"
 #include "scene/places.hpp"
+#include "session/acts/holding.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

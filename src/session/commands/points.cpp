@@ -5,10 +5,10 @@
 #include <bit>
 #include <cmath>
 
-#include "../selection.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/extremum.hpp"
 #include "scene/places.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "../limits.hpp"
-#include "../refining.hpp"
-#include "../selection.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "scene/places.hpp"
+#include "session/acts/limits.hpp"
+#include "session/acts/refining.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 
@@ -78,8 +78,7 @@ Expected<void> execute(const RefineCommand& c, Act& act) {
       return input_error(fmt::format("the tool {} does not reach the surface", *c.under), "under", "move it nearer");
     return {};
   }
-  for (int index : act.state.selection()) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];
+  for (SceneSurface& s : selected_surfaces(act.state)) {
     Expected<void> done;
     if (c.region) {
       const auto region = region_at(*s.current, *c.region);

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <utility>
 
-#include "../limits.hpp"
-#include "../selection.hpp"
-#include "../stepping.hpp"
 #include "knead/energy/domain_scaling.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "scene/places.hpp"
+#include "session/acts/limits.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/stepping.hpp"
 
 namespace knead {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "../selection.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 namespace {

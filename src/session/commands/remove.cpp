@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "../selection.hpp"
-#include "../stepping.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/stepping.hpp"
 
 namespace knead {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "../selection.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

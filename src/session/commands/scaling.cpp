@@ -1,6 +1,6 @@
 #include "scaling.hpp"
 
-#include "../act.hpp"
+#include "session/acts/act.hpp"
 
 namespace knead {
 

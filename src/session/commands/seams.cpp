@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "../act.hpp"
+#include "session/acts/act.hpp"
 
 namespace knead {
 

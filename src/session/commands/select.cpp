@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "../holding.hpp"
-#include "../selection.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/energy/domain_scaling.hpp"
+#include "session/acts/holding.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 namespace {

@@ -1,6 +1,6 @@
 #include "smooth.hpp"
 
-#include "../selection.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 
@@ -13,8 +13,7 @@ void describe(SmoothCommand& c, Fields& fields) {
 
 Expected<void> execute(const SmoothCommand& c, Act& act) {
   if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
-  for (int k : act.state.selection()) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+  for (SceneSurface& s : selected_surfaces(act.state)) {
     s.smooth_knot_lines = c.knot_lines;
     s.smooth_poles = c.poles;
   }

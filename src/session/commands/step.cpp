@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "../limits.hpp"
-#include "../selection.hpp"
-#include "../stepping.hpp"
+#include "session/acts/limits.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/stepping.hpp"
 
 namespace knead {
 

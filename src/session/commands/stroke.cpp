@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "../limits.hpp"
-#include "../selection.hpp"
-#include "../stepping.hpp"
-#include "../stroking.hpp"
+#include "session/acts/limits.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/stepping.hpp"
+#include "session/gestures/stroking.hpp"
 
 namespace knead {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "../holding.hpp"
-#include "../selection.hpp"
 #include "knead/hold/constraints.hpp"
 #include "refine.hpp"
+#include "session/acts/holding.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

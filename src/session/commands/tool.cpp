@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../selection.hpp"
-#include "../trimming.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "scene/places.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/trimming.hpp"
 
 namespace knead {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "../selection.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

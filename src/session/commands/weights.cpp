@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "../refining.hpp"
-#include "../selection.hpp"
+#include "session/acts/refining.hpp"
+#include "session/acts/selection.hpp"
 
 namespace knead {
 

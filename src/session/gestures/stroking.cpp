@@ -7,16 +7,16 @@
 #include <cmath>
 #include <map>
 
-#include "following.hpp"
-#include "holding.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/spline_refinement.hpp"
-#include "notes.hpp"
-#include "refining.hpp"
 #include "scene/anchors.hpp"
-#include "selection.hpp"
-#include "stepping.hpp"
-#include "trimming.hpp"
+#include "session/acts/following.hpp"
+#include "session/acts/holding.hpp"
+#include "session/acts/notes.hpp"
+#include "session/acts/refining.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/stepping.hpp"
+#include "session/acts/trimming.hpp"
 
 namespace knead {
 namespace {
@@ -122,8 +122,7 @@ Expected<void> Stroke::begin(const Begin& begin) {
   const double felt = felt_area(act_.state, scalings.at(*act_.state.selected), stroke);
   stroke.stiffness = hard * stroke.lambda * std::max(1.0, 16 * felt / (size * size));
   Eigen::Index rows = 0;
-  for (int k : act_.state.selection()) {
-    const SceneSurface& s = act_.state.surfaces[static_cast<std::size_t>(k)];
+  for (const SceneSurface& s : selected_surfaces(act_.state)) {
     stroke.before.push_back({s.rest, s.current});
     rows += s.current->size();
   }

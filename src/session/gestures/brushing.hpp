@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "act.hpp"
 #include "gesture.hpp"
+#include "session/acts/act.hpp"
 
 namespace knead {
 

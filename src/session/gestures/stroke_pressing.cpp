@@ -2,11 +2,11 @@
 #include <cmath>
 #include <utility>
 
-#include "following.hpp"
 #include "scene/anchors.hpp"
 #include "scene/model/shell_model.hpp"
+#include "session/acts/following.hpp"
+#include "session/acts/trimming.hpp"
 #include "stroking.hpp"
-#include "trimming.hpp"
 
 namespace knead {
 namespace {

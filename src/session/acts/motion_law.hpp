@@ -8,7 +8,7 @@
 
 #include "knead/scene/model.hpp"
 #include "knead/session/session.hpp"
-#include "stroke_model.hpp"
+#include "session/gestures/stroke_model.hpp"
 
 namespace knead {
 

@@ -25,8 +25,7 @@ namespace {
 /// Whether the step left every selected surface at rest and as opened.
 bool nothing_moved(const Scene& scene, const ActiveStep& step) {
   Eigen::Index first = 0;
-  for (int index : scene.selection()) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(index)];
+  for (const SceneSurface& s : selected_surfaces(scene)) {
     const Eigen::Index n = s.current->size();
     if (s.mode == RestMode::none || s.current != s.rest || s.current != s.opened) return false;
     if (step.control_points.middleRows(first, n) != s.current->control_points()) return false;
@@ -70,8 +69,7 @@ Expected<void> know_what_holds(Act& act) {
 Expected<void> check_limit(const Scene& scene) {
   constexpr double tolerance = 1e-5;  // of the limit; steps keep it to 1e-6
   if (!scene.limit) return {};
-  for (int index : scene.selection()) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(index)];
+  for (const SceneSurface& s : selected_surfaces(scene)) {
     const double largest = largest_distance(*s.current, *s.opened);
     if (largest <= *scene.limit * (1 + tolerance)) continue;
     return numerical_error(
@@ -88,8 +86,7 @@ void note_loose(SessionState& state, const MotionLaw& law) {
   if (!law.bounds()) return;
   std::string loose;
   std::vector<std::string> ids;
-  for (const int k : state.selection()) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+  for (const SceneSurface& s : selected_surfaces(state)) {
     if (holds_anything(s)) return;
     loose += (loose.empty() ? "" : ", ") + s.id;
     ids.push_back(s.id);
@@ -155,8 +152,7 @@ void record(SessionState& state, const ActiveStep& step, double seconds, std::st
   record.surface = state.selected.value_or(-1);
   if (state.body)
     record.largest_displacement = largest_displacement(state.bodies[static_cast<std::size_t>(*state.body)]);
-  for (int index : state.selection()) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+  for (const SceneSurface& s : selected_surfaces(state)) {
     record.largest_displacement = std::max(record.largest_displacement, largest_distance(*s.current, *s.opened));
   }
   state.steps.push_back(std::move(record));
@@ -170,8 +166,7 @@ void note_model(Act& act, std::span<const SeamReport> seams, std::span<const std
 
 Expected<void> yield(Act& act, double plasticity) {
   if (plasticity == 0) return {};
-  for (int index : act.state.selection()) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];
+  for (SceneSurface& s : selected_surfaces(act.state)) {
     if (plasticity == 1) {
       s.rest = s.current;
       continue;

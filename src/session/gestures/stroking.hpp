@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "act.hpp"
 #include "gesture.hpp"
 #include "sculpt/travelled.hpp"
+#include "session/acts/act.hpp"
 
 namespace knead {
 

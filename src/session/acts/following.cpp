@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "command_fields.hpp"
 #include "holding.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/brep/face_conversion.hpp"
@@ -15,8 +14,9 @@
 #include "knead/spline/evaluate.hpp"
 #include "refining.hpp"
 #include "selection.hpp"
+#include "session/command_fields.hpp"
+#include "session/gestures/stroking.hpp"
 #include "stepping.hpp"
-#include "stroking.hpp"
 #include "trimming.hpp"
 
 namespace knead {
@@ -107,8 +107,7 @@ Expected<void> follow_edge(Act& act, const std::string& id) {
 }
 
 Expected<void> know_followed(Act& act) {
-  for (int k : act.state.selection()) {
-    const SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+  for (const SceneSurface& s : selected_surfaces(act.state)) {
     for (const KeptConstraint& kept : s.constraints) {
       const auto* hold = std::get_if<TrimEdgeHold>(&kept.constraint);
       if (hold == nullptr || !hold->follow) continue;

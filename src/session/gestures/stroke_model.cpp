@@ -1,4 +1,5 @@
 #include "stroke_model.hpp"
+#include "session/acts/selection.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -84,8 +85,7 @@ Points StrokeModel::after_travels(std::span<const OpenStroke::Before> before, co
 
 Points unmasked(const Scene& scene, Points displacement) {
   Eigen::Index first = 0;
-  for (int k : scene.selection()) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+  for (const SceneSurface& s : selected_surfaces(scene)) {
     for (std::size_t i = 0; i < s.mask.size(); ++i) {
       displacement.row(first + static_cast<Eigen::Index>(i)) *= 1 - s.mask[i];
     }

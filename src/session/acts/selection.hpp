@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -10,6 +11,12 @@
 namespace knead {
 
 // What is selected, and what commands name.
+
+/// The selected surfaces of a scene, the first one first. The scene must outlive them.
+[[nodiscard]] inline auto selected_surfaces(auto& scene) {
+  return scene.selection() |
+         std::views::transform([&scene](int k) -> auto& { return scene.surfaces[static_cast<std::size_t>(k)]; });
+}
 
 /// The selected curve or volume; null if none is.
 [[nodiscard]] SceneBody* body(Act& act);

@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "act.hpp"
-#include "commands.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/brep/trim_loops.hpp"
 #include "knead/scene/display.hpp"
@@ -17,7 +16,8 @@
 #include "notes.hpp"
 #include "refining.hpp"
 #include "scene/model/model_walls.hpp"
-#include "stroking.hpp"
+#include "session/commands.hpp"
+#include "session/gestures/stroking.hpp"
 #include "trimming.hpp"
 
 namespace knead {

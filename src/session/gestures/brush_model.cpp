@@ -7,13 +7,13 @@
 
 #include "brush_path.hpp"
 #include "brushing.hpp"
-#include "following.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
-#include "notes.hpp"
-#include "refining.hpp"
 #include "scene/places.hpp"
-#include "trimming.hpp"
+#include "session/acts/following.hpp"
+#include "session/acts/notes.hpp"
+#include "session/acts/refining.hpp"
+#include "session/acts/trimming.hpp"
 
 namespace knead {
 namespace {

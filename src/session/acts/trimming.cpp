@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "command_fields.hpp"
 #include "following.hpp"
 #include "holding.hpp"
 #include "knead/base/error_code.hpp"
@@ -14,7 +13,8 @@
 #include "notes.hpp"
 #include "refining.hpp"
 #include "selection.hpp"
-#include "stroking.hpp"
+#include "session/command_fields.hpp"
+#include "session/gestures/stroking.hpp"
 
 namespace knead {
 namespace {
@@ -82,8 +82,7 @@ Expected<const VisibleRegion*> visible(Act& act, SceneSurface& surface) {
 }
 
 Expected<void> know_trims(Act& act) {
-  for (int k : act.state.selection()) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+  for (SceneSurface& s : selected_surfaces(act.state)) {
     const bool held = holds_trims(s.constraints);
     if (!held && !touches_visible(act.state)) continue;
     const auto region = visible(act, s);
@@ -126,8 +125,7 @@ Expected<Fractions> place_on(Act& act, SceneSurface& surface, const SurfacePlace
 }
 
 Expected<void> check_folds(const Scene& scene) {
-  for (int k : scene.selection()) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+  for (const SceneSurface& s : selected_surfaces(scene)) {
     if (!any_held(s) || s.current == s.opened) continue;
     const auto fold = first_fold(*s.opened, *s.current, *s.visible);
     if (!fold) return std::unexpected(fold.error());

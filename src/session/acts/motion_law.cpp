@@ -11,7 +11,7 @@
 #include "knead/spline/extremum.hpp"
 #include "notes.hpp"
 #include "scene/model/shell_model.hpp"
-#include "stroking.hpp"
+#include "session/gestures/stroking.hpp"
 #include "trimming.hpp"
 
 namespace knead {
@@ -130,12 +130,10 @@ void MotionLaw::ask_of_stroke(const OpenStroke& stroke, const StrokeModel& model
 }
 
 void MotionLaw::ask_of_brush(const OpenBrush& brush, double asked) {
-  const bool unruled = unruled_;
   *this = {};
+  asked_ = true;
   reach_ = asked;
   from_ = brush.before;
-  asked_ = true;
-  unruled_ = unruled;
 }
 
 bool MotionLaw::shortens(const Scene& scene, const ActiveStep& step, ActiveLoads& loads, const Model& model) {

@@ -6,15 +6,16 @@
 #include <cmath>
 
 #include "brush_path.hpp"
-#include "following.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
-#include "notes.hpp"
 #include "scene/places.hpp"
-#include "stepping.hpp"
+#include "session/acts/following.hpp"
+#include "session/acts/notes.hpp"
+#include "session/acts/selection.hpp"
+#include "session/acts/stepping.hpp"
+#include "session/acts/trimming.hpp"
 #include "stroke_model.hpp"
-#include "trimming.hpp"
 
 namespace knead {
 namespace {
@@ -79,8 +80,7 @@ bool BrushRun::reaches() const { return std::ranges::any_of(histories, &BrushHis
 
 Expected<void> BrushStroke::begin(const Begin& begin) {
   OpenBrush open{begin.brush, begin.images, begin.rope, {}, {}, {}};
-  for (int k : act_.state.selection()) {
-    const SceneSurface& s = act_.state.surfaces[static_cast<std::size_t>(k)];
+  for (const SceneSurface& s : selected_surfaces(act_.state)) {
     open.before.push_back({s.rest, s.current});
     open.masks.push_back(s.mask);
   }

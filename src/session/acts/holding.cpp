@@ -82,8 +82,7 @@ bool nothing_said(const SceneSurface& s) {
 
 Expected<void> keep(Act& act, const Constraint& constraint) {
   if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
-  for (int k : act.state.selection()) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+  for (SceneSurface& s : selected_surfaces(act.state)) {
     s.constraints.push_back({constraint, s.current});
   }
   return check_constraints(act);
@@ -182,8 +181,7 @@ Error all_held(const Scene& scene, const std::string& tool) {
   const auto say = [&](ErrorCode code, const NamedValue& surface, const NamedValue& more) {
     if (code > diagnostic.code) diagnostic = {code, {{"tool", tool}, surface, more}};
   };
-  for (int k : scene.selection()) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+  for (const SceneSurface& s : selected_surfaces(scene)) {
     const auto [m, n] = s.current->net();
     std::string what;
     if (s.hold_rows > 0) {

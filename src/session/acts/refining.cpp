@@ -12,7 +12,7 @@
 #include "knead/spline/spline_refinement.hpp"
 #include "limits.hpp"
 #include "selection.hpp"
-#include "stroking.hpp"
+#include "session/gestures/stroking.hpp"
 #include "trimming.hpp"
 
 namespace knead {
@@ -100,8 +100,7 @@ Expected<void> change_net(Act& act, SceneSurface& s, const SurfaceChange& change
 
 Expected<bool> refine_under(Act& act, const Tool& tool, bool limited) {
   bool any = false;
-  for (int index : act.state.selection()) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];
+  for (SceneSurface& s : selected_surfaces(act.state)) {
     const auto reach = reach_of(*s.current, tool);
     if (!reach) continue;
     any = true;
@@ -248,8 +247,7 @@ Expected<void> refine_followed(Act& act, const SceneSurface& touched, const Trim
 
 Expected<void> refine_trims(Act& act) {
   if (auto known = know_trims(act); !known) return known;
-  for (int k : act.state.selection()) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(k)];
+  for (SceneSurface& s : selected_surfaces(act.state)) {
     if (!any_held(s)) continue;
     for (const Tool& tool : act.state.tools) {
       const auto contact = trim_contact(s, tool);
