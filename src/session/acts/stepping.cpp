@@ -34,12 +34,12 @@ bool nothing_moved(const Scene& scene, const ActiveStep& step) {
   return true;
 }
 
-}  // namespace
-
 std::unexpected<Error> beyond_numbers() {
   return numerical_error("the forces, or the energy, exceed what numbers can hold", {},
                          "use smaller loads and stiffnesses, or lengths nearer to 1");
 }
+
+}  // namespace
 
 std::string note_of(const ActiveStep& step) {
   constexpr double too_coarse = 1;  // spans longer than this share of a tool cannot follow it
@@ -50,8 +50,6 @@ std::string note_of(const ActiveStep& step) {
       "halve them {} with {{\"do\":\"refine\",\"under\":\"…\"}}",
       step.coarseness, halvings == 1 ? "once" : fmt::format("{} times", halvings));
 }
-
-namespace {}  // namespace
 
 Expected<void> tell_progress(const Act& act, int done, int of) {
   if (Interruption::asked_for()) return interrupted_error();
@@ -126,7 +124,7 @@ Expected<void> take(Act& act, const ActiveStep& step) {
   });
 }
 
-StepRecord record_of(const ActiveStep& step, double seconds, std::string note) {
+void record(SessionState& state, const ActiveStep& step, double seconds, std::string note) {
   StepRecord record;
   record.time = seconds;
   record.energy = step.energy;
@@ -144,11 +142,6 @@ StepRecord record_of(const ActiveStep& step, double seconds, std::string note) {
   record.load_factor = step.load_factor;
   record.increments = step.increments;
   record.note = std::move(note);
-  return record;
-}
-
-void record(SessionState& state, const ActiveStep& step, double seconds, std::string note) {
-  StepRecord record = record_of(step, seconds, std::move(note));
   record.surface = state.selected.value_or(-1);
   if (state.body)
     record.largest_displacement = largest_displacement(state.bodies[static_cast<std::size_t>(*state.body)]);

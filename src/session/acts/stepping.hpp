@@ -44,8 +44,6 @@ struct StepsMade {
 [[nodiscard]] Expected<void> take(Act& act, const ActiveStep& step);
 /// Adds a step to the record.
 void record(SessionState& state, const ActiveStep& step, double seconds, std::string note);
-/// The record of a step of what it says itself: neither the surface nor the displacement.
-[[nodiscard]] StepRecord record_of(const ActiveStep& step, double seconds, std::string note);
 
 /// The note on a step for the user: its own, or that the net is too coarse for a tool.
 [[nodiscard]] std::string note_of(const ActiveStep& step);
@@ -55,8 +53,5 @@ void note_model(Act& act, std::span<const SeamReport> seams, std::span<const std
 void note_loose(SessionState& state, const MotionLaw& law);
 /// Says which seams were smooth and are not any more, why, and what keeps them so.
 void note_creases(Act& act, std::span<const SeamReport> seams);
-
-/// The error of a step whose numbers are not finite.
-[[nodiscard]] std::unexpected<Error> beyond_numbers();
 
 }  // namespace knead
