@@ -53,7 +53,7 @@ export async function drawGallery(page, directory) {
     }
     await page.keyboard.press('v');
     await page.mouse.move(box.x + 4, box.y + 4);
-    await page.evaluate(() => window.studio.client.journal());
+    await page.evaluate(() => window.studio.client.query('journal'));
     await page.keyboard.press('f');
     await page.waitForTimeout(700);
     const base64 = await page.evaluate(async ([w, h]) => {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "buffers.hpp"
-
 namespace knead::studio {
 namespace {
 
@@ -14,7 +12,7 @@ namespace {
 constexpr double chord = 1.25e-4;
 
 std::optional<GridWindow> window_of(const Surface& surface, const std::optional<PictureWindow>& asked) {
-  if (!asked || !(asked->tolerance > 0)) return {};
+  if (!asked) return {};
   GridWindow window{.tolerance = asked->tolerance};
   for (int d = 0; d < 2; ++d) {
     const Interval domain = surface.knots(d).domain();
@@ -31,20 +29,14 @@ void append(std::vector<float>& to, const Point& p) {
 
 }  // namespace
 
-std::string picture_json(const Picture& p) {
-  return "{\"counts\":[" + std::to_string(p.counts[0]) + "," + std::to_string(p.counts[1]) + "],\"buffers\":" +
-         buffers_json({{"positions", p.positions},
-                       {"normals", p.normals},
-                       {"values", p.values},
-                       {"fractions_s", p.fractions_s},
-                       {"fractions_t", p.fractions_t},
-                       {"lines_u", p.lines_u},
-                       {"lines_v", p.lines_v},
-                       {"coarse_u", p.coarse_u},
-                       {"coarse_v", p.coarse_v},
-                       {"net", p.net},
-                       {"held", p.held}}) +
-         "}";
+Expected<AskedDisplay> asked_display(std::string_view name,
+                                     std::span<const std::pair<std::string, std::vector<double>>> settings) {
+  if (name == "none") return AskedDisplay{};
+  const auto display = find_display(name);
+  if (!display) return std::unexpected(display.error());
+  auto values = display_settings(**display, settings);
+  if (!values) return std::unexpected(values.error());
+  return AskedDisplay{*display, *std::move(values)};
 }
 
 Expected<std::array<GridLines, 2>> PictureMaker::lines(const Scene& scene, int index, const Surface& drawn, int detail,
@@ -88,12 +80,12 @@ Expected<void> PictureMaker::tabulate(const Scene& scene, int index, const Surfa
     const Interval domain = knots.domain();
     GridLines& grid = (*grids)[static_cast<std::size_t>(d)];
     std::vector<double>& parameters = grid.parameters;
-    auto& fractions = d == 0 ? picture_.fractions_s : picture_.fractions_t;
+    auto& fractions = d == 0 ? picture_.s : picture_.t;
     fractions.clear();
     (d == 0 ? picture_.lines_u : picture_.lines_v) = std::move(grid.knot_lines);
     (d == 0 ? picture_.coarse_u : picture_.coarse_v) = std::move(grid.coarse);
     for (double u : parameters) fractions.push_back(static_cast<float>((u - domain.lower) / domain.length()));
-    picture_.counts[static_cast<std::size_t>(d)] = static_cast<std::uint32_t>(parameters.size());
+    picture_.counts[static_cast<std::size_t>(d)] = static_cast<int>(parameters.size());
     auto table = tabulate_basis(knots, parameters, 2);
     if (!table) return std::unexpected(table.error());
     parameters_[static_cast<std::size_t>(d)] = std::move(parameters);
@@ -114,6 +106,8 @@ Expected<void> PictureMaker::make(const Scene& scene, int index, const PictureOp
     return done;
   }
 
+  picture_.surface = index;
+  picture_.window = options.window;
   const Points& points = evaluation_.points();
   picture_.positions.clear();
   for (Eigen::Index k = 0; k < points.rows(); ++k)
@@ -146,7 +140,7 @@ Expected<void> PictureMaker::find_held(const SceneSurface& surface) {
 
 void PictureMaker::find_normals() {
   const Points &u = evaluation_.at({1, 0}), &v = evaluation_.at({0, 1});
-  const auto rows = static_cast<int>(picture_.counts[0]), columns = static_cast<int>(picture_.counts[1]);
+  const auto [rows, columns] = picture_.counts;
   const auto normal_at = [&](int k, int l, Point& normal) {
     const Point a = u.row(k * columns + l), b = v.row(k * columns + l);
     normal = a.cross(b);

@@ -2,23 +2,35 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "knead/scene/display_range.hpp"
 #include "knead/scene/held_points.hpp"
 #include "knead/spline/grid_lines.hpp"
-#include "studio_displays.hpp"
 
 namespace knead::studio {
+
+/// What is looked at from nearby: a part of the domain, in fractions of it, and how far chords may be from the surface
+/// there, file units.
+struct PictureWindow {
+  std::array<double, 2> lower = {0, 0}, upper = {1, 1};
+  double tolerance = 0;
+};
 
 /// A surface as a grid of points to draw, as fine as its curvature needs; every knot line is a line of the grid. Grid
 /// point (k, l) is row k · counts[1] + l. Positions are relative to the requested origin, so that single precision
 /// suffices.
 struct Picture {
-  std::array<std::uint32_t, 2> counts = {0, 0};
+  int surface = 0;
+  std::optional<PictureWindow> window = {};
+  std::array<int, 2> counts = {0, 0};
   std::vector<float> positions, normals;  ///< 3 per grid point; normals of length 1
   std::vector<float> values;  ///< of the display, one per grid point, `no_value` for none; empty without one
-  std::vector<float> fractions_s, fractions_t;    ///< of the domain, per grid line
+  std::vector<float> s, t;    ///< fractions of the domain, per grid line
   std::vector<std::uint32_t> lines_u, lines_v;    ///< grid lines that are knot lines, ends of the domain included
   std::vector<std::uint32_t> coarse_u, coarse_v;  ///< those that are there without a window; empty: all
   std::vector<float> net;                         ///< control points, 3 each
@@ -28,15 +40,15 @@ struct Picture {
 /// Stands for a value that is not a number, in a form that shaders can tell apart and interpolate.
 inline constexpr float no_value = -1e30F;
 
-/// {"counts": [m, n], "buffers": …}: the locations of a picture's numbers, by the names of its members.
-[[nodiscard]] std::string picture_json(const Picture& picture);
-
-/// What is looked at from nearby: a part of the domain, in fractions of it, and how far chords may be from the surface
-/// there, file units.
-struct PictureWindow {
-  std::array<double, 2> lower = {0, 0}, upper = {1, 1};
-  double tolerance = 0;
+/// A display and its settings as requested by the page.
+struct AskedDisplay {
+  const Display* display = nullptr;  ///< null: none
+  std::vector<std::vector<double>> settings;
 };
+
+/// By its name; "none" means none. Errors (usage): no such display or setting (`display_settings`).
+[[nodiscard]] Expected<AskedDisplay> asked_display(
+    std::string_view name, std::span<const std::pair<std::string, std::vector<double>>> settings);
 
 /// How a surface is drawn.
 struct PictureOptions {

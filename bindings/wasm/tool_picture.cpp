@@ -5,7 +5,6 @@
 #include <map>
 #include <numbers>
 
-#include "buffers.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/grid_lines.hpp"
 
@@ -277,13 +276,6 @@ struct PictureOf {
 };
 
 }  // namespace
-
-std::string tool_picture_json(const ToolPicture& picture) {
-  const auto text = [](bool value) { return std::string(value ? "true" : "false"); };
-  return "{\"open\":" + text(picture.open) + ",\"unbounded\":" + text(picture.unbounded) + ",\"buffers\":" +
-         buffers_json({{"positions", picture.positions}, {"normals", picture.normals}, {"indices", picture.indices}}) +
-         "}";
-}
 
 ToolPicture tool_picture(const Shape& shape) { return std::visit(PictureOf(), shape); }
 

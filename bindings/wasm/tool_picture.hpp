@@ -20,9 +20,6 @@ struct ToolPicture {
 /// drawn from its distances (`from_distances`). Points lie on the shape to 1e-6 of its size.
 [[nodiscard]] ToolPicture tool_picture(const Shape& shape);
 
-/// {"open", "unbounded", "buffers": …}
-[[nodiscard]] std::string tool_picture_json(const ToolPicture& picture);
-
 /// Triangles from the signed distance alone, about `cells` along the longest side of the shape's bounding box: surface
 /// nets, a point for each cell that the surface crosses, moved to the nearest point of the surface. Edges are cut off
 /// by up to a cell. Empty for an unbounded shape. Cost: cells³ nearest points.

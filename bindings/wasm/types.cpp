@@ -1,8 +1,12 @@
 // What the build of the page needs of the session, and the page itself does not: the types of what it says.
+#include <fmt/format.h>
+
 #include <string>
 
 #include "knead/exchange/format.hpp"
 #include "knead/session/session_info.hpp"
+#include "queries.hpp"
+#include "session/described_text.hpp"
 
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
@@ -15,9 +19,10 @@ std::string& text() {
 
 }  // namespace
 
-/// The text becomes a TypeScript module with the types of the session's answers and the file formats.
+/// The text becomes a TypeScript module with the types of the session's answers, the queries and the file formats.
 KNEAD_EXPORT(knead_types) int knead_types() {
-  text() = knead::session_typescript() + "\nexport const fileFormats = " + knead::format_json() + " as const;\n";
+  text() = knead::session_typescript(knead::studio::declare_queries) +
+           "\nexport const fileFormats = " + knead::format_json() + " as const;\n";
   return 1;
 }
 

@@ -60,17 +60,6 @@ Expected<void> check_applicable(const Json& json, const C& command) {
   return {};
 }
 
-Expected<Command> read_command(const Json& given) {
-  const Json json = spelled_out(given);
-  AnyCommand any;
-  if (auto done = read_variant(json, type_of<CommandVariant>(), &any.fields, "command"); !done) {
-    return std::unexpected(done.error());
-  }
-  const auto check = [&](const auto& command) { return check_applicable(json, command); };
-  if (auto done = std::visit(check, any.fields); !done) return std::unexpected(done.error());
-  return Command(std::move(any));
-}
-
 /// Appends the commands of a list.
 Expected<void> read_commands(const Json& list, std::vector<Command>& commands) {
   for (std::size_t k = 0; k < list.list.size(); ++k) {
@@ -106,6 +95,17 @@ std::string list_json(std::span<const Command> commands) {
 }
 
 }  // namespace
+
+Expected<Command> read_command(const Json& given) {
+  const Json json = spelled_out(given);
+  AnyCommand any;
+  if (auto done = read_variant(json, type_of<CommandVariant>(), &any.fields, "command"); !done) {
+    return std::unexpected(done.error());
+  }
+  const auto check = [&](const auto& command) { return check_applicable(json, command); };
+  if (auto done = std::visit(check, any.fields); !done) return std::unexpected(done.error());
+  return Command(std::move(any));
+}
 
 Expected<Command> parse_command(std::string_view text) {
   const auto json = parse_json(text);

@@ -62,6 +62,10 @@ using CommandVariant =
 template <>
 const Type& type_of<CommandVariant>();
 
+struct Json;
+/// A command from its JSON form, as `parse_command`.
+[[nodiscard]] Expected<Command> read_command(const Json& json);
+
 struct AnyCommand {
   CommandVariant fields;
 };

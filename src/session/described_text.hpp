@@ -36,13 +36,15 @@ class TypeScript {
   /// default values.
   void list(const Type& variant, const std::string& name);
 
+  /// The type of a value, after the declarations that it needs. An opaque one is called by its name.
+  std::string written(const Type& type, const std::string& suffix, Absent absent);
+
  private:
   void record(const Type& type, const std::string& name, std::string_view tag, const std::string& suffix,
               Absent absent);
   std::string member(const Type& owner, const Field& field, bool always_there, const std::string& suffix,
                      Absent absent);
   std::string member_of_any(const Type& variant, std::string_view name);
-  std::string written(const Type& type, const std::string& suffix, Absent absent);
   std::vector<std::pair<const Type*, std::string>> names_;
 };
 

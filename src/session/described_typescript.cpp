@@ -86,7 +86,7 @@ void TypeScript::record(const Type& type, const std::string& name, std::string_v
   std::string body;
   if (!tag.empty()) body += fmt::format("  {}: '{}';\n", tag, type.name);
   for (const Field& field : type.fields) {
-    if (field.type->kind == Kind::opaque) continue;
+    if (field.type->kind == Kind::opaque && field.type->name.empty()) continue;
     if (!field.flat) {
       // A record of a variant omits what is absent, whatever contains it.
       const bool null = absent == Absent::null;
@@ -179,7 +179,7 @@ std::string TypeScript::written(const Type& type, const std::string& suffix, Abs
       return name;
     }
     case Kind::opaque:
-      return "unknown";
+      return type.name.empty() ? "unknown" : std::string(type.name);
   }
   return "unknown";
 }

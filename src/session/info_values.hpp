@@ -7,6 +7,13 @@
 
 namespace knead {
 
+/// The session as it is reported.
+struct SessionInfo;
+template <>
+const Type& type_of<SessionInfo>();
+template <>
+const Type& type_of<StepRecord>();
+
 // Parts of what is reported about a session that are asked for by themselves as well.
 
 template <class T>

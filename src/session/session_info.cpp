@@ -233,6 +233,15 @@ static void describe(SessionInfo& s, Fields& fields) {
   fields.add("redo", s.redo);
 }
 
+template <>
+const Type& type_of<StepRecord>() {
+  return make_type<StepRecord>();
+}
+template <>
+const Type& type_of<SessionInfo>() {
+  return make_type<SessionInfo>();
+}
+
 namespace {
 
 std::optional<double> constant(const Coefficient<2>& c) {
@@ -335,13 +344,12 @@ std::string steps_json(const SessionState& state, std::size_t first) {
       state.steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, state.steps.size())), state.steps.end()));
 }
 
-std::string session_typescript() {
+std::string session_typescript(void (*more)(TypeScript&)) {
   TypeScript types;
   types.declare(type_of<CommandVariant>(), "AnyCommand", "Command");
   types.declare(type_of<SessionInfo>(), "SessionInfo", "Info", Absent::null);
-  types.declare(type_of<EdgesInfo>(), "EdgesInfo", "Info", Absent::null);
-  types.declare(type_of<CheckedEdgeInfo>(), "CheckedEdgeInfo", "Info", Absent::null);
   types.declare(type_of<ErrorInfo>(), "EngineErrorInfo", "Info", Absent::null);
+  if (more != nullptr) more(types);
   types.list(type_of<Shape>(), "shapes");
   types.text += "\nexport const materials = " + json_of(named_materials()) + " as const;\n";
   return "// Generated from the engine's descriptions; not to be edited. Lengths are in file units.\n\n" +

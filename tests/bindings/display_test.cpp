@@ -27,8 +27,11 @@ Scene scene_of(const Surface& opened, const Surface& current) {
   return scene;
 }
 
-std::vector<float> values(const Scene& scene, const std::string& request, bool opened = false) {
-  auto display = read_display(request);
+using Given = std::vector<std::pair<std::string, std::vector<double>>>;
+
+std::vector<float> values(const Scene& scene, const std::string& name, bool opened = false,
+                          const Given& settings = {}) {
+  auto display = asked_display(name, settings);
   if (!display) {
     ADD_FAILURE() << display.error().message();
     return {};
@@ -67,8 +70,7 @@ TEST(Display, ThatDoesNotExistIsAnError) {
   const auto none = find_display("beauty");
   ASSERT_FALSE(none.has_value());
   EXPECT_NE(none.error().remedy.find("deviation"), std::string::npos);
-  EXPECT_FALSE(read_display("{}").has_value());
-  EXPECT_FALSE(read_display("draft").has_value());
+  EXPECT_FALSE(asked_display("", {}).has_value());
 }
 
 TEST(DisplaySettings, AreThoseGivenAndTheDefaultsOfTheOthers) {
@@ -87,10 +89,10 @@ TEST(DisplaySettings, AreThoseGivenAndTheDefaultsOfTheOthers) {
 TEST(DraftAngle, IsThatOfThePlaneAgainstTheDirectionOfThePull) {
   const Surface inclined = plane(1);  // its normal is (-1, 0, 1) / √2
   const Scene scene = scene_of(inclined, inclined);
-  expect_all(values(scene, R"({"display":"draft"})"), 45);
-  expect_all(values(scene, R"({"display":"draft","settings":{"direction":[0,0,-2]}})"), -45);
-  expect_all(values(scene, R"({"display":"draft","settings":{"direction":[-1,0,1]}})"), 90);
-  expect_all(values(scene, R"({"display":"draft","settings":{"direction":[0,1,0]}})"), 0);
+  expect_all(values(scene, "draft"), 45);
+  expect_all(values(scene, "draft", false, {{"direction", {0, 0, -2}}}), -45);
+  expect_all(values(scene, "draft", false, {{"direction", {-1, 0, 1}}}), 90);
+  expect_all(values(scene, "draft", false, {{"direction", {0, 1, 0}}}), 0);
 }
 
 TEST(Deviation, IsTheDistanceFromTheShapeAsOpenedWithTheSideOfTheNormal) {
@@ -98,9 +100,9 @@ TEST(Deviation, IsTheDistanceFromTheShapeAsOpenedWithTheSideOfTheNormal) {
   Points raised = flat.control_points();
   raised.col(2).array() += 0.25;
   const Surface above = *flat.with_control_points(raised);
-  expect_all(values(scene_of(flat, above), R"({"display":"deviation"})"), 0.25);
-  expect_all(values(scene_of(above, flat), R"({"display":"deviation"})"), -0.25);
-  expect_all(values(scene_of(flat, above), R"({"display":"deviation"})", true), 0);
+  expect_all(values(scene_of(flat, above), "deviation"), 0.25);
+  expect_all(values(scene_of(above, flat), "deviation"), -0.25);
+  expect_all(values(scene_of(flat, above), "deviation", true), 0);
 }
 
 /// The plane in 30 spans along x, so that it is drawn by as many lines.
@@ -120,7 +122,7 @@ DisplayRange range_of_inclined(double slope, std::shared_ptr<const VisibleRegion
   PictureMaker pictures;
   PictureOptions options;
   options.detail = 30;
-  options.display = *read_display(R"({"display":"deviation"})");
+  options.display = *asked_display("deviation", {});
   options.visible = std::move(visible);
   EXPECT_TRUE(pictures.make(scene, 0, options).has_value());
   return pictures.range().value_or(DisplayRange{});
@@ -148,7 +150,7 @@ TEST(DisplayRange, IsOneRangeForAllSurfacesAndBeginsAnewWithTheFirst) {
   PictureOptions options;
   EXPECT_TRUE(pictures.make(scene, 0, options).has_value());
   EXPECT_FALSE(pictures.range().has_value());  // without a display
-  options.display = *read_display(R"({"display":"deviation"})");
+  options.display = *asked_display("deviation", {});
   for (int surface : {0, 1}) EXPECT_TRUE(pictures.make(scene, surface, options).has_value());
   EXPECT_NEAR(pictures.range()->least, -3, 1e-12);
   EXPECT_NEAR(pictures.range()->upper, 3, 1e-12);
@@ -160,7 +162,7 @@ TEST(DisplayRange, OfADisplayWithLimitsIsThatOfTheDisplay) {
   const DisplayRange range = [] {
     PictureMaker pictures;
     PictureOptions options;
-    options.display = *read_display(R"({"display":"draft"})");
+    options.display = *asked_display("draft", {});
     EXPECT_TRUE(pictures.make(scene_of(plane(1), plane(1)), 0, options).has_value());
     return *pictures.range();
   }();
@@ -171,16 +173,15 @@ TEST(DisplayRange, OfADisplayWithLimitsIsThatOfTheDisplay) {
 
 TEST(Gap, IsTheDistanceToTheNearestToolAndZeroWithoutOne) {
   Scene scene = scene_of(plane(0), plane(0));
-  expect_all(values(scene, R"({"display":"gap"})"), 0);
+  expect_all(values(scene, "gap"), 0);
   Tool tool{"plane", *PlacedShape::create(PlaneShape{}, {.position = Point(0, 0, -2)})};
   scene.tools.push_back(tool);
-  expect_all(values(scene, R"({"display":"gap"})"), 2);
+  expect_all(values(scene, "gap"), 2);
 }
 
 TEST(Picture, HasNoValuesWithoutADisplay) {
   const Scene scene = scene_of(plane(0), plane(0));
-  EXPECT_TRUE(values(scene, "").empty());
-  EXPECT_TRUE(values(scene, R"({"display":"none"})").empty());
+  EXPECT_TRUE(values(scene, "none").empty());
 }
 
 }  // namespace

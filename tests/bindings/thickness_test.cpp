@@ -42,7 +42,7 @@ std::vector<double> thicknesses(PictureMaker& pictures, const Scene& scene, int 
                                 std::shared_ptr<const Surroundings> around = {}) {
   PictureOptions options;
   options.detail = 16;
-  options.display = *read_display(R"({"display":"thickness"})");
+  options.display = *asked_display("thickness", {});
   options.around = std::move(around);
   EXPECT_TRUE(pictures.make(scene, surface, options).has_value());
   std::vector<double> result;
@@ -91,13 +91,13 @@ TEST(Thickness, HasNoValueWhereNothingIsBehindOrWhatIsThereIsTrimmedAway) {
   const auto found = thicknesses(pictures, scene, 0, around);
   const Picture& picture = pictures.picture();
   int some = 0;
-  for (std::size_t k = 0; k < picture.fractions_s.size(); ++k) {
-    for (std::size_t l = 1; l + 1 < picture.fractions_t.size(); ++l) {
-      const double x = found[k * picture.counts[1] + l];
-      if (picture.fractions_s[k] == 0) continue;  // on the bound
-      const bool over = picture.fractions_s[k] < 0.4F;
+  for (std::size_t k = 0; k < picture.s.size(); ++k) {
+    for (std::size_t l = 1; l + 1 < picture.t.size(); ++l) {
+      const double x = found[k * static_cast<std::size_t>(picture.counts[1]) + l];
+      if (picture.s[k] == 0) continue;  // on the bound
+      const bool over = picture.s[k] < 0.4F;
       some += over ? 1 : 0;
-      EXPECT_EQ(std::isnan(x), !over) << picture.fractions_s[k];
+      EXPECT_EQ(std::isnan(x), !over) << picture.s[k];
       if (!over) continue;
       EXPECT_NEAR(x, 1, 1e-6);
     }

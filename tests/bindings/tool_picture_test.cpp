@@ -5,8 +5,6 @@
 #include <map>
 #include <set>
 
-#include "buffers.hpp"
-
 namespace knead::studio {
 namespace {
 

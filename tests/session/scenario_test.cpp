@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "../../bindings/wasm/studio_state.hpp"
+#include "knead/session/session_info.hpp"
 #include "support.hpp"
 
 namespace knead {
@@ -39,12 +39,12 @@ TEST_P(Scenario, RunsAsItSays) {
       testing::run(session, {step.dump()});
       if (HasFatalFailure()) return;
     } else if (step.contains("refused")) {
-      const Json before = Json::parse(studio::state_json(session));
+      const Json before = Json::parse(session_json(session));
       EXPECT_EQ(testing::refusal(session, step.at("refused").dump()).where, step.at("where").get<std::string>())
           << step;
-      EXPECT_EQ(Json::parse(studio::state_json(session)), before) << step;
+      EXPECT_EQ(Json::parse(session_json(session)), before) << step;
     } else {
-      const Json value = Json::parse(studio::state_json(session)).at(Json::json_pointer(step.at("expect")));
+      const Json value = Json::parse(session_json(session)).at(Json::json_pointer(step.at("expect")));
       if (step.contains("is")) {
         EXPECT_EQ(value, step.at("is")) << step;
       } else {

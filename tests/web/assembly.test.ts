@@ -27,27 +27,27 @@ let plate: string;
 
 beforeAll(async () => {
   engine = await Engine.load(wasm);
-  engine.openStep(assemblyStep(), 'table.step');
-  placing.open(engine.assembly(), engine.origin);
-  plate = engine.state().surfaces[0]!.id;
+  engine.query('open', { file: assemblyStep(), name: 'table.step' });
+  placing.open(engine.query('assembly'), engine.query('origin'));
+  plate = engine.query('state').surfaces[0]!.id;
 });
 
-const inScene = (p: readonly number[]) => new THREE.Vector3(...p.map((x, d) => x - engine.origin[d]!) as [number, number, number]);
+const inScene = (p: readonly number[]) => new THREE.Vector3(...p.map((x, d) => x - engine.query('origin')[d]!) as [number, number, number]);
 
 describe('parts of an assembly', () => {
   it('come from the engine with their places, converted surfaces among them', () => {
-    const { unit, parts, warnings } = engine.assembly()!;
+    const { unit, parts, warnings } = engine.query('assembly')!;
     expect([unit, warnings]).toEqual(['mm', []]);
     expect(parts.map((p) => [p.name, p.unit, p.places.length, p.surfaces.length, p.faces.length, p.curves.length]))
       .toEqual([['plate', 'mm', 3, 1, 0, 0], ['foot', 'inch', 1, 1, 1, 0], ['rail', 'mm', 2, 0, 0, 1]]);
     expect(parts[0]!.places[0]).toEqual({ path: 'table/plate', matrix: [0, 0, 1, 20, 1, 0, 0, 0, 0, 1, 0, 0] });
-    expect(engine.context()!.faces[0]!.surface).toBe(parts[1]!.surfaces[0]);
+    expect(engine.query('context')!.faces[0]!.surface).toBe(parts[1]!.surfaces[0]);
   });
 
   it('are none of a file without products', async () => {
     const fresh = await Engine.load(wasm);
-    fresh.fresh('sheet');
-    expect(fresh.assembly()).toBeNull();
+    fresh.query('fresh', { name: 'sheet' });
+    expect(fresh.query('assembly')).toBeNull();
     placing.of('#7').forEach((s) => expect(s).toBe(still));
   });
 
@@ -55,7 +55,7 @@ describe('parts of an assembly', () => {
     expect(placing.placed).toBe(true);
     const centres = placing.of(plate).map((s) => inScene([0, 0, 0]).applyMatrix4(s.matrix));
     centres.forEach((p, k) => expect(p.distanceTo(inScene(middles[k]!))).toBeLessThan(1e-12));
-    const [foot] = placing.of(engine.assembly()!.parts[1]!.faces[0]!);
+    const [foot] = placing.of(engine.query('assembly')!.parts[1]!.faces[0]!);
     expect(foot!.scale).toBeCloseTo(25.4, 12);
     expect(inScene([1, 0, 0]).applyMatrix4(foot!.matrix).distanceTo(inScene([-60 + 25.4, 0, 0]))).toBeLessThan(1e-12);
   });
@@ -71,11 +71,11 @@ describe('parts of an assembly', () => {
   });
 
   it('have curves where they stand, met there by the pointer', () => {
-    const { bodies } = engine.state();
+    const { bodies } = engine.query('state');
     expect(placing.of(bodies[0]!.id).map((s) => inScene([12, 0, 0]).applyMatrix4(s.matrix).distanceTo(inScene(s.place === 0 ? [0, 72, 0] : [12, 60, 8]))))
       .toEqual([expect.closeTo(0, 12), expect.closeTo(0, 12)]);
-    const all = drawnBodies([engine.bodyPicture(0)], bodies, placing);
-    const boxes = all.map((drawn) => boxOf(drawn).translate(new THREE.Vector3(...(engine.origin as [number, number, number]))));
+    const all = drawnBodies([engine.query('body_picture', { body: 0 })], bodies, placing);
+    const boxes = all.map((drawn) => boxOf(drawn).translate(new THREE.Vector3(...(engine.query('origin') as [number, number, number]))));
     const near = (p: THREE.Vector3, q: readonly number[]) => p.toArray().forEach((x, d) => expect(x).toBeCloseTo(q[d]!, 5));
     near(boxes[0]!.min, [0, 60, 0]);
     near(boxes[0]!.max, [0, 72, 0]);
@@ -91,7 +91,7 @@ describe('parts of an assembly', () => {
   });
 
   it('are hit by rays where they stand, at the same point of the surface', () => {
-    const picture = engine.picture(0, 24);
+    const picture = engine.query('picture', { surface: 0, detail: 24 });
     const surfaces = [{ picker: new GridPicker(picture), trim: null, standings: placing.of(plate) }];
     const hitAt = (from: readonly number[], to: readonly number[]) =>
       nearestOn(new THREE.Ray(inScene(from), inScene(to).sub(inScene(from)).normalize()), Infinity, surfaces);
@@ -107,12 +107,12 @@ describe('parts of an assembly', () => {
   });
 
   it('are cut by a plane of the scene where they stand', () => {
-    const picture = engine.picture(0, 24);
+    const picture = engine.query('picture', { surface: 0, detail: 24 });
     // x = 20 would touch the upright one all over; y = 30.5 cuts the turned one only.
-    const offset = -(30.5 - engine.origin[1]);
+    const offset = -(30.5 - engine.query('origin')[1]);
     const lengths = placing.of(plate).map((at) => {
       const cut = placedPoints(cutOfPicture(picture, planeOf([0, 1, 0, offset], at), null), at);
-      for (let k = 1; k < cut.length; k += 3) expect(cut[k]! + engine.origin[1]).toBeCloseTo(30.5, 5);
+      for (let k = 1; k < cut.length; k += 3) expect(cut[k]! + engine.query('origin')[1]).toBeCloseTo(30.5, 5);
       let sum = 0;
       for (let k = 0; k < cut.length; k += 6) sum += Math.hypot(...[0, 1, 2].map((d) => cut[k + d]! - cut[k + 3 + d]!));
       return sum;
@@ -124,17 +124,17 @@ describe('parts of an assembly', () => {
     const reading = (p: [number, number, number]): MeasuredPoint => ({ surface: 0, at: [0.5, 0.5], point: p, displacement: [0, 0, 0], normal: [0, 0, 1], curvature: [0.5, 0],
       von_mises: null, membrane: null, moment: null, bending_strain: null });
     const [upright, turned] = placing.of(plate);
-    const a = inModel(reading([0, 0, 0]), upright!, engine.origin), b = inModel(reading([0, 0, 0]), turned!, engine.origin);
+    const a = inModel(reading([0, 0, 0]), upright!, engine.query('origin')), b = inModel(reading([0, 0, 0]), turned!, engine.query('origin'));
     expect(Math.hypot(...a.point.map((x, d) => x - b.point[d]!))).toBeCloseTo(Math.hypot(20, 30), 12);
     a.normal.forEach((x, d) => expect(x).toBeCloseTo([1, 0, 0][d]!, 12));
     const kind = 'distance' as const, more = { name: 'distance 1', pinned: false, names: [], kind };
     expect(cannotFollow({ ...more, points: [a, a] })).toBeNull();
     expect(cannotFollow({ ...more, points: [a, b] })).toContain('several places');
     const [foot] = placing.ofPart(1);
-    const onFoot = inModel(reading([1, 0, 0]), foot!, engine.origin);
+    const onFoot = inModel(reading([1, 0, 0]), foot!, engine.query('origin'));
     expect(onFoot.curvature![0]).toBeCloseTo(0.5 / 25.4, 12);
     expect(cannotFollow({ ...more, points: [onFoot, onFoot] })).not.toBeNull();
-    expect(inModel(reading([1, 2, 3]), still, engine.origin)).toEqual(reading([1, 2, 3]));
+    expect(inModel(reading([1, 2, 3]), still, engine.query('origin'))).toEqual(reading([1, 2, 3]));
   });
 
   it('are seen from nearby in their own size', () => {
@@ -149,7 +149,7 @@ describe('parts of an assembly', () => {
 
   it('are grey where they stand, and are hit there', () => {
     const grey = new ContextView();
-    grey.show(engine.context(), placing);
+    grey.show(engine.query('context'), placing);
     grey.group.visible = true;
     const box = grey.box()!;
     expect(box.min.distanceTo(inScene([-85.4, -25.4, 0]))).toBeLessThan(1e-4);
@@ -163,12 +163,12 @@ describe('parts of an assembly', () => {
   });
 
   it('that are mirrored look alike from outside: their grey triangles are turned over by the mesh', () => {
-    const all = engine.assembly()!;
+    const all = engine.query('assembly')!;
     const mirrored = { ...all, parts: all.parts.map((part) => ({ ...part, places: [...part.places, { path: 'mirrored', matrix: [-1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0] }] })) };
     const both = new Placing();
-    both.open(mirrored, engine.origin);
+    both.open(mirrored, engine.query('origin'));
     const grey = new ContextView();
-    grey.show(engine.context(), both);
+    grey.show(engine.query('context'), both);
     grey.group.visible = true;
     expect(grey.group.children.map((mesh) => Math.sign(mesh.matrixWorld.determinant()))).toEqual([1, -1]);
     const hit = grey.hit(new THREE.Raycaster(inScene([4.5, 0.25, 9]), new THREE.Vector3(0, 0, -1)), Infinity)!;
@@ -176,9 +176,9 @@ describe('parts of an assembly', () => {
   });
 
   it('beyond what can be drawn are counted', () => {
-    const all = engine.assembly()!;
+    const all = engine.query('assembly')!;
     const many = new Placing();
-    many.open({ ...all, parts: [{ ...all.parts[0]!, places: Array.from({ length: mostDrawn + 7 }, () => all.parts[0]!.places[0]!) }] }, engine.origin);
+    many.open({ ...all, parts: [{ ...all.parts[0]!, places: Array.from({ length: mostDrawn + 7 }, () => all.parts[0]!.places[0]!) }] }, engine.query('origin'));
     expect([many.of(plate).length, many.left]).toEqual([mostDrawn, 7]);
   });
 });
@@ -187,7 +187,7 @@ describe('the product tree', () => {
   const text = (node: AssemblyNode): unknown => [...node.within.values()].map((n) => [n.name, n.places.length, ...(n.within.size > 0 ? [text(n)] : [])]);
 
   it('has the products below each other, and counts those of one name', () => {
-    expect(text(assemblyTree(engine.assembly()!))).toEqual([['table', 0, [['plate', 3], ['foot', 1], ['rail', 2]]]]);
+    expect(text(assemblyTree(engine.query('assembly')!))).toEqual([['table', 0, [['plate', 3], ['foot', 1], ['rail', 2]]]]);
   });
 
   it('shows geometry that belongs to no product', () => {

@@ -12,13 +12,13 @@ const wasm = readFileSync(join(fileURLToPath(new URL('../..', import.meta.url)),
 describe('curves and volumes as they are drawn', () => {
   it('have their control points in order, and for each end of a chord its place in the domain', async () => {
     const engine = await Engine.load(wasm);
-    engine.fresh('bodies');
+    engine.query('fresh', { name: 'bodies' });
     engine.execute({ do: 'new', shape: 'volume', form: 'box', size: [2, 3, 4], net: [4, 5, 6], degree: [3, 3, 3] });
-    const { lines, at, points } = engine.bodyPicture(0);
+    const { lines, at, points } = engine.query('body_picture', { body: 0 });
     expect(points.length).toBe(3 * 4 * 5 * 6);
     expect(at.length).toBe(lines.length);
     // A box at rest: the place in it is linear in the fractions.
-    const o = engine.origin, corner = [0, 1, 2].map((d) => points[d]! + o[d]!), far = [0, 1, 2].map((d) => points[points.length - 3 + d]! + o[d]!);
+    const o = engine.query('origin'), corner = [0, 1, 2].map((d) => points[d]! + o[d]!), far = [0, 1, 2].map((d) => points[points.length - 3 + d]! + o[d]!);
     for (let k = 0; k < lines.length; ++k) {
       const d = k % 3;
       expect(lines[k]! + o[d]!).toBeCloseTo(corner[d]! + at[k]! * (far[d]! - corner[d]!), 5);
@@ -27,36 +27,36 @@ describe('curves and volumes as they are drawn', () => {
 
   it('show the block of a lattice beyond all control points of the selected surfaces', async () => {
     const engine = await Engine.load(wasm);
-    engine.fresh('sheet');
+    engine.query('fresh', { name: 'sheet' });
     engine.execute({ do: 'new', shape: 'plane', size: [30, 40], net: [6, 6] });
-    const { points } = engine.latticePicture({ net: [4, 5, 6], margin: 0.1 });
+    const { points } = engine.query('lattice_picture', { net: [4, 5, 6], margin: 0.1 });
     expect(points.length).toBe(3 * 120);
     const extent = (d: number) => {
       const all = [...points].filter((_, k) => k % 3 === d);
       return Math.max(...all) - Math.min(...all);
     };
     [30, 40, 0].forEach((size, d) => expect(extent(d)).toBeCloseTo(size + 2 * 0.1 * 50, 4));
-    expect(() => engine.latticePicture({ net: [4, 5, 6], margin: 0 })).toThrow(/margin/);
+    expect(() => engine.query('lattice_picture', { net: [4, 5, 6], margin: 0 })).toThrow(/margin/);
   });
 
   it('show a lattice where it was pulled to, and another round the surfaces as they are', async () => {
     const engine = await Engine.load(wasm);
-    engine.fresh('sheet');
+    engine.query('fresh', { name: 'sheet' });
     engine.execute({ do: 'new', shape: 'plane', size: [30, 40], net: [6, 6] });
     const block = { net: [4, 4, 4] as [number, number, number], margin: 0.1 };
-    const before = engine.latticePicture(block);
+    const before = engine.query('lattice_picture', block);
     expect(before.pulled).toBe(false);
     engine.execute({ do: 'lattice', ...block, which: [23], by: [0, 0, 20] });
-    const { points, pulled } = engine.latticePicture(block);
+    const { points, pulled } = engine.query('lattice_picture', block);
     expect(pulled).toBe(true);
     points.forEach((x, k) => expect(x - before.points[k]!).toBeCloseTo(k === 3 * 23 + 2 ? 20 : 0, 5));
     engine.execute({ do: 'lattice', ...block, which: [23], by: [5, 0, 0], again: true });
-    expect(engine.latticePicture(block).points[3 * 23]! - points[3 * 23]!).toBeCloseTo(5, 5);
-    const anew = engine.latticePicture({ ...block, anew: true });
+    expect(engine.query('lattice_picture', block).points[3 * 23]! - points[3 * 23]!).toBeCloseTo(5, 5);
+    const anew = engine.query('lattice_picture', { ...block, anew: true });
     expect(anew.pulled).toBe(false);
     expect(anew.points[3 * 63 + 2]!).toBeGreaterThan(before.points[3 * 63 + 2]! + 0.2); // round what has risen
     engine.execute({ do: 'undo' });
-    expect([...engine.latticePicture(block).points]).toEqual([...points]);
+    expect([...engine.query('lattice_picture', block).points]).toEqual([...points]);
   });
 
   it('are met where the pointer is near their lines, at the place between the ends of a chord', () => {

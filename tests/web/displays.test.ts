@@ -1,7 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
-import { Buffers } from '@studio/engine/buffers';
 import { type DisplayInfo, type SettingValue, unitIn } from '@studio/engine/displays';
 import { Engine } from '@studio/engine/engine';
 import type { Command } from '@studio/engine/session_types';
@@ -11,17 +10,17 @@ const wasm = readFileSync(fileURLToPath(new URL('../../web/src/engine/knead_stud
 
 async function session(...commands: Command[]): Promise<Engine> {
   const engine = await Engine.load(wasm);
-  engine.fresh('displays');
+  engine.query('fresh', { name: 'displays' });
   for (const command of commands) engine.execute(command);
   return engine;
 }
-const values = (engine: Engine, display: string, settings?: Record<string, SettingValue>) => [...engine.picture(0, 20, { display, settings }).values];
+const values = (engine: Engine, display: string, settings?: Record<string, SettingValue>) => [...engine.query('picture', { surface: 0, detail: 20, display, ...(settings ? { settings } : {}) }).values];
 
 const ofShells = ['von_mises', 'von_mises_outer', 'von_mises_inner', 'bending_strain'];
 
 describe('displays', () => {
   it('are described: a name of their own, a title, a unit and a help each', async () => {
-    const all = (await session()).displays();
+    const all = (await session()).query('displays');
     expect(new Set(all.map((d) => d.name)).size).toBe(all.length);
     expect(all.map((d) => d.name)).toEqual(['deviation', 'mean', 'gaussian', 'largest', 'draft', 'thickness', 'gap', 'energy', ...ofShells, 'mask']);
     for (const d of all) {
@@ -36,8 +35,8 @@ describe('displays', () => {
     const engine = await session({ do: 'new', size: [100, 100], net: [8, 8] }, { do: 'hold', rows: 2 },
       { do: 'tool', name: 'ball', radius: 20, position: [50, 50, 10] }, { do: 'step', count: 2 },
       { do: 'brush', kind: 'mask', radius: 40, path: [[0.5, 0.5]] });
-    for (const { name, signed } of engine.displays()) {
-      const { counts, values: found } = engine.picture(0, 20, { display: name });
+    for (const { name, signed } of engine.query('displays')) {
+      const { counts, values: found } = engine.query('picture', { surface: 0, detail: 20, display: name });
       expect(found.length, name).toBe(counts[0] * counts[1]);
       expect(found.every(Number.isFinite), name).toBe(true);
       if (name === 'thickness' || ofShells.includes(name)) { // there is nothing behind a sheet, and it is no shell
@@ -47,7 +46,7 @@ describe('displays', () => {
       if (!signed) expect(Math.min(...found), name).toBeGreaterThan(-1e-6);
       expect(Math.max(...found.map(Math.abs)), name).toBeGreaterThan(0);
     }
-    expect(engine.picture(0, 20).values.length).toBe(0);
+    expect(engine.query('picture', { surface: 0, detail: 20 }).values.length).toBe(0);
   });
 
   it('of shells give the stresses of a strip that is bent by its end moment', async () => {
@@ -119,8 +118,8 @@ describe('limits of the colours', () => {
   it('cover what is seen: the share of the area decides, not that of the grid points', async () => {
     // A cone with its apex: κ grows without bound, on ever less area.
     const cone = await session({ do: 'new', shape: 'revolution', degree: [2, 3], profile: [[0.01, 0], [3.34, 40 / 3], [6.67, 80 / 3], [10, 40]] });
-    const found = [...cone.picture(0, 60, { display: 'mean' }).values].map(Math.abs);
-    const { upper, lower, least, greatest } = cone.range()!;
+    const found = [...cone.query('picture', { surface: 0, detail: 60, display: 'mean' }).values].map(Math.abs);
+    const { upper, lower, least, greatest } = cone.query('range')!;
     expect(lower).toBe(-upper);
     expect(Math.max(-least, greatest)).toBeCloseTo(Math.max(...found), 4);
     // |H| = cos α / 2r, and 98 % of the area lie where r > √0.02 · 10.
@@ -132,29 +131,15 @@ describe('limits of the colours', () => {
 
   it('of deviations hold the largest', async () => {
     const engine = await session({ do: 'new', size: [100, 100], net: [12, 12] }, { do: 'points', which: [70], by: [0, 0, 9] });
-    const found = [...engine.picture(0, 60, { display: 'deviation' }).values];
-    expect(engine.range()!.upper).toBeCloseTo(Math.max(...found), 5);
+    const found = [...engine.query('picture', { surface: 0, detail: 60, display: 'deviation' }).values];
+    expect(engine.query('range')!.upper).toBeCloseTo(Math.max(...found), 5);
   });
 
   it('are none without a display', async () => {
     const engine = await session({ do: 'new' });
-    engine.picture(0, 20);
-    expect(engine.range()).toBeNull();
+    engine.query('picture', { surface: 0, detail: 20 });
+    expect(engine.query('range')).toBeNull();
   });
 
   it('have the unit of the file', () => expect(unitIn('1/length²', 'mm')).toBe('1/mm²'));
-});
-
-describe('buffers', () => {
-  const memory = new Uint8Array([0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 7]).buffer;
-  const buffers = new Buffers(memory, { lines: { type: 'uint32', at: 4, count: 2 }, held: { type: 'uint8', at: 12, count: 1 } });
-
-  it('are found by their names', () => {
-    expect([...buffers.indices('lines')]).toEqual([1, 2]);
-    expect([...buffers.flags('held')]).toEqual([7]);
-  });
-  it('that are missing, or hold other numbers, are errors', () => {
-    expect(() => buffers.floats('positions')).toThrow(/"positions"/);
-    expect(() => buffers.floats('lines')).toThrow(/float32/);
-  });
 });

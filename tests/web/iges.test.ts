@@ -23,11 +23,11 @@ function plateIges(): Uint8Array {
 describe('an IGES file', () => {
   it('is opened and saved as one, the same where nothing changes', async () => {
     const engine = await Engine.load(wasm);
-    const { surfaces } = engine.openStep(plateIges(), 'plate.igs');
+    const { surfaces } = engine.query('open', { file: plateIges(), name: 'plate.igs' });
     expect(surfaces).toMatchObject([{ id: '#1', name: 'PLATE', net: [2, 2] }]);
-    expect(engine.save()).toEqual(plateIges());
+    expect(engine.query('save')).toEqual(plateIges());
     engine.execute({ do: 'elevate', by: [1, 1] });
-    const text = new TextDecoder().decode(engine.save());
+    const text = new TextDecoder().decode(engine.query('save'));
     expect(text).toContain('128,2,2,2,2,0,0,1,0,0,');
     expect(text.split('\n').slice(0, -1).every((line) => line.length === 80)).toBe(true);
   });

@@ -17,7 +17,7 @@ async function sheet(net = 16): Promise<Engine> {
   const engine = await Engine.load(core, new Rest(() => {
     throw new Error('the second module is called');
   }));
-  engine.fresh('sheet');
+  engine.query('fresh', { name: 'sheet' });
   const commands: Command[] = [
     { do: 'new', size: [100, 100], net: [net, net] }, { do: 'hold', rows: 2 },
     { do: 'material', preset: 'clay' }, { do: 'evolve', mode: 'acm', lambda: 100, accuracy: 'interactive' },
@@ -32,7 +32,7 @@ function press(engine: Engine, position: Vector3): void {
   engine.execute({ do: 'remove', tool: 'brush' }, true);
 }
 
-const all = (engine: Engine) => ({ journal: engine.journal(), snapshot: engine.snapshot(2 ** 20), points: engine.controlPoints(0) });
+const all = (engine: Engine) => ({ journal: engine.query('journal'), snapshot: engine.query('snapshot', { history_bytes: 2 ** 20 }), points: engine.query('control_points', { surface: 0 }) });
 
 describe('a rehearsal', () => {
   it('leaves the session as it is, with what can be redone, and what follows has the same bits', async () => {
@@ -44,22 +44,22 @@ describe('a rehearsal', () => {
     }
     const before = all(engine);
     rehearse(engine);
-    engine.rehearse([{ do: 'tool', name: 'ball', radius: 20, position: [50, 50, 5] }, { do: 'step', count: 2 }]);
+    engine.query('rehearse', { commands: [{ do: 'tool', name: 'ball', radius: 20, position: [50, 50, 5] }, { do: 'step', count: 2 }] });
     expect(all(engine)).toEqual(before);
     for (const e of [engine, other]) e.execute({ do: 'redo' });
-    expect(engine.controlPoints(0)).toEqual(other.controlPoints(0));
+    expect(engine.query('control_points', { surface: 0 })).toEqual(other.query('control_points', { surface: 0 }));
     for (const e of [engine, other]) {
       e.execute({ do: 'undo' });
       press(e, [55, 45, 8]);
     }
-    expect(engine.controlPoints(0)).toEqual(other.controlPoints(0));
-    expect(engine.controlPoints(0)).not.toEqual(before.points);
+    expect(engine.query('control_points', { surface: 0 })).toEqual(other.query('control_points', { surface: 0 }));
+    expect(engine.query('control_points', { surface: 0 })).not.toEqual(before.points);
   });
 
   it('reports what is refused, and leaves the session as it is then, too', async () => {
     const engine = await sheet();
     const before = all(engine);
-    expect(() => engine.rehearse([{ do: 'tool', name: 'ball', radius: 20, position: [50, 50, 5] }, { do: 'select', surface: '#99' }])).toThrow('#99');
+    expect(() => engine.query('rehearse', { commands: [{ do: 'tool', name: 'ball', radius: 20, position: [50, 50, 5] }, { do: 'select', surface: '#99' }] })).toThrow('#99');
     expect(all(engine)).toEqual(before);
   });
 
@@ -68,14 +68,15 @@ describe('a rehearsal', () => {
       const engine = await sheet(net);
       change(engine);
       let count = 0;
-      engine.rehearse = () => void ++count;
+      const { query } = engine;
+      engine.query = (name, ...asked) => (name === 'rehearse' ? (++count, null as never) : query.call(engine, name, ...asked) as never);
       rehearse(engine);
       return count;
     };
     expect(await rehearsed(() => undefined)).toBe(1);
     expect(await rehearsed(() => undefined, 64)).toBe(1);
     expect(await rehearsed(() => undefined, 72)).toBe(0);
-    expect(await rehearsed((engine) => void engine.fresh('nothing'))).toBe(0);
+    expect(await rehearsed((engine) => void engine.query('fresh', { name: 'nothing' }))).toBe(0);
     expect(await rehearsed((engine) => engine.execute({ do: 'tool', name: 'ball', radius: 10, position: [50, 50, 20] }))).toBe(0);
   });
 });
@@ -85,7 +86,7 @@ it('the strokes of a warm-up call the core alone, and change what they press', a
   let frames = 0;
   for (const _ of strokes(engine)) ++frames;
   expect(frames).toBeGreaterThan(50);
-  const heights = engine.controlPoints(0).filter((_, k) => k % 3 === 2);
+  const heights = engine.query('control_points', { surface: 0 }).filter((_, k) => k % 3 === 2);
   expect(Math.min(...heights)).toBeLessThan(-1);
 });
 

@@ -12,10 +12,8 @@ function desk(): { saving: Saving; saved: () => number; names: string[] } {
   vi.stubGlobal('document', { createElement: link });
   vi.stubGlobal('URL', { createObjectURL: () => 'blob:', revokeObjectURL: () => undefined });
   const client = {
-    save: async () => ({ bytes: new Uint8Array(1), edges: [] }),
+    query: async (name: string) => (name === 'edges' ? [] : new Uint8Array(1)),
     snapshot: async () => ({ snapshot: new Uint8Array(1), journal: '[]' }),
-    mesh: async () => new Uint8Array(1),
-    journal: async () => '[]',
   };
   const host = {
     client, state: { tools: [], last: null, surfaces: [], fresh: false }, computedTime: 0, detail: 8,

@@ -38,8 +38,8 @@ const scenarios: [string, Scenario][] = [
 
 async function begin(open?: string): Promise<Engine> {
   const engine = await Engine.load(wasm);
-  if (open) engine.openStep(new Uint8Array(readFileSync(join(root, open))), basename(open));
-  else engine.fresh('scenario');
+  if (open) engine.query('open', { file: new Uint8Array(readFileSync(join(root, open))), name: basename(open) });
+  else engine.query('fresh', { name: 'scenario' });
   return engine;
 }
 
@@ -51,7 +51,7 @@ function check(engine: Engine, step: Step): void {
     engine.execute(step);
   } else if ('refused' in step) {
     const { refused, where } = step;
-    const before = engine.state();
+    const before = engine.query('state');
     let error: unknown;
     try {
       engine.execute(refused);
@@ -60,10 +60,10 @@ function check(engine: Engine, step: Step): void {
     }
     expect(error).toBeInstanceOf(EngineError);
     expect((error as EngineError).info.where).toBe(where);
-    expect(engine.state()).toEqual(before);
+    expect(engine.query('state')).toEqual(before);
   } else {
     const { expect: pointer, is, min, max } = step;
-    const value = at(engine.state(), pointer);
+    const value = at(engine.query('state'), pointer);
     if (is !== undefined) expect(value, pointer).toEqual(is);
     else {
       expect(value, pointer).toBeGreaterThanOrEqual(min!);
@@ -84,17 +84,17 @@ describe('scenarios in WebAssembly', () => {
       writeFileSync(script, JSON.stringify({ knead: 2, commands: [{ do: 'hold', rows: 0, all: true }, ...steps.filter((s) => 'do' in s)] }));
       execFileSync(native, ['sculpt', ...(open ? [join(root, open)] : ['--new']), '-o', out, '--script', script], { stdio: 'pipe' });
       const there = await Engine.load(wasm);
-      there.openStep(new Uint8Array(readFileSync(out)), 'native.step');
+      there.query('open', { file: new Uint8Array(readFileSync(out)), name: 'native.step' });
       // Curves and volumes are surfaces and curves of the files that they are saved in.
       let mine = engine;
-      if (engine.state().bodies.length > 0) {
+      if (engine.query('state').bodies.length > 0) {
         mine = await Engine.load(wasm);
-        mine.openStep(engine.save(), 'page.step');
+        mine.query('open', { file: engine.query('save'), name: 'page.step' });
       }
-      const { surfaces } = mine.state();
-      expect(there.state().surfaces.length).toBe(surfaces.length);
+      const { surfaces } = mine.query('state');
+      expect(there.query('state').surfaces.length).toBe(surfaces.length);
       surfaces.forEach((_, k) => {
-        const [here, other] = [mine.controlPoints(k), there.controlPoints(k)];
+        const [here, other] = [mine.query('control_points', { surface: k }), there.query('control_points', { surface: k })];
         expect(here.length).toBe(other.length);
         const size = other.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
         const worst = here.reduce((most, x, i) => Math.max(most, Math.abs(x - other[i]!)), 0);

@@ -4,7 +4,6 @@ import { fileURLToPath } from 'node:url';
 
 import { isNet, readKnead } from '@studio/document/knead_file';
 import { scenes } from '@studio/document/scenes';
-import { scriptOf } from '@studio/document/script';
 import { Engine } from '@studio/engine/engine';
 import type { Command } from '@studio/engine/session_types';
 
@@ -16,33 +15,33 @@ const defaultHold: Command = { do: 'hold', mode: 'trim', all: true };
 /** The control points after a script as the command line runs it. */
 async function run(script: string, file: Uint8Array | null): Promise<Float64Array[]> {
   const engine = await Engine.load(wasm);
-  if (file) engine.openStep(file, 'bonnet.step');
-  else engine.fresh('again');
+  if (file) engine.query('open', { file, name: 'bonnet.step' });
+  else engine.query('fresh', { name: 'again' });
   for (const command of [defaultHold, ...readKnead(script).commands]) engine.execute(command);
-  return engine.state().surfaces.map((_, k) => engine.controlPoints(k));
+  return engine.query('state').surfaces.map((_, k) => engine.query('control_points', { surface: k }));
 }
 
 describe('a script that the studio saves', () => {
   it.each(scenes.filter((s) => s.commands && !s.file))('of the scene $name, without a file, does the same', async ({ commands }) => {
     const engine = await Engine.load(wasm);
-    engine.fresh('scene');
+    engine.query('fresh', { name: 'scene' });
     for (const command of [...commands!, { do: 'step', count: 2 } as const]) engine.execute(command);
-    const script = scriptOf(engine.journal());
+    const script = engine.query('script');
     expect(readKnead(script).commands[0]).toMatchObject({ do: 'new' });
-    expect(await run(script, null)).toEqual(engine.state().surfaces.map((_, k) => engine.controlPoints(k)));
+    expect(await run(script, null)).toEqual(engine.query('state').surfaces.map((_, k) => engine.query('control_points', { surface: k })));
   });
 
   it('of a STEP file lets go what scripts hold at first, unless it begins with that hold', async () => {
     for (const held of [false, true]) {
       const engine = await Engine.load(wasm);
-      engine.openStep(bonnet, 'bonnet.step');
+      engine.query('open', { file: bonnet, name: 'bonnet.step' });
       if (held) engine.execute(defaultHold);
-      engine.execute({ do: 'select', surface: engine.state().surfaces[0]!.id });
+      engine.execute({ do: 'select', surface: engine.query('state').surfaces[0]!.id });
       if (!held) engine.execute({ do: 'hold', rows: 2 });
       engine.execute({ do: 'drag', at: [0.5, 0.5], by: [0, 0, 20], radius: 100, steps: 1 });
-      const script = scriptOf(engine.journal());
+      const script = engine.query('script');
       expect(readKnead(script).commands[0]).toMatchObject(held ? { do: 'select' } : { do: 'hold', rows: 0, all: true });
-      expect(await run(script, bonnet)).toEqual(engine.state().surfaces.map((_, k) => engine.controlPoints(k)));
+      expect(await run(script, bonnet)).toEqual(engine.query('state').surfaces.map((_, k) => engine.query('control_points', { surface: k })));
     }
   });
 });
@@ -54,8 +53,8 @@ describe('a JSON file', () => {
     const text = JSON.stringify(net);
     expect(isNet(text)).toBe(true);
     const engine = await Engine.load(wasm);
-    engine.openStep(new TextEncoder().encode(text), 'net.json');
-    expect(engine.controlPoints(0)).toEqual(new Float64Array(rows.flat(2)));
+    engine.query('open', { file: new TextEncoder().encode(text), name: 'net.json' });
+    expect(engine.query('control_points', { surface: 0 })).toEqual(new Float64Array(rows.flat(2)));
   });
 
   it('with commands, or damaged, is no net', () => {

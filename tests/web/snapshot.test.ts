@@ -21,7 +21,7 @@ function stroke(engine: Engine, k: number): void {
 
 async function session(net: number): Promise<Engine> {
   const engine = await load();
-  engine.fresh('long');
+  engine.query('fresh', { name: 'long' });
   engine.execute({ do: 'new', size: [100, 100], net: [net, net] });
   engine.execute({ do: 'hold', rows: 2 });
   engine.execute({ do: 'material', alpha: [0.1, 0, 0.1], beta: [0.001, 0.001, 0.001] });
@@ -34,45 +34,45 @@ describe('a snapshot', () => {
     const engine = await session(32);
     const strokes = 40;
     for (let k = 0; k < strokes; ++k) stroke(engine, k);
-    const snapshot = engine.snapshot(48 * megabyte);
+    const snapshot = engine.query('snapshot', { history_bytes: 48 * megabyte });
     const other = await load();
-    other.restore(null, 'long', snapshot);
-    expect(other.controlPoints(0)).toEqual(engine.controlPoints(0));
-    expect(other.journal()).toBe(engine.journal());
+    other.query('restore', { name: 'long', snapshot });
+    expect(other.query('control_points', { surface: 0 })).toEqual(engine.query('control_points', { surface: 0 }));
+    expect(other.query('journal')).toBe(engine.query('journal'));
     for (let k = 0; k < 5; ++k) {
       engine.execute({ do: 'undo' });
       other.execute({ do: 'undo' });
-      expect(other.controlPoints(0)).toEqual(engine.controlPoints(0));
+      expect(other.query('control_points', { surface: 0 })).toEqual(engine.query('control_points', { surface: 0 }));
     }
     stroke(engine, 3);
     stroke(other, 3);
-    expect(other.controlPoints(0)).toEqual(engine.controlPoints(0));
+    expect(other.query('control_points', { surface: 0 })).toEqual(engine.query('control_points', { surface: 0 }));
   });
 
   it('of a STEP file goes with its bytes, and saves the same file', async () => {
     const engine = await load();
-    engine.openStep(bonnet, 'bonnet.step');
-    const { id } = engine.state().surfaces[0]!;
+    engine.query('open', { file: bonnet, name: 'bonnet.step' });
+    const { id } = engine.query('state').surfaces[0]!;
     engine.execute({ do: 'select', surface: id });
     engine.execute({ do: 'hold', mode: 'free' }); // the edges of the face may open
     engine.execute({ do: 'hold', rows: 2 });
     engine.execute({ do: 'drag', at: [0.5, 0.5], by: [0, 0, 20] });
     const other = await load();
-    other.restore(bonnet, 'bonnet.step', engine.snapshot(megabyte));
-    expect(other.save()).toEqual(engine.save());
-    expect(other.origin).toEqual(engine.origin);
-    expect(() => other.restore(null, 'x', engine.snapshot(megabyte))).toThrow(/another document/);
+    other.query('restore', { source: bonnet, name: 'bonnet.step', snapshot: engine.query('snapshot', { history_bytes: megabyte }) });
+    expect(other.query('save')).toEqual(engine.query('save'));
+    expect(other.query('origin')).toEqual(engine.query('origin'));
+    expect(() => other.query('restore', { name: 'x', snapshot: engine.query('snapshot', { history_bytes: megabyte }) })).toThrow(/another document/);
     // A refused snapshot leaves the session as it was.
-    expect(other.save()).toEqual(engine.save());
+    expect(other.query('save')).toEqual(engine.query('save'));
   });
 
   it('that is damaged is refused', async () => {
     const engine = await session(8);
-    const snapshot = engine.snapshot(megabyte);
+    const snapshot = engine.query('snapshot', { history_bytes: megabyte });
     const other = await load();
-    expect(() => other.restore(null, 'x', snapshot.slice(0, -1))).toThrow(/damaged/);
-    expect(() => other.restore(null, 'x', snapshot.map((b, k) => (k === 500 ? b ^ 1 : b)))).toThrow(/damaged/);
-    expect(() => other.restore(null, 'x', new Uint8Array(3))).toThrow(/not a snapshot/);
-    expect(() => other.state()).toThrow(/nothing is open/);
+    expect(() => other.query('restore', { name: 'x', snapshot: snapshot.slice(0, -1) })).toThrow(/damaged/);
+    expect(() => other.query('restore', { name: 'x', snapshot: snapshot.map((b, k) => (k === 500 ? b ^ 1 : b)) })).toThrow(/damaged/);
+    expect(() => other.query('restore', { name: 'x', snapshot: new Uint8Array(3) })).toThrow(/not a snapshot/);
+    expect(() => other.query('state')).toThrow(/nothing is open/);
   });
 });

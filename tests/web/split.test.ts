@@ -23,16 +23,16 @@ async function same(act: (engine: Engine) => void): Promise<boolean> {
   const whole = await Engine.load(module('studio')), { engine, rest } = await inTwo();
   act(whole);
   act(engine);
-  const points = engine.controlPoints(0);
+  const points = engine.query('control_points', { surface: 0 });
   expect(points.length).toBeGreaterThan(0);
-  expect(points).toEqual(whole.controlPoints(0));
-  expect(engine.save()).toEqual(whole.save());
+  expect(points).toEqual(whole.query('control_points', { surface: 0 }));
+  expect(engine.query('save')).toEqual(whole.query('save'));
   return rest.started;
 }
 
 const run = (engine: Engine, commands: Command[]) => commands.forEach((command) => engine.execute(command));
 const fresh = (commands: Command[]) => (engine: Engine) => {
-  engine.fresh('sheet');
+  engine.query('fresh', { name: 'sheet' });
   run(engine, [{ do: 'new', size: [100, 100], net: [14, 14] }, { do: 'hold', rows: 2 }, ...commands]);
 };
 
@@ -60,8 +60,8 @@ it('a stroke, tools and a snapshot need the core alone', async () => {
 
 it('presses a file of STEP, held along its trims, without the second', async () => {
   expect(await same((engine) => {
-    engine.openStep(bonnet, 'bonnet.step');
-    const { surfaces } = engine.state();
+    engine.query('open', { file: bonnet, name: 'bonnet.step' });
+    const { surfaces } = engine.query('state');
     run(engine, [{ do: 'select', surface: surfaces[0]!.id }, { do: 'hold', mode: 'trim' }, { do: 'material', preset: 'clay' },
       { do: 'tool', name: 'ball', radius: 100, at: [0.5, 0.5], plasticity: 1 }, { do: 'step' }]);
   })).toBe(false);
@@ -71,8 +71,8 @@ it('what is rare calls the second module, once it is compiled or at once', async
   expect(await same(fresh([{ do: 'elevate', by: [1, 1] }, { do: 'coarsen', tolerance: 0.1 }]))).toBe(true);
   const { engine, rest } = await inTwo();
   rest.provide(new WebAssembly.Module(module('rest')));
-  engine.openStep(readFileSync(join(root, 'samples/bonnet.step')), 'bonnet.step');
-  expect(engine.mesh('stl', 8).length).toBeGreaterThan(1000);
+  engine.query('open', { file: readFileSync(join(root, 'samples/bonnet.step')), name: 'bonnet.step' });
+  expect(engine.query('mesh', { format: 'stl', detail: 8 }).length).toBeGreaterThan(1000);
   expect(rest.started).toBe(true);
 });
 
@@ -80,6 +80,6 @@ it('a second module that cannot be had is an error of the call that needs it', a
   const engine = await Engine.load(module('core'), new Rest(() => {
     throw new Error('no network');
   }));
-  engine.openStep(bonnet, 'bonnet.step');
-  expect(() => engine.mesh('stl', 8)).toThrow('no network');
+  engine.query('open', { file: bonnet, name: 'bonnet.step' });
+  expect(() => engine.query('mesh', { format: 'stl', detail: 8 })).toThrow('no network');
 });

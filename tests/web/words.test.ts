@@ -17,7 +17,7 @@ const told = (code: EngineErrorInfo['code'], values: Partial<Values> | null, fix
 
 async function refused(...commands: Command[]): Promise<{ engine: Engine; info: EngineErrorInfo }> {
   const engine = await Engine.load(wasm);
-  engine.fresh('sheet');
+  engine.query('fresh', { name: 'sheet' });
   engine.execute({ do: 'new', size: [100, 100], net: [12, 12] });
   for (const command of commands.slice(0, -1)) engine.execute(command);
   try {
@@ -65,7 +65,7 @@ describe('what the engine refuses', () => {
 
   it('an edge beside a face of another form offers to convert it, after which the edge follows', async () => {
     const engine = await Engine.load(wasm);
-    engine.openStep(new Uint8Array(readFileSync(fileURLToPath(new URL('../../samples/bonnet.step', import.meta.url)))), 'bonnet.step');
+    engine.query('open', { file: new Uint8Array(readFileSync(fileURLToPath(new URL('../../samples/bonnet.step', import.meta.url)))), name: 'bonnet.step' });
     engine.execute({ do: 'select', surface: '#285' });
     engine.execute({ do: 'hold', mode: 'trim' });
     const error = (() => {
@@ -81,13 +81,13 @@ describe('what the engine refuses', () => {
     expect(`${text} ${remedy}`).not.toMatch(/[{}`]/);
     expect(actions.map((a) => a.label)).toEqual(['Convert and follow']);
     for (const command of actions[0]!.commands) engine.execute(command);
-    const { surfaces, selection } = engine.state();
+    const { surfaces, selection } = engine.query('state');
     expect(selection.map((k) => surfaces[k]!.id)).toEqual(['#285', '#534']);
     expect(surfaces.at(-1)).toMatchObject({ id: '#534', faces: 1, preset: 'clay' });
     expect(surfaces[0]!.constraints).toContainEqual(expect.objectContaining({ do: 'edge', edge: '#43', hold: 'follow' }));
-    expect(engine.context()!.skipped).toEqual([]);
-    expect(engine.trims(surfaces.length - 1)).toBeNull(); // its face shows all of it
-    expect(engine.trims(0)).not.toBeNull();
+    expect(engine.query('context')!.skipped).toEqual([]);
+    expect(engine.query('trims', { surface: surfaces.length - 1 })).toBeNull(); // its face shows all of it
+    expect(engine.query('trims', { surface: 0 })).not.toBeNull();
 
     engine.execute({ do: 'select', surface: '#285' });
     const alone = (() => {
@@ -132,9 +132,9 @@ describe('an edge that would open', () => {
 describe('what notes tell', () => {
   it('that nothing holds a surface comes with what holds it', async () => {
     const engine = await Engine.load(wasm);
-    engine.fresh('sheet');
+    engine.query('fresh', { name: 'sheet' });
     for (const command of [{ do: 'new', size: [100, 100], net: [12, 12] }, ball, { do: 'step' }] satisfies Command[]) engine.execute(command);
-    const loose = engine.state().notes.flatMap((note) => looseIn(note) ?? []);
+    const loose = engine.query('state').notes.flatMap((note) => looseIn(note) ?? []);
     expect(loose).toHaveLength(1);
     expect(loose[0]!.text).toMatch(/^Nothing holds \S+: what presses on it moves all of it\.$/);
     for (const { commands } of loose[0]!.actions) for (const command of commands) engine.execute(command);

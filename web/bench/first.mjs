@@ -24,7 +24,7 @@ async function stroke(url, net, wait) {
       const { studio } = window;
       const { state } = studio;
       if (state.surfaces[0].net[0] !== sheetOf) {
-        const commands = await studio.client.journal().then(JSON.parse);
+        const commands = await studio.client.query('journal').then(JSON.parse);
         await studio.documents.startFresh('bench', commands.map((c) => (c.do === 'new' ? { ...c, net: [sheetOf, sheetOf] } : c)));
       }
       await new Promise((resolve) => setTimeout(resolve, before));

@@ -19,7 +19,7 @@ for (const { net, name, prepare, frames } of nets.flatMap((net) => kinds.map((ki
   const runs = [];
   for (const file of modules) {
     const engine = await Engine.load(readFileSync(file));
-    engine.fresh('sheet');
+    engine.query('fresh', { name: 'sheet' });
     for (const command of prepare(net)) engine.execute(command);
     runs.push({ file, engine, first: [], step: [], frame: [], iterations: 0 });
   }
@@ -31,9 +31,9 @@ for (const { net, name, prepare, frames } of nets.flatMap((net) => kinds.map((ki
         const begin = performance.now();
         for (const [c, command] of commands.entries()) engine.execute(command, k > 0 || c > 0);
         const computed = performance.now();
-        const state = engine.state();
-        const picture = engine.picture(0, detail);
-        structuredClone({ state, picture, steps: engine.steps(state.steps - 1) });
+        const state = engine.query('state');
+        const picture = engine.query('picture', { surface: 0, detail });
+        structuredClone({ state, picture, steps: engine.query('steps', { first: state.steps - 1 }) });
         const end = performance.now();
         if (!measured) {
           run.first.push(end - begin);

@@ -21,7 +21,7 @@ function act(engine, commands, join = false) {
 }
 
 function refused(engine, command) {
-  for (const does of [() => engine.execute(command), () => engine.rehearse([{ do: 'step' }, command])]) {
+  for (const does of [() => engine.execute(command), () => engine.query('rehearse', { commands: [{ do: 'step' }, command] })]) {
     try {
       does();
     } catch {
@@ -33,36 +33,36 @@ function refused(engine, command) {
 
 /** What a frame and the panels show. */
 function look(engine) {
-  const state = engine.state(), known = engine.displays().map(({ name }) => name);
-  engine.steps(Math.max(0, state.steps - 400));
+  const state = engine.query('state'), known = engine.query('displays').map(({ name }) => name);
+  engine.query('steps', { first: Math.max(0, state.steps - 400) });
   for (const k of state.surfaces.keys()) {
-    for (const display of displays.filter((name) => known.includes(name))) engine.picture(k, 48, { display, settings: {} });
-    engine.picture(k, 48, undefined, true);
-    engine.picture(k, 48, undefined, false, { lower: [0.2, 0.2], upper: [0.6, 0.6], tolerance: 0.1 });
-    engine.controlPoints(k);
-    engine.faceEdges(k);
-    engine.room(k);
-    engine.trims(k);
+    for (const display of displays.filter((name) => known.includes(name))) engine.query('picture', { surface: k, detail: 48, display, settings: {} });
+    engine.query('picture', { surface: k, detail: 48, opened: true });
+    engine.query('picture', { surface: k, detail: 48, window: { lower: [0.2, 0.2], upper: [0.6, 0.6], tolerance: 0.1 } });
+    engine.query('control_points', { surface: k });
+    engine.query('face_edges', { surface: k });
+    engine.query('room', { surface: k });
+    engine.query('trims', { surface: k });
   }
-  for (const k of state.tools.keys()) engine.toolPicture(k);
-  for (const k of state.bodies.keys()) engine.bodyPicture(k);
-  engine.range();
+  for (const k of state.tools.keys()) engine.query('tool_picture', { tool: k });
+  for (const k of state.bodies.keys()) engine.query('body_picture', { body: k });
+  engine.query('range');
   return state;
 }
 
 /** A point that is drawn, in file units. */
 function pointOn(engine, k, [s, t]) {
-  const { positions, s: along, t: across } = engine.picture(k, 48);
+  const { positions, s: along, t: across } = engine.query('picture', { surface: k, detail: 48 });
   const index = (fractions, x) => fractions.reduce((best, f, i) => (Math.abs(f - x) < Math.abs(fractions[best] - x) ? i : best), 0);
   const i = index(along, s), j = index(across, t);
-  return engine.origin.map((x, axis) => x + positions[3 * (i * across.length + j) + axis]);
+  return engine.query('origin').map((x, axis) => x + positions[3 * (i * across.length + j) + axis]);
 }
 
 function strokes(engine, k, radius) {
   const points = [[0.4, 0.5], [0.44, 0.5], [0.5, 0.52]].map((at) => pointOn(engine, k, at));
   const ball = { do: 'tool', name: 'brush', shape: 'sphere', radius, mode: 'collision', plasticity: 1, touches: 'visible' };
   const pressed = [{ ...ball, position: points[0] }, { do: 'stroke', tool: 'brush', path: [points[0]], open: true }];
-  tried(() => engine.rehearse(pressed));
+  tried(() => engine.query('rehearse', { commands: pressed }));
   act(engine, pressed);
   act(engine, [{ do: 'stroke', tool: 'brush', path: points.slice(1), open: true }], true);
   look(engine);
@@ -98,11 +98,11 @@ function travel(engine) {
 /** `scenes`: those of the gallery (src/document/scenes.ts), the one with a file on the bytes of `file`. */
 export function session(engine, scenes, file) {
   for (const scene of scenes) {
-    if (scene.file) engine.openStep(file, scene.document);
-    else engine.fresh(scene.document);
+    if (scene.file) engine.query('open', { file, name: scene.document });
+    else engine.query('fresh', { name: scene.document });
     act(engine, scene.commands ?? []);
-    engine.assembly();
-    engine.context();
+    engine.query('assembly');
+    engine.query('context');
     const { surfaces } = look(engine);
     if (scene.file) act(engine, [{ do: 'select', surface: surfaces[0].id }, { do: 'hold', mode: 'trim' }, ...clay]);
     const { lower, upper } = surfaces[0];
@@ -111,12 +111,12 @@ export function session(engine, scenes, file) {
     strokes(engine, 0, radius);
     tools(engine, 0, radius);
     travel(engine);
-    engine.journal();
-    engine.restore(scene.file ? file : null, scene.document, engine.snapshot(2 ** 20));
+    engine.query('journal');
+    engine.query('restore', { source: scene.file ? file : null, name: scene.document, snapshot: engine.query('snapshot', { history_bytes: 2 ** 20 }) });
     look(engine);
-    engine.save();
-    engine.edges();
-    engine.surface(0);
+    engine.query('save');
+    engine.query('edges');
+    engine.query('surface', { surface: 0 });
   }
   refused(engine, { do: 'nothing' });
   refused(engine, { do: 'step', count: -1 });

@@ -6,6 +6,8 @@
 
 namespace knead {
 
+class TypeScript;
+
 // What a page shows of a session, as JSON. The page's TypeScript types are generated from the same
 // descriptions.
 
@@ -43,7 +45,7 @@ namespace knead {
 /// {text, code, values, fixes}.
 [[nodiscard]] std::string note_json(const Note& note);
 
-/// A TypeScript module with the types of all these and of all commands (`AnyCommand`).
-[[nodiscard]] std::string session_typescript();
+/// A TypeScript module with the types of all these and of all commands (`AnyCommand`), and with what `more` declares.
+[[nodiscard]] std::string session_typescript(void (*more)(TypeScript&) = nullptr);
 
 }  // namespace knead

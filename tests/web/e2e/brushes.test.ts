@@ -63,7 +63,7 @@ async function saved(): Promise<Vector3[]> {
 
 /** The control points in the file that was saved last, to the last bit. */
 async function savedNet(): Promise<Vector3[]> {
-  const numbers = (await engineOf(savedPath)).controlPoints(0);
+  const numbers = (await engineOf(savedPath)).query('control_points', { surface: 0 });
   return Array.from({ length: numbers.length / 3 }, (_, k) => [numbers[3 * k]!, numbers[3 * k + 1]!, numbers[3 * k + 2]!]);
 }
 

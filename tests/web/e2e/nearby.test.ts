@@ -1,5 +1,6 @@
 import { join } from 'node:path';
 
+import type { Client } from '@studio/engine/client';
 import type { Picture } from '@studio/engine/session_types';
 
 import { openFile, root, settled, spot, stroke, studioOfFile } from './page';
@@ -10,7 +11,7 @@ const studio = studioOfFile({ width: 1000, height: 700 });
 
 interface App {
   frame: { pictures: Picture[]; origin: number[] };
-  client: { reading(surface: number, at: [number, number]): Promise<{ point: number[] }> };
+  client: Pick<Client, 'query'>;
   viewer: { main: { placement(): { height: number }; restore(p: object): void; projectAll(points: number[]): Float32Array } };
 }
 
@@ -29,7 +30,7 @@ async function lookAt(at: [number, number], height: number): Promise<void> {
   const { page } = studio;
   await page.evaluate(async ([place, high]) => {
     const { studio: app } = window as never as { studio: App };
-    const { point } = await app.client.reading(0, place);
+    const { point } = await app.client.query('reading', { surface: 0, at: place });
     const target = point.map((x, d) => x - app.frame.origin[d]!);
     const p = app.viewer.main.placement() as unknown as { position: number[]; target: number[] };
     app.viewer.main.restore({ ...app.viewer.main.placement(), target, position: target.map((x, d) => x + p.position[d]! - p.target[d]!), height: high });
@@ -64,7 +65,7 @@ const chordError = (): Promise<{ most: number; count: number; points: number; fi
   let count = 0;
   for (let e = 0; e < edges.length; e += every, ++count) {
     const [a, b, place] = edges[e]!;
-    const { point } = await app.client.reading(0, place);
+    const { point } = await app.client.query('reading', { surface: 0, at: place });
     const exact = point.map((x, d) => x - app.frame.origin[d]!);
     const [ax, ay, bx, by, px, py] = view.projectAll([...a, ...b, ...exact]) as never as number[];
     const length = Math.hypot(bx! - ax!, by! - ay!);

@@ -177,11 +177,11 @@ export const screen = (page: Page): Promise<JSHandle<ImageData>> => page.evaluat
 
 /** Number of commands that stand. */
 export const commands = (page: Page): Promise<Command[]> =>
-  page.evaluate(async () => (JSON.parse(await (window as never as { studio: { client: { journal(): Promise<string> } } }).studio.client.journal()) as Command[]));
+  page.evaluate(async () => (JSON.parse(await (window as never as { studio: { client: { query(name: 'journal'): Promise<string> } } }).studio.client.query('journal')) as Command[]));
 
 interface App {
   frame: { origin: number[]; pictures: { positions: Float32Array; normals: Float32Array }[]; state: { selection: number[]; undo: boolean }; memory: number };
-  client: { followed(): Promise<void>; journal(): Promise<string>; busySince: number | null };
+  client: { followed(): Promise<void>; query(name: 'journal'): Promise<string>; busySince: number | null };
 }
 
 /** What the page asks before it opens something. */
@@ -243,7 +243,7 @@ export async function settled(page: Page): Promise<void> {
     for (let k = 0, quiet = 0; k < 10 && quiet < 2; ++k) {
       const before = studio.frame;
       await studio.client.followed();
-      await studio.client.journal();
+      await studio.client.query('journal');
       await new Promise(requestAnimationFrame);
       quiet = studio.frame === before && studio.client.busySince === null ? quiet + 1 : 0;
     }
@@ -292,14 +292,15 @@ export async function saveAs(page: Page, directory: string, entry: string): Prom
 /** A STEP file as the engine reads it. */
 export async function engineOf(path: string): Promise<Engine> {
   const engine = await Engine.load(readFileSync(join(root, 'web/src/engine/knead_studio.wasm')));
-  engine.openStep(new Uint8Array(readFileSync(path)), basename(path));
+  engine.query('open', { file: new Uint8Array(readFileSync(path)), name: basename(path) });
   return engine;
 }
 
 /** The points at which an engine draws its first surface, in so many lines per direction; file units. */
 export function drawnBy(engine: Engine, detail: number): Vector3[] {
-  const { positions: drawn } = engine.picture(0, detail);
-  return Array.from({ length: drawn.length / 3 }, (_, k) => [0, 1, 2].map((d) => drawn[3 * k + d]! + engine.origin[d]!) as Vector3);
+  const { positions: drawn } = engine.query('picture', { surface: 0, detail });
+  const origin = engine.query('origin');
+  return Array.from({ length: drawn.length / 3 }, (_, k) => [0, 1, 2].map((d) => drawn[3 * k + d]! + origin[d]!) as Vector3);
 }
 
 /** The text of a file that the page gave away. */

@@ -82,7 +82,7 @@ describe('a curve', () => {
     await settled(page);
     expect(distance(before, await lines())).toBe(0);
     const engine = await engineOf(await saveAs(page, directory, 'CAD file'));
-    expect(engine.state().surfaces.length).toBe(6); // the sides of the box
+    expect(engine.query('state').surfaces.length).toBe(6); // the sides of the box
   });
 });
 

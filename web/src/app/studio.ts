@@ -179,7 +179,7 @@ export class Studio implements App {
 
   /** The last act again, changed, after commands that undo it. */
   private async again(before: Command[], change: (command: Command) => Command = (command) => command): Promise<void> {
-    const commands = JSON.parse(await this.client.journal()) as Command[];
+    const commands = JSON.parse(await this.client.query('journal')) as Command[];
     // What is done with a ball is a tool, its strokes and its removal.
     const first = commands.at(-1)?.do === 'remove' ? commands.map((c) => c.do).lastIndexOf('tool') : commands.length - 1;
     for (const command of before) {
@@ -370,7 +370,7 @@ export class Studio implements App {
   /** The numbers of a surface as it is now; requested once per change. */
   surfaceData(surface: number): Promise<SurfaceNumbers> {
     const of = `${surface} ${this.changes}`;
-    if (this.numbers?.of !== of) this.numbers = { of, data: this.client.surface(surface) };
+    if (this.numbers?.of !== of) this.numbers = { of, data: this.client.query('surface', { surface }) };
     return this.numbers.data;
   }
 

@@ -15,7 +15,7 @@ export async function loadContext(host: Host, current: () => boolean): Promise<v
     const { context, trims } = await host.client.context();
     if (!current()) return;
     host.showContext(context, trims);
-    const notice = notShown(context?.leftOut ?? []);
+    const notice = notShown(context?.left_out ?? []);
     if (notice) host.notify({ kind: 'info', text: notice });
   });
 }

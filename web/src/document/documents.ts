@@ -134,7 +134,7 @@ export class Documents {
     });
     if (choice === 'fresh') await this.replay(name, null, commands);
     if (choice !== 'apply') return;
-    await host.client.execute([{ do: 'hold', mode: 'trim', all: true }, ...commands]); // what a script begins with
+    await host.client.execute([...(await host.client.query('script_opening')), ...commands]);
     this.work(commands);
   }
 
@@ -201,7 +201,7 @@ export class Documents {
   private async begunDocument({ name, source, commands, snapshot }: KneadDocument): Promise<void> {
     if (snapshot && (await this.restored(name, source, snapshot, preparation(commands)))) {
       // What the snapshot holds must be what the commands say.
-      const same = canonical(JSON.parse(await this.host.client.journal()) as Command[]) === canonical(commands);
+      const same = canonical(JSON.parse(await this.host.client.query('journal')) as Command[]) === canonical(commands);
       if (same) return;
     }
     await this.replay(name, source, commands);
@@ -265,7 +265,7 @@ export class Documents {
   private async endStroke(): Promise<void> {
     const { client } = this.host;
     // Asked of the engine: the frame on the screen may be an earlier one.
-    const commands = JSON.parse(await client.journal()) as Command[];
+    const commands = JSON.parse(await client.query('journal')) as Command[];
     const last = commands.filter((c) => (c.do === 'tool' && c.name === 'brush') || (c.do === 'remove' && c.tool === 'brush')).at(-1);
     if (last?.do === 'tool') await client.execute([{ do: 'remove', tool: 'brush' }], true);
   }

@@ -15,7 +15,7 @@ export async function makeReady(host: Host, index: number, opening: boolean): Pr
   const surface = host.state!.surfaces[index]!;
   const run = (commands: Command[]) =>
     client.execute([{ do: 'select', surface: surface.id }, ...commands], false, opening);
-  const room = surface.faces > 0 ? await client.room(index) : null;
+  const room = surface.faces > 0 ? await client.query('room', { surface: index }) : null;
   if (hasSettings(surface)) await run([]);
   else if (surface.faces === 0 && (!surface.bare || outerRows(surface.net) > 0)) await run(alone(surface.net));
   else {

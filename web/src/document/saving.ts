@@ -1,4 +1,4 @@
-import { fileFormats } from '../engine/generated';
+import { type EdgesInfo, fileFormats } from '../engine/generated';
 import type { MeshFormat } from '../engine/session_types';
 import { closedEdges } from './closed_edges';
 import type { Documents } from './documents';
@@ -7,7 +7,6 @@ import { download } from './download';
 import { cadFormat, isCompressed, uncompressedName } from './formats';
 import type { Host } from './host';
 import { writeKnead } from './knead_file';
-import { scriptOf } from './script';
 
 const historyBytes = 16 * 2 ** 20; // of shapes, in a document
 const longSession = 2000; // milliseconds of steps from which a document includes its snapshot
@@ -53,12 +52,13 @@ export class Saving {
   }
 
   /** The file as it is now, compressed as it came. */
-  private async saved(): Promise<Awaited<ReturnType<Host['client']['save']>>> {
-    const saved = await this.host.client.save();
+  private async saved(): Promise<{ bytes: Uint8Array; edges: EdgesInfo[] }> {
+    const { client } = this.host;
+    const [bytes, edges] = await Promise.all([client.query('save'), client.query('edges')]);
     const { file } = this.documents;
-    if (file?.kind !== 'step' || !isCompressed(file.bytes)) return saved;
+    if (file?.kind !== 'step' || !isCompressed(file.bytes)) return { bytes, edges };
     const { packedLike } = await import('./compressed');
-    return { ...saved, bytes: await packedLike(saved.bytes, file.bytes) };
+    return { bytes: await packedLike(bytes, file.bytes), edges };
   }
 
   private stem(): string {
@@ -79,7 +79,7 @@ export class Saving {
     const { file } = this.documents;
     const { rhino } = await import('./rhino/client');
     const surfaces = [];
-    for (const [k, { name, id }] of state!.surfaces.entries()) surfaces.push({ name: name || id, patch: await client.surface(k) });
+    for (const [k, { name, id }] of state!.surfaces.entries()) surfaces.push({ name: name || id, patch: await client.query('surface', { surface: k }) });
     const source = file?.kind === 'rhino' ? file.bytes : null;
     const { bytes, beside, within } = await rhino.write(source, surfaces, state!.surfaces[0]?.unit ?? 'mm');
     download(bytes, `${stem}${source ? '-sculpted' : ''}.3dm`, 'model/vnd.3dm');
@@ -94,11 +94,11 @@ export class Saving {
   /** All surfaces as one mesh, as fine as the pictures are. */
   mesh = (format: MeshFormat) => this.save(async (stem) => {
     const { endings, media_type } = fileFormats.find(({ id }) => id === format)!;
-    download(await this.host.client.mesh(format, this.host.detail), stem + endings[0], media_type);
+    download(await this.host.client.query('mesh', { format, detail: this.host.detail }), stem + endings[0], media_type);
   });
 
   script = () => this.save(async (stem) => {
-    download(scriptOf(await this.host.client.journal()), `${stem}.json`, 'application/json');
+    download(await this.host.client.query('script'), `${stem}.json`, 'application/json');
   }, false);
 
   picture = (scale: number) => this.save(async (stem) => {

@@ -1,21 +1,12 @@
 import { Acts } from './acts';
-import type { Context, FaceEdge, Trim } from './context';
+import type { Context, Trim } from './context';
 import type { DisplayInfo } from './displays';
-import type { CheckedEdgeInfo, EdgesInfo, ReadingInfo } from './generated';
-import type { Frame, PictureSettings, Reply, Request } from './protocol';
-import { type Command, EngineError, type EngineErrorInfo, errorOf, type MaterialSamples, type MeshFormat, type SurfaceNumbers, type Vector3 } from './session_types';
-
-interface Answer {
-  bytes?: Uint8Array;
-  text?: string;
-  opened?: number;
-  context?: Context | null;
-  trims?: Trim[];
-  material?: MaterialSamples;
-}
+import type { Answer, Asked, Query } from './engine';
+import type { Frame, PictureSettings, Reply, Request, Snapshot } from './protocol';
+import { type Command, EngineError, type EngineErrorInfo, errorOf } from './session_types';
 
 interface Waiting {
-  resolve(reply: Answer): void;
+  resolve(answer: unknown): void;
   reject(error: Error): void;
   /** When it was asked for. */
   since: number;
@@ -136,17 +127,17 @@ export class Client {
     if (reply.kind === 'failed') {
       if (waiting) waiting.reject(new EngineError(reply.error));
       else this.onError(reply.error);
-    } else waiting?.resolve(reply);
+    } else waiting?.resolve(reply.answer);
   }
 
   private send(request: Request, id = 0): void {
     this.worker.postMessage({ id, request });
   }
 
-  private ask(request: Request): Promise<Answer> {
+  private ask<T = void>(request: Request): Promise<T> {
     const id = this.next++;
-    return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject, since: performance.now(), request });
+    return new Promise<T>((resolve, reject) => {
+      this.waiting.set(id, { resolve: resolve as Waiting['resolve'], reject, since: performance.now(), request });
       this.send(request, id);
     });
   }
@@ -158,34 +149,12 @@ export class Client {
   play = (toRest = false) => this.ask({ kind: 'play', toRest });
   stop = () => this.ask({ kind: 'stop' });
   /** `mark`: of the acts that are in it. */
-  snapshot = async (historyBytes: number, kept: boolean): Promise<{ snapshot: Uint8Array; journal: string; opened: number; mark: number }> => {
-    const { bytes, text, opened } = await this.ask({ kind: 'snapshot', historyBytes, kept });
-    return { snapshot: bytes!, journal: text!, opened: opened!, mark: this.acts.mark };
-  };
+  snapshot = async (historyBytes: number, kept: boolean): Promise<Snapshot & { mark: number }> =>
+    ({ ...(await this.ask<Snapshot>({ kind: 'snapshot', historyBytes, kept })), mark: this.acts.mark });
   restore = (source: Uint8Array | null, name: string, snapshot: Uint8Array, opened: number) =>
     this.ask({ kind: 'restore', source, name, snapshot, opened });
-  faceEdges = async (surface: number): Promise<FaceEdge[]> => JSON.parse((await this.ask({ kind: 'faceEdges', surface })).text!) as FaceEdge[];
-  checkedEdges = async (surface: number): Promise<CheckedEdgeInfo[]> =>
-    JSON.parse((await this.ask({ kind: 'checkedEdges', surface })).text!) as CheckedEdgeInfo[];
-  reading = async (surface: number, at: [number, number]): Promise<ReadingInfo> =>
-    JSON.parse((await this.ask({ kind: 'reading', surface, at })).text!) as ReadingInfo;
-  faceReading = async (face: string, near: Vector3): Promise<ReadingInfo> =>
-    JSON.parse((await this.ask({ kind: 'faceReading', face, near })).text!) as ReadingInfo;
-  room = async (surface: number): Promise<number | null> => JSON.parse((await this.ask({ kind: 'room', surface })).text!) as number | null;
-  save = async (): Promise<{ bytes: Uint8Array; edges: EdgesInfo[] }> => {
-    const { bytes, text } = await this.ask({ kind: 'save' });
-    return { bytes: bytes!, edges: JSON.parse(text!) as EdgesInfo[] };
-  };
-  mesh = async (format: MeshFormat, detail = 96): Promise<Uint8Array> => (await this.ask({ kind: 'mesh', format, detail })).bytes!;
-  surface = async (surface: number): Promise<SurfaceNumbers> =>
-    JSON.parse((await this.ask({ kind: 'surface', surface })).text!) as SurfaceNumbers;
-  material = async (surface: number, counts: [number, number]): Promise<MaterialSamples> =>
-    (await this.ask({ kind: 'material', surface, counts })).material!;
-  context = async (): Promise<{ context: Context | null; trims: Trim[] }> => {
-    const { context, trims } = await this.ask({ kind: 'context' });
-    return { context: context ?? null, trims: trims! };
-  };
-  journal = async (): Promise<string> => (await this.ask({ kind: 'journal' })).text!;
+  context = () => this.ask<{ context: Context | null; trims: Trim[] }>({ kind: 'context' });
+  query = <Q extends Query>(query: Q, ...[request]: Asked<Q>): Promise<Answer<Q>> => this.ask({ kind: 'query', query, request });
 
   /**
    * Commands that follow the pointer: while one act is under way only the newest waiting one is kept, so that

@@ -1,6 +1,7 @@
-import type { Assembly, Context, Trim } from './context';
+import type { Assembly } from './context';
 import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
-import type { BodyPicture, Combs, Command, EngineErrorInfo, LatticeSettings, MaterialSamples, MeshFormat, Picture, PictureWindow, SectionPlane, SessionInfo, StepInfo, ToolPicture, Vector3 } from './session_types';
+import type { Asked, Query } from './engine';
+import type { BodyPicture, Combs, Command, EngineErrorInfo, LatticeSettings, Picture, PictureWindow, SectionPlane, SessionInfo, StepInfo, ToolPicture } from './session_types';
 
 /** How surfaces are drawn. */
 export interface PictureSettings {
@@ -33,28 +34,20 @@ export type Request =
   | { kind: 'stop' }
   /** The page has drawn the last frame: the next one may come. */
   | { kind: 'drawn' }
-  /** The numbers of one surface: `SurfaceNumbers` as text. */
-  | { kind: 'surface'; surface: number }
-  /** The material of one surface by samples. */
-  | { kind: 'material'; surface: number; counts: [number, number] }
-  /** All surfaces as one mesh file. */
-  | { kind: 'mesh'; format: MeshFormat; detail: number }
   /** The other faces of the file, and the trims of the surfaces. */
   | { kind: 'context' }
-  /** `Engine.faceEdges` as text. */
-  | { kind: 'faceEdges'; surface: number }
-  /** `Engine.checkedEdges`, `Engine.reading` as text. */
-  | { kind: 'checkedEdges'; surface: number }
-  | { kind: 'reading'; surface: number; at: [number, number] }
-  /** `Engine.faceReading` as text. */
-  | { kind: 'faceReading'; face: string; near: Vector3 }
-  /** `Engine.room` as text. */
-  | { kind: 'room'; surface: number }
-  | { kind: 'save' }
-  | { kind: 'journal' }
-  /** The session as bytes, with its journal as text. `kept`: nothing up to here needs recomputing. */
+  /** Anything else that the engine answers. */
+  | { kind: 'query'; query: Query; request: Asked<Query>[0] }
+  /** `Snapshot`. `kept`: nothing up to here needs recomputing. */
   | { kind: 'snapshot'; historyBytes: number; kept: boolean }
   | { kind: 'restore'; source: Uint8Array | null; name: string; snapshot: Uint8Array; opened: number };
+
+/** `opened`: how many commands of the journal belong to the document. */
+export interface Snapshot {
+  snapshot: Uint8Array;
+  journal: string;
+  opened: number;
+}
 
 export interface Frame {
   state: SessionInfo;
@@ -93,7 +86,7 @@ export type Reply =
   /** So many steps of the command under way are done. */
   | { kind: 'progress'; done: number; total: number }
   | { kind: 'frame'; frame: Frame }
-  | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string; opened?: number; context?: Context | null; trims?: Trim[]; material?: MaterialSamples }
+  | { kind: 'done'; id: number; answer?: unknown }
   | { kind: 'failed'; id: number; error: EngineErrorInfo }
   /** The module has trapped: nothing that it holds can be relied on. */
   | { kind: 'died'; message: string };

@@ -15,16 +15,16 @@ const ball = (radius: number, position: Vector3): Command[] => [
 
 /** What a frame shows. */
 function look(engine: Engine): void {
-  const { steps } = engine.state();
-  engine.steps(Math.max(0, steps - 1));
-  engine.picture(0, detail);
+  const { steps } = engine.query('state');
+  engine.query('steps', { first: Math.max(0, steps - 1) });
+  engine.query('picture', { surface: 0, detail });
 }
 
 /** What users do first, in a session of its own: strokes on a sheet. The caller can stop after every frame. */
 export function* strokes(engine: Engine): Generator<void> {
   const sheet: Command[] = [{ do: 'new', size: [size, size], net: [net, net] }, { do: 'hold', rows: 2 }, ...clay];
   const lifted: Command[] = [{ do: 'stroke', tool: 'brush', path: [] }, { do: 'remove', tool: 'brush' }];
-  engine.fresh('');
+  engine.query('fresh', { name: '' });
   for (const command of sheet) engine.execute(command);
   look(engine);
   yield;
@@ -54,7 +54,7 @@ const mostControlPoints = 5000; // a request waits for the rehearsal of one stro
 
 /** The model that a stroke needs is made while nobody waits for it: by one that touches nothing, and is forgotten. */
 export function rehearse(engine: Engine): void {
-  const { selection, surfaces, tools } = engine.state();
+  const { selection, surfaces, tools } = engine.query('state');
   const chosen = selection.map((k) => surfaces[k]!);
   const points = chosen.reduce((sum, s) => sum + s.net[0] * s.net[1], 0);
   if (points === 0 || points > mostControlPoints || tools.length > 0) return;
@@ -65,7 +65,7 @@ export function rehearse(engine: Engine): void {
   if (diagonal === 0) return;
   const away = upper.map((most) => most + 2 * diagonal) as Vector3;
   try {
-    engine.rehearse(ball(usualRadius * diagonal, away));
+    engine.query('rehearse', { commands: ball(usualRadius * diagonal, away) });
   } catch (error) {
     if (!(error instanceof EngineError)) throw error; // what is refused now would be refused then, and told
   }

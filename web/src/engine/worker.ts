@@ -1,5 +1,5 @@
 import { type DisplayRange, noValue, plain } from './displays';
-import { Engine } from './engine';
+import { type Asked, Engine, type Query } from './engine';
 import coreUrl from './knead_core.wasm?url';
 import restUrl from './knead_rest.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
@@ -28,7 +28,7 @@ const preparation = new Preparation(core, () => new Worker(new URL('./warm_up.ts
   }
   return true;
 });
-const works = new Set<Request['kind']>(['open', 'fresh', 'restore', 'execute', 'play', 'save', 'mesh']);
+const works = new Set<Request['kind'] | Query>(['open', 'fresh', 'restore', 'execute', 'play', 'save', 'mesh']);
 
 /** While the C++ session waits for it. */
 function fetchNow(url: string): ArrayBuffer {
@@ -58,6 +58,10 @@ let quietSteps = 0;
 let opened = 0; // commands that belong to the opened document
 const historyBytes = 48 * 2 ** 20; // of shapes that the session before keeps where another cannot be opened
 
+/** What can be handed over instead of copied. */
+const buffersOf = (answer: unknown): ArrayBuffer[] =>
+  (ArrayBuffer.isView(answer) ? [answer] : Object.values(answer ?? {})).filter(ArrayBuffer.isView).map((view) => view.buffer as ArrayBuffer);
+
 const post = (reply: Reply, transfer: Transferable[] = []) => self.postMessage(reply, { transfer });
 
 function errorInfo(error: unknown): EngineErrorInfo {
@@ -81,7 +85,7 @@ let shownShapes = new Map<string, string>(); // by the names of the tools of the
 function newToolPictures(engine: Engine, tools: readonly ToolInfo[]): Record<string, ToolPicture> {
   const shapes = new Map(tools.map((tool) => [tool.name, JSON.stringify(Object.entries(tool).filter(([field]) => !besideShape.has(field)))]));
   const pictures = Object.fromEntries(tools.flatMap(({ name }, k) =>
-    (shapes.get(name) === shownShapes.get(name) ? [] : [[name, engine.toolPicture(k)]])));
+    (shapes.get(name) === shownShapes.get(name) ? [] : [[name, engine.query('tool_picture', { tool: k })]])));
   shownShapes = shapes;
   return pictures;
 }
@@ -104,7 +108,7 @@ function execute(engine: Engine, commands: Command[], join: boolean, keep = fals
   told = start;
   resting = false;
   try {
-    engine.act(commands, { join, keep });
+    if (commands.length > 0) engine.query('act', { commands, join, keep });
   } finally {
     if (commands.some(travels)) shownSteps = 0; // the steps are others now
     computeTime = performance.now() - start;
@@ -118,18 +122,21 @@ let source: { bytes: Uint8Array; name: string } | null = null;
 /** The page does not know yet where the parts of the session stand. */
 let assemblyDue = false;
 
+const restore = (engine: Engine, from: typeof source, name: string, snapshot: Uint8Array) =>
+  engine.query('restore', { ...(from ? { source: from.bytes } : {}), name: from?.name ?? name, snapshot });
+
 /** Begins another session; where that fails the one before goes on. */
 function begin(engine: Engine, next: typeof source, act: () => void): void {
   stopPlaying(engine);
   resting = false; // windows and colours are those of the document before
   kept = null;
-  const before = hasSession(engine) ? { snapshot: engine.snapshot(historyBytes), source, opened, name: engine.state().name } : null;
+  const before = hasSession(engine) ? { snapshot: engine.query('snapshot', { history_bytes: historyBytes }), source, opened, name: engine.query('state').name } : null;
   try {
     act();
   } catch (error) {
     if (before && error instanceof EngineError) {
-      engine.restore(before.source?.bytes ?? null, before.source?.name ?? before.name, before.snapshot);
-      opened = engine.beginHistory(before.opened);
+      restore(engine, before.source, before.name, before.snapshot);
+      opened = engine.query('begin_history', { commands: before.opened });
     }
     throw error;
   }
@@ -143,7 +150,7 @@ function begin(engine: Engine, next: typeof source, act: () => void): void {
 function movedBy(engine: Engine, { selection, surfaces, tools, last }: SessionInfo): number {
   if (playing !== 'no' || tools.some((tool) => tool.name === 'brush')) return last?.displacement ?? 0;
   const moved = selection.filter((k) => surfaces[k]!.moved > 0);
-  return moved.flatMap((k) => [...engine.picture(k, settings.detail, { display: 'deviation', settings: {} }).values])
+  return moved.flatMap((k) => [...engine.query('picture', { surface: k, detail: settings.detail, display: 'deviation' }).values])
     .reduce((most, x) => Math.max(most, Math.abs(x)), 0);
 }
 
@@ -154,14 +161,17 @@ let kept: { display: string; values: Float32Array[]; range: DisplayRange | null 
 /** All surfaces, and where their colours end. While something moves, slow colours stay as they were, and are late. */
 function picturesOf(engine: Engine, state: SessionInfo): { pictures: Picture[]; range: DisplayRange | null; late: boolean } {
   const { display, detail, opened } = settings;
-  slowDisplays ??= new Set(engine.displays().filter((d) => d.sees_model).map((d) => d.name));
+  slowDisplays ??= new Set(engine.query('displays').filter((d) => d.sees_model).map((d) => d.name));
   const slow = slowDisplays.has(display.display);
   const late = slow && !resting;
-  const pictures = state.surfaces.map((_, k) => engine.picture(k, detail, late ? plain : display, opened, resting ? settings.windows?.[k] : null));
-  if (!slow) return { pictures, range: engine.range(), late };
+  const pictures = state.surfaces.map((_, surface) => {
+    const window = resting ? settings.windows?.[surface] : null;
+    return engine.query('picture', { surface, detail, ...(late ? plain : display), opened, ...(window ? { window } : {}) });
+  });
+  if (!slow) return { pictures, range: engine.query('range'), late };
   const asked = JSON.stringify(display);
   if (!late) {
-    kept = { display: asked, values: pictures.map((p) => p.values.slice()), range: engine.range() };
+    kept = { display: asked, values: pictures.map((p) => p.values.slice()), range: engine.query('range') };
     return { pictures, range: kept.range, late };
   }
   const known = kept?.display === asked ? kept : null;
@@ -181,41 +191,36 @@ function sendFrame(engine: Engine): void {
   }
   frameDue = false;
   const start = performance.now();
-  const state = engine.state();
+  const state = engine.query('state');
   const { pictures, range, late } = picturesOf(engine, state);
   const { combs: asked, sectionCombs = [] } = settings;
   const combs = state.selection.flatMap((k) => [
-    ...(asked ? [engine.combs(k, asked.curves, asked.teeth)] : []),
-    ...sectionCombs.map((plane) => engine.sectionCombs(k, plane)),
+    ...(asked ? [engine.query('combs', { surface: k, ...asked })] : []),
+    ...sectionCombs.map((plane) => engine.query('section_combs', { surface: k, plane })),
   ]);
-  const bodies = state.bodies.map((_, k) => engine.bodyPicture(k));
-  const lattice = settings.lattice && state.selection.length > 0 ? engine.latticePicture(settings.lattice) : null;
+  const bodies = state.bodies.map((_, body) => engine.query('body_picture', { body }));
+  const lattice = settings.lattice && state.selection.length > 0 ? engine.query('lattice_picture', settings.lattice) : null;
   const toolPictures = newToolPictures(engine, state.tools);
   if (state.steps < shownSteps) shownSteps = 0;
   const firstStep = Math.max(shownSteps, state.steps - 400);
-  const steps = engine.steps(firstStep);
+  const steps = engine.query('steps', { first: firstStep });
   shownSteps = state.steps;
   frameDrawn = false;
   const frame = {
-    state, pictures, range, late, combs, bodies, lattice, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
+    state, pictures, range, late, combs, bodies, lattice, toolPictures, firstStep, steps, origin: engine.query('origin'), playing: playing !== 'no', moved: movedBy(engine, state),
     computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
-    ...(assemblyDue ? { assembly: engine.assembly() } : {}),
+    ...(assemblyDue ? { assembly: engine.query('assembly') } : {}),
   };
   assemblyDue = false;
   post(
     { kind: 'frame', frame },
-    [
-      ...pictures.flatMap((p) => [p.positions, p.normals, p.values, p.s, p.t, p.linesU, p.linesV, p.net, p.held]),
-      ...combs.flatMap((c) => [c.places, c.vectors, c.joined]),
-      ...[...bodies, ...(lattice ? [lattice] : [])].flatMap((b) => [b.lines, b.at, b.net, b.points]),
-      ...Object.values(toolPictures).flatMap((p) => [p.positions, p.normals, p.indices]),
-    ].map((a) => a.buffer as ArrayBuffer),
+    [...pictures, ...combs, ...bodies, lattice, ...Object.values(toolPictures)].flatMap(buffersOf),
   );
 }
 
 /** Steps that have moved nothing are no entry of the history. */
 function stopPlaying(engine: Engine): void {
-  if (playing !== 'no' && ownEntry) engine.dropUnchanged();
+  if (playing !== 'no' && ownEntry) engine.query('drop_unchanged');
   playing = 'no';
 }
 
@@ -225,7 +230,7 @@ function playOn(engine: Engine): void {
   try {
     execute(engine, [{ do: 'step' }], ownEntry, true);
     ownEntry = true;
-    const last = engine.state().last;
+    const last = engine.query('state').last;
     if (playing === 'toRest' && last) {
       quietSteps = last.residual < 1e-4 ? quietSteps + 1 : 0;
       if (quietSteps >= 2) stopPlaying(engine);
@@ -246,10 +251,10 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       const start = performance.now();
       const { commands, opened: opening = commands.length } = request;
       begin(engine, request.kind === 'open' ? { bytes: request.bytes, name: request.name } : null, () => {
-        if (request.kind === 'open') engine.openStep(request.bytes, request.name);
-        else engine.fresh(request.name);
+        if (request.kind === 'open') engine.query('open', { file: request.bytes, name: request.name });
+        else engine.query('fresh', { name: request.name });
         for (const command of commands.slice(0, opening)) engine.execute(command);
-        opened = engine.beginHistory();
+        opened = engine.query('begin_history');
         for (const command of commands.slice(opening)) engine.execute(command);
       });
       unkept = performance.now() - start;
@@ -260,7 +265,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       // A command from outside ends the entry that playing has begun.
       if (!request.join) ownEntry = false;
       execute(engine, request.commands, request.join);
-      if (request.opening) opened = engine.beginHistory();
+      if (request.opening) opened = engine.query('begin_history');
       sendFrame(engine);
       break;
     case 'pictures':
@@ -269,7 +274,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       if (hasSession(engine)) sendFrame(engine);
       break;
     case 'play':
-      engine.state();
+      engine.query('state');
       playing = request.toRest ? 'toRest' : 'on';
       ownEntry = false;
       quietSteps = 0;
@@ -285,67 +290,43 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       else setTimeout(() => playOn(engine), 0);
       return;
     case 'context': {
-      const context = engine.context();
-      const trims = engine.state().surfaces.map((_, k) => {
-        const trim = engine.trims(k);
+      const context = engine.query('context');
+      const trims = engine.query('state').surfaces.map((_, surface) => {
+        const trim = engine.query('trims', { surface });
         return trim && { ...trim, tree: trimTree(trim)! };
       });
-      const arrays = [...(context ? [context.positions, context.normals, context.indices] : []), ...trims.flatMap((t) => (t ? [t.tree.nodes, t.tree.segments] : []))];
-      post({ kind: 'done', id, context, trims }, arrays.map((a) => a.buffer as ArrayBuffer));
+      post({ kind: 'done', id, answer: { context, trims } }, [context, ...trims.map((t) => t?.tree)].flatMap(buffersOf));
       return;
     }
-    case 'faceEdges':
-      post({ kind: 'done', id, text: JSON.stringify(engine.faceEdges(request.surface)) });
+    case 'query': {
+      const answer = engine.query(request.query, ...([request.request] as Asked<Query>));
+      post({ kind: 'done', id, answer }, buffersOf(answer));
       return;
-    case 'checkedEdges':
-      post({ kind: 'done', id, text: JSON.stringify(engine.checkedEdges(request.surface)) });
-      return;
-    case 'reading':
-      post({ kind: 'done', id, text: JSON.stringify(engine.reading(request.surface, request.at)) });
-      return;
-    case 'faceReading':
-      post({ kind: 'done', id, text: JSON.stringify(engine.faceReading(request.face, request.near)) });
-      return;
-    case 'room':
-      post({ kind: 'done', id, text: JSON.stringify(engine.room(request.surface)) });
-      return;
-    case 'save':
-      post({ kind: 'done', id, bytes: engine.save(), text: JSON.stringify(engine.edges()) });
-      return;
-    case 'mesh':
-      post({ kind: 'done', id, bytes: engine.mesh(request.format, request.detail) });
-      return;
-    case 'restore':
-      begin(engine, request.source && { bytes: request.source, name: request.name }, () => {
-        engine.restore(request.source, request.name, request.snapshot);
-        opened = engine.beginHistory(request.opened);
+    }
+    case 'restore': {
+      const from = request.source && { bytes: request.source, name: request.name };
+      begin(engine, from, () => {
+        restore(engine, from, request.name, request.snapshot);
+        opened = engine.query('begin_history', { commands: request.opened });
       });
       computeTime = unkept = 0;
       sendFrame(engine);
       break;
+    }
     case 'snapshot': {
-      const text = engine.journal();
-      const bytes = engine.snapshot(request.historyBytes);
+      const journal = engine.query('journal');
+      const snapshot = engine.query('snapshot', { history_bytes: request.historyBytes });
       if (request.kept) unkept = 0;
-      post({ kind: 'done', id, bytes, text, opened }, [bytes.buffer as ArrayBuffer]);
+      post({ kind: 'done', id, answer: { snapshot, journal, opened } }, buffersOf({ snapshot }));
       return;
     }
-    case 'surface':
-      post({ kind: 'done', id, text: JSON.stringify(engine.surface(request.surface)) });
-      return;
-    case 'material':
-      post({ kind: 'done', id, material: engine.material(request.surface, request.counts) });
-      return;
-    case 'journal':
-      post({ kind: 'done', id, text: engine.journal() });
-      return;
   }
   post({ kind: 'done', id });
 }
 
 function hasSession(engine: Engine): boolean {
   try {
-    engine.state();
+    engine.query('state');
     return true;
   } catch {
     return false;
@@ -355,7 +336,7 @@ function hasSession(engine: Engine): boolean {
 self.onmessage = async (event: MessageEvent<{ id: number; request: Request }>) => {
   const { id, request } = event.data;
   const engine = await engineLoaded;
-  preparation.interrupt(works.has(request.kind));
+  preparation.interrupt(works.has(request.kind === 'query' ? request.query : request.kind));
   try {
     await handle(engine, id, request);
   } catch (error) {
@@ -378,6 +359,6 @@ async function live(): Promise<string> {
 }
 
 engineLoaded.then(
-  async (engine) => post({ kind: 'ready', displays: engine.displays(), lock: await live() }),
+  async (engine) => post({ kind: 'ready', displays: engine.query('displays'), lock: await live() }),
   (error) => post({ kind: 'failed', id: 0, error: errorInfo(error) }),
 );

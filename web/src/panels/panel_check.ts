@@ -30,7 +30,7 @@ export function checkPanel(app: App): HTMLElement {
     if (now === of || busy(app)) return;
     of = now;
     try {
-      const found = await Promise.all(surfaces(app).map(async (surface) => (await app.client.checkedEdges(surface)).map((e) => ({ ...e, surface }))));
+      const found = await Promise.all(surfaces(app).map(async (surface) => (await app.client.query('checked_edges', { surface })).map((e) => ({ ...e, surface }))));
       if (of !== now) return;
       [edges, failed] = [found.flat(), ''];
     } catch (error) {
@@ -50,7 +50,7 @@ export function checkPanel(app: App): HTMLElement {
       const { id } = app.state!.surfaces[edge.surface]!;
       const key = `${id} ${edge.id}`;
       if (!courses.has(key)) {
-        for (const e of await app.client.faceEdges(edge.surface).catch(() => [])) courses.set(`${id} ${e.id}`, e.course);
+        for (const e of await app.client.query('face_edges', { surface: edge.surface }).catch(() => [])) courses.set(`${id} ${e.id}`, e.course);
       }
       if (chosen !== edge.id) return; // another click since
       mark.show(id, courses.get(key) ?? []);

@@ -88,7 +88,7 @@ export function historyPanel(app: App): HTMLElement {
   return panel(app, 'History', (a) => (a.playing() || a.hand.active ? null : [a.state?.notes, a.state?.last?.note, a.changes]), () => {
     if (app.playing() || app.hand.active) return [note('…')];
     const list = h('ol', { class: 'history' });
-    void app.client.journal().then((text) => {
+    void app.client.query('journal').then((text) => {
       const commands = JSON.parse(text) as Command[];
       list.replaceChildren(...commands.slice(-40).reverse().map((c) => {
         const { do: name, ...rest } = c;

@@ -58,7 +58,7 @@ export class Edges implements PointerTool {
 
   /** What can be clicked. */
   get edges(): readonly Edge[] {
-    const ids = this.faceEdges?.map((e) => e.id) ?? [];
+    const ids = this.faceEdges?.map((e) => e.id as Edge) ?? [];
     return ids.length > 0 ? ids : edgeNames;
   }
 
@@ -75,7 +75,7 @@ export class Edges implements PointerTool {
     for (const info of this.selected.map(([, s]) => s)) {
       const known = hasEdges(info) ? this.known.get(info.id) : [];
       if (!known) return null;
-      faces.push({ info, edges: known.map((e) => e.id), open: known.filter((e) => meetingAt(e, info.id).opens).map((e) => e.id) });
+      faces.push({ info, edges: known.map((e) => e.id as Edge), open: known.filter((e) => meetingAt(e, info.id).opens).map((e) => e.id as Edge) });
     }
     return faces;
   }

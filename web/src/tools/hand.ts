@@ -44,9 +44,9 @@ export class Hand {
     this.points = new PointEditor(viewer, { ...actions, selectBody: (body) => this.selectBody(body), changed: () => host.changed(), pulled: () => host.latticePulled() });
     this.paint = new Paint(viewer, () => this.brush.settings.radius, {
       execute: (commands) => host.execute(commands), select: actions.select,
-      material: (surface, counts) => host.client.material(surface, counts),
+      material: (surface, counts) => host.client.query('material', { surface, counts }),
     });
-    this.edges = new Edges(viewer, actions.select, (surface) => host.client.faceEdges(surface), () => host.changed());
+    this.edges = new Edges(viewer, actions.select, (surface) => host.client.query('face_edges', { surface }), () => host.changed());
     this.measure = new Measure(viewer, host.client, () => host.changed());
     for (const viewport of viewer.viewports) this.bodies.listen(viewport); // before the tools see it
     this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool(), (viewport, event) => {

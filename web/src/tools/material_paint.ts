@@ -34,13 +34,13 @@ export function samplePlaces({ counts, s, t, positions }: Picture, [m, n]: [numb
 export function blended(base: MaterialSamples, share: Float32Array, alpha: number, beta: number): Command[] {
   return painted.map((coefficient) => {
     const target = coefficient.startsWith('alpha') ? alpha : beta;
-    const samples = [...base.values[coefficient]].map((x, k) => Number((x + share[k]! * (target - x)).toPrecision(share[k] === 0 ? 12 : 4)));
+    const samples = [...base[coefficient]].map((x, k) => Number((x + share[k]! * (target - x)).toPrecision(share[k] === 0 ? 12 : 4)));
     return { do: 'material', coefficient, counts: base.counts, samples };
   });
 }
 
 /** How much each span's material differs from that of most of the surface: 0 the same, 1 ten times as stiff or soft. */
-export function difference({ counts: [m, n], values }: MaterialSamples, linesS: readonly number[], linesT: readonly number[]): Float32Array {
+export function difference({ counts: [m, n], ...values }: MaterialSamples, linesS: readonly number[], linesT: readonly number[]): Float32Array {
   const stiff = [...values.beta11].map((b, k) => Math.log10(Math.max(b, 1e-9)) + Math.log10(Math.max(values.alpha11[k]!, 1e-9)));
   const tally = new Map<string, number>();
   for (const x of stiff) tally.set(x.toFixed(2), (tally.get(x.toFixed(2)) ?? 0) + 1);

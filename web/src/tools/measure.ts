@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 
 import { type MeasuredPoint, type MeasureKind, measureKinds, newReading, pinnedReadings, type Reading } from '../document/readings';
+import type { Client } from '../engine/client';
 import type { Vector3 } from '../engine/session_types';
 import { type Standing, still } from '../view/placing';
 import type { Viewer } from '../view/viewer';
@@ -9,12 +10,6 @@ import type { Viewport } from '../view/viewport';
 import type { PointerTool } from './pointers';
 
 const colour = 0xf2c14e;
-
-/** Who knows the numbers: at a place of a surface, and of a grey face near a point of the file. */
-export interface Reader {
-  reading(surface: number, at: [number, number]): Promise<MeasuredPoint>;
-  faceReading(face: string, near: Vector3): Promise<MeasuredPoint>;
-}
 
 const rigid = 1e-9; // how much lengths of a part and the model may differ for a reading to be both
 
@@ -46,7 +41,7 @@ export class Measure implements PointerTool {
 
   constructor(
     private readonly viewer: Viewer,
-    private readonly engine: Reader,
+    private readonly engine: Pick<Client, 'query'>,
     private readonly changed: () => void,
   ) {
     for (const part of [this.points, this.lines]) {
@@ -104,8 +99,8 @@ export class Measure implements PointerTool {
     const { viewer, engine } = this;
     const hit = viewer.pick(viewport, event);
     const grey = hit ? null : viewer.pickGrey(viewport, event);
-    if (hit) void this.pick(engine.reading(hit.surface, hit.fractions), hit.standing);
-    else if (grey) void this.pick(engine.faceReading(grey.face.id, grey.point.toArray().map((x, d) => x + viewer.origin[d]!) as Vector3), grey.standing);
+    if (hit) void this.pick(engine.query('reading', { surface: hit.surface, at: hit.fractions }), hit.standing);
+    else if (grey) void this.pick(engine.query('face_reading', { face: grey.face.id, near: grey.point.toArray().map((x, d) => x + viewer.origin[d]!) as Vector3 }), grey.standing);
     return true;
   }
 

@@ -77,7 +77,7 @@ export class Paint implements PointerTool {
     }
     const { picture } = this.viewer.surfaces[hit.surface]!;
     const [m, n] = state.surfaces[hit.surface]!.net;
-    const size = this.kind === 'pin' ? m * n : (picture!.linesU.length - 1) * (picture!.linesV.length - 1);
+    const size = this.kind === 'pin' ? m * n : (picture!.lines_u.length - 1) * (picture!.lines_v.length - 1);
     const counts = sampleCounts(state.surfaces[hit.surface]!);
     const places = this.kind === 'material' ? samplePlaces(picture!, counts) : new Float32Array(0);
     this.stroke = { places, share: new Float32Array(places.length / 3), viewport, surface: hit.surface, kind: this.kind, erase: event.altKey, marked: new Uint8Array(size), start: hit,
@@ -115,14 +115,14 @@ export class Paint implements PointerTool {
       const [s, t] = hit.fractions;
       const [linesS, linesT] = lineFractions(picture);
       mark(stroke.marked, [[s - 1e-5, s + 1e-5], [t - 1e-5, t + 1e-5]], linesS, linesT);
-      const columns = picture.linesV.length - 1;
+      const columns = picture.lines_v.length - 1;
       const n = picture.counts[1];
       // Points inside a span, none on its border: those belong to the next span as well.
-      for (let a = 0; a + 1 < picture.linesU.length; ++a) {
+      for (let a = 0; a + 1 < picture.lines_u.length; ++a) {
         for (let b = 0; b < columns; ++b) {
           if (stroke.marked[a * columns + b]) continue;
-          search: for (let k = picture.linesU[a]! + 1; k < picture.linesU[a + 1]!; ++k) {
-            for (let l = picture.linesV[b]! + 1; l < picture.linesV[b + 1]!; ++l) {
+          search: for (let k = picture.lines_u[a]! + 1; k < picture.lines_u[a + 1]!; ++k) {
+            for (let l = picture.lines_v[b]! + 1; l < picture.lines_v[b + 1]!; ++l) {
               if (!near(picture.positions, 3 * (k * n + l))) continue;
               stroke.marked[a * columns + b] = 1;
               break search;

@@ -103,6 +103,6 @@ export function roomy({ lower, upper, tolerance }: PictureWindow): PictureWindow
 
 /** The grid lines of a direction that a picture would have without a window. */
 export function coarseLines(picture: Picture, direction: 0 | 1): readonly number[] | Uint32Array {
-  const lines = direction === 0 ? picture.coarseU : picture.coarseV;
+  const lines = direction === 0 ? picture.coarse_u : picture.coarse_v;
   return lines.length > 0 ? lines : Array.from({ length: picture.counts[direction] }, (_, k) => k);
 }

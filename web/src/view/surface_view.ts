@@ -102,7 +102,7 @@ export class SurfaceView {
     geometry.boundingSphere = null;
     geometry.boundingBox = null;
 
-    const topology = `${m} ${n} ${picture.linesU.join()} ${picture.linesV.join()} ${picture.coarseU.join()} ${picture.coarseV.join()}`;
+    const topology = `${m} ${n} ${picture.lines_u.join()} ${picture.lines_v.join()} ${picture.coarse_u.join()} ${picture.coarse_v.join()}`;
     if (topology !== this.topology) {
       this.topology = topology;
       geometry.setIndex(new THREE.BufferAttribute(triangles(m, n), 1));
@@ -111,8 +111,8 @@ export class SurfaceView {
       this.frozen = '';
       this.painted = null;
       this.material = null;
-      const knotsU = [...picture.linesU];
-      const knotsV = [...picture.linesV];
+      const knotsU = [...picture.lines_u];
+      const knotsV = [...picture.lines_v];
       this.knotLines.geometry.setIndex(new THREE.BufferAttribute(gridLines(m, n, knotsU, knotsV), 1));
       geometry.setAttribute('isocurve', new THREE.BufferAttribute(gridCoordinates(between(m, every(picture, 0)), between(n, every(picture, 1))), 2));
       this.isocurves.geometry.setIndex(null);
@@ -181,8 +181,8 @@ export class SurfaceView {
   }
 
   private showMarks(): void {
-    const { linesU, linesV } = this.picture!;
-    const [rows, columns] = [linesU.length - 1, linesV.length - 1];
+    const { lines_u, lines_v } = this.picture!;
+    const [rows, columns] = [lines_u.length - 1, lines_v.length - 1];
     const data = new Uint8Array(4 * rows * columns);
     for (let k = 0; k < rows * columns; ++k) {
       data[4 * k] = this.frozenCells[k] ? 255 : 0;
@@ -274,14 +274,14 @@ export class SurfaceView {
 }
 
 /** Fractions of the domain where its knot lines lie, ends included. */
-export function lineFractions({ s, t, linesU, linesV }: Picture): [number[], number[]] {
-  return [[...linesU].map((k) => s[k]!), [...linesV].map((k) => t[k]!)];
+export function lineFractions({ s, t, lines_u, lines_v }: Picture): [number[], number[]] {
+  return [[...lines_u].map((k) => s[k]!), [...lines_v].map((k) => t[k]!)];
 }
 
 /** The position of each grid point among the spans, as texture coordinates: v, then u. */
-function spanCoordinates({ counts, linesU, linesV }: Picture): Float32Array {
+function spanCoordinates({ counts, lines_u, lines_v }: Picture): Float32Array {
   const along = (count: number, lines: Uint32Array) => between(count, [...lines]).map((x) => x / (lines.length - 1));
-  return gridCoordinates(along(counts[1], linesV), along(counts[0], linesU), true);
+  return gridCoordinates(along(counts[1], lines_v), along(counts[0], lines_u), true);
 }
 
 /** For each of `count` grid lines its place among some of them: k at the k-th, linear between. */

@@ -1,14 +1,30 @@
-#include "studio_bodies.hpp"
-
-#include <algorithm>
-
-#include "buffers.hpp"
+// Curves and volumes, and the block of the command `lattice`.
 #include "knead/scene/lattice.hpp"
+#include "knead/scene/shape.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/grid_lines.hpp"
+#include "query.hpp"
 
 namespace knead::studio {
 namespace {
+
+/// A curve or a volume to draw; places relative to the requested origin, 3 numbers each.
+struct BodyPicture {
+  std::vector<float> lines;   ///< ends of chords: of a curve, or of the knot lines on the sides of a volume
+  std::vector<float> at;      ///< where these ends are, three fractions of the domain each; of a curve the first counts
+  std::vector<float> net;     ///< ends of the legs of the control polygon; of a volume those on its sides
+  std::vector<float> points;  ///< the control points, in their order
+  bool pulled = false;        ///< of a lattice: it has been pulled, and another pull goes on there
+};
+
+void describe(BodyPicture& p, Fields& fields) {
+  fields.name("body picture", "A curve or a volume to draw, relative to the session's origin.");
+  fields.add("lines", p.lines, {.help = "ends of chords: of a curve, or of knot lines on the sides of a volume"});
+  fields.add("at", p.at, {.help = "three fractions of the domain for each end"});
+  fields.add("net", p.net, {.help = "ends of the legs of the control polygon"});
+  fields.add("points", p.points, {.help = "the control points"});
+  fields.add("pulled", p.pulled, {.help = "of a lattice: it has been pulled, and another pull goes on there"});
+}
 
 constexpr int curve_chords = 24, volume_chords = 6;
 constexpr std::size_t most_lines = 12;
@@ -115,32 +131,61 @@ Expected<BodyPicture> picture_of(const Spline<D>& spline, const Point& origin) {
   return picture;
 }
 
-}  // namespace
+struct BodyPictureQuery {
+  using Answer = BodyPicture;
+  int body = 0;
+};
 
-Expected<BodyPicture> body_picture(const SceneBody& body, const Point& origin) {
-  return std::visit([&](const auto& s) { return picture_of(*s.current, origin); }, body);
+void describe(BodyPictureQuery& q, Fields& fields) {
+  fields.name("body_picture",
+              "A curve or a volume to draw: 24 chords per span of a curve, 6 of a volume's knot lines, "
+              "of which at most 12 per direction are drawn.");
+  fields.add("body", q.body, {.help = "its number", .presence = Presence::required});
 }
 
-Expected<BodyPicture> lattice_picture(const Scene& scene, double margin, const std::array<int, 3>& net, bool anew,
-                                      const Point& origin) {
+Expected<BodyPicture> ask(Studio& studio, const BodyPictureQuery& q) {
+  if (!studio.session) return nothing_open();
+  const auto& bodies = studio.session->state().bodies;
+  if (q.body < 0 || q.body >= static_cast<int>(bodies.size())) return usage_error("there is no such body");
+  return std::visit([&](const auto& s) { return picture_of(*s.current, studio.origin); },
+                    bodies[static_cast<std::size_t>(q.body)]);
+}
+
+struct LatticePictureQuery {
+  using Answer = BodyPicture;
+  std::array<int, 3> net = {4, 4, 4};
+  double margin = 0;
+  bool anew = false;
+};
+
+void describe(LatticePictureQuery& q, Fields& fields) {
+  fields.name("lattice_picture",
+              "The block that the next command `lattice` by hand moves: as it was pulled, if that "
+              "goes on, or round the selected surfaces.");
+  fields.add("net", q.net, {.help = "control points along x, y, z", .presence = Presence::required});
+  fields.add("margin", q.margin, {.help = "around the surfaces", .presence = Presence::required});
+  fields.add("anew", q.anew, {.help = "round the surfaces as they are, whether or not one was pulled"});
+}
+
+Expected<BodyPicture> ask(Studio& studio, const LatticePictureQuery& q) {
+  if (!studio.session) return nothing_open();
+  const Scene& scene = studio.session->state();
+  const auto& [net, margin, anew] = q;
   constexpr std::array<int, 3> degree = {3, 3, 3};
   const PulledLattice* pulled = anew ? nullptr : lattice_to_pull_on(scene, margin, degree, net);
   const auto lattice = pulled != nullptr ? lattice_around(pulled->before, margin, degree, net)
                                          : lattice_around_selection(scene, margin, degree, net);
   if (!lattice) return std::unexpected(lattice.error());
-  if (pulled == nullptr) return picture_of(lattice->rest(), origin);
+  if (pulled == nullptr) return picture_of(lattice->rest(), studio.origin);
   const auto block = lattice->rest().with_control_points(pulled->points);
   if (!block) return std::unexpected(block.error());
-  auto picture = picture_of(*block, origin);
+  auto picture = picture_of(*block, studio.origin);
   if (picture) picture->pulled = true;
   return picture;
 }
 
-std::string body_json(const BodyPicture& picture) {
-  return "{\"buffers\":" +
-         buffers_json(
-             {{"lines", picture.lines}, {"at", picture.at}, {"net", picture.net}, {"points", picture.points}}) +
-         ",\"pulled\":" + (picture.pulled ? "true" : "false") + "}";
-}
+}  // namespace
+
+std::vector<Query> body_queries() { return {query<BodyPictureQuery>(), query<LatticePictureQuery>()}; }
 
 }  // namespace knead::studio

@@ -1,0 +1,147 @@
+// Files and what is kept of sessions.
+#include "knead/brep/face_conversion.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/exchange/save_model.hpp"
+#include "knead/session/session_info.hpp"
+#include "query.hpp"
+#include "session/info_values.hpp"
+#include "studio_context.hpp"
+
+namespace knead::studio {
+namespace {
+
+std::string start(Studio& studio, Document document) {
+  studio.origin = middle_of(document);
+  studio.shown.forget();
+  studio.session.emplace(std::move(document));
+  return session_json(*studio.session);
+}
+
+struct OpenQuery {
+  using Answer = SessionInfo;
+  Bytes file;
+  std::string name;
+};
+
+void describe(OpenQuery& q, Fields& fields) {
+  fields.name("open", "Begins a session on a file.");
+  fields.add("file", q.file, {.help = "its bytes", .presence = Presence::required});
+  fields.add("name", q.name, {.help = "of the file", .presence = Presence::required});
+}
+
+Expected<std::string> ask(Studio& studio, OpenQuery q) {
+  auto source = open_source(std::move(q.file.data), std::move(q.name));
+  if (!source) return std::unexpected(source.error());
+  const auto model = (*source)->model();
+  const bool nothing = (*source)->surfaces().empty() && (*source)->curves().empty();
+  if (nothing && (model == nullptr || brep::other_surfaces(*model).empty())) {
+    const auto& unreadable = (*source)->unreadable();
+    if (!unreadable.empty()) return std::unexpected(unreadable.front().reason);
+    return input_error("the file holds no surface", {},
+                       "open a file with faces on surfaces: meshes cannot be sculpted");
+  }
+  return start(studio, Document::from(*std::move(source)));
+}
+
+struct FreshQuery {
+  using Answer = SessionInfo;
+  std::string name;
+};
+
+void describe(FreshQuery& q, Fields& fields) {
+  fields.name("fresh", "Begins a session without a file.");
+  fields.add("name", q.name, {.help = "of the document", .presence = Presence::required});
+}
+
+Expected<std::string> ask(Studio& studio, const FreshQuery& q) { return start(studio, Document::fresh(q.name)); }
+
+struct RestoreQuery {
+  using Answer = Nothing;
+  Bytes source, snapshot;
+  std::string name;
+};
+
+void describe(RestoreQuery& q, Fields& fields) {
+  fields.name("restore", "Goes on with the session of a snapshot, with undo and redo; nothing is computed.");
+  fields.add("source", q.source, {.help = "the file that it began with; of no bytes: without one"});
+  fields.add("snapshot", q.snapshot, {.help = "of the query of that name", .presence = Presence::required});
+  fields.add("name", q.name, {.help = "of the document", .presence = Presence::required});
+}
+
+Expected<Nothing> ask(Studio& studio, RestoreQuery q) {
+  Document document = Document::fresh(q.name);
+  if (!q.source.data.empty()) {
+    auto source = open_source(std::move(q.source.data), q.name);
+    if (!source) return std::unexpected(source.error());
+    document = Document::from(*std::move(source));
+  }
+  const Point origin = middle_of(document);
+  auto session = Session::restore(std::move(document), q.snapshot.data);
+  if (!session) return std::unexpected(session.error());
+  studio.origin = origin;
+  studio.shown.forget();
+  studio.session = std::move(*session);
+  return {};
+}
+
+struct SnapshotQuery {
+  using Answer = Bytes;
+  double history_bytes = 0;
+};
+
+void describe(SnapshotQuery& q, Fields& fields) {
+  fields.name("snapshot", "All of the session as bytes.");
+  fields.add("history_bytes", q.history_bytes,
+             {.help = "of shapes, as far as which the history goes back", .presence = Presence::required});
+}
+
+Expected<std::string> ask(Session& session, const SnapshotQuery& q) {
+  return session.snapshot(static_cast<std::size_t>(q.history_bytes));
+}
+
+Expected<std::string> save(Session& session) { return session.save(); }
+
+struct MeshQuery {
+  using Answer = Bytes;
+  std::string format;
+  int detail = 96;
+};
+
+void describe(MeshQuery& q, Fields& fields) {
+  fields.name("mesh", "A file of triangles: the faces of the file as it would be saved, or else all surfaces, whole.");
+  fields.add("format", q.format, {.help = "the id of one for triangles", .presence = Presence::required});
+  fields.add("detail", q.detail, {.help = "grid lines wanted per direction"});
+}
+
+Expected<std::string> ask(Session& session, const MeshQuery& q) {
+  const Format* format = find_format(q.format);
+  if (format == nullptr || format->content != FormatContent::triangles) return usage_error("there is no such format");
+  std::vector<NamedSurface> surfaces;
+  SaveOptions options;
+  options.detail = q.detail;
+  for (const SceneSurface& s : session.state().surfaces) {
+    surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
+    options.unit = s.unit;
+  }
+  if (session.document().model() == nullptr) return save_surfaces(surfaces, *format, options);
+  auto saved = session.save();
+  if (!saved) return std::unexpected(saved.error());
+  const auto file = open_source(*std::move(saved), session.document().name());
+  if (!file) return std::unexpected(file.error());
+  auto model = save_model(**file, *format, 0, options);
+  if (!model) return std::unexpected(model.error());
+  return std::move(model->bytes);
+}
+
+}  // namespace
+
+std::vector<Query> document_queries() {
+  return {query<OpenQuery>(),
+          query<FreshQuery>(),
+          query<RestoreQuery>(),
+          query<SnapshotQuery>(),
+          query<Bytes, save>("save", "The file as it is now."),
+          query<MeshQuery>()};
+}
+
+}  // namespace knead::studio
