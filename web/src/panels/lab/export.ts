@@ -1,3 +1,4 @@
+import { download } from '../../document/download';
 import type { Gramians, Curves } from './module';
 import { methods, pairs } from './module';
 import { exact } from './names';
@@ -60,15 +61,7 @@ export async function copyText(text: string, name: string): Promise<boolean> {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    saveText(text, name, 'text/csv');
+    download(text, name, 'text/csv');
     return false;
   }
-}
-
-export function saveText(text: string, name: string, type: string): void {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(new Blob([text], { type }));
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

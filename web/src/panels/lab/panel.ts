@@ -1,8 +1,9 @@
 import './lab.css';
 
+import { download } from '../../document/download';
 import type { App } from '../app';
 import { h, iconButton } from '../dom';
-import { copyText, curvesCsv, gramiansCsv, saveText, svgText } from './export';
+import { copyText, curvesCsv, gramiansCsv, svgText } from './export';
 import { GramianView } from './gramian_view';
 import wasmUrl from './knead_lab.wasm?url';
 import { KnotFields, LabControls } from './knot_fields';
@@ -130,7 +131,7 @@ class LabPanel {
 
   private saveSvg(): void {
     const ground = getComputedStyle(document.documentElement).getPropertyValue('--panel').trim();
-    saveText(svgText(this.plot.svg, ground), 'basis.svg', 'image/svg+xml');
+    download(svgText(this.plot.svg, ground), 'basis.svg', 'image/svg+xml');
   }
 
   // --- where it is -------------------------------------------------------------------------------------------------

@@ -43,11 +43,3 @@ export function greyImage({ width, height, data }: { width: number; height: numb
   canvas.getContext('2d')!.putImageData(image, 0, 0);
   return canvas;
 }
-
-export function download(content: Blob | string, name: string, type: string): void {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], { type }));
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-}

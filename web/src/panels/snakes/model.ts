@@ -1,7 +1,8 @@
+import { download } from '../../document/download';
 import { EngineError } from '../../engine/session_types';
 import type { App } from '../app';
 import { SnakeClient } from './client';
-import { download, greyImage, openImage, type Opened } from './files';
+import { greyImage, openImage, type Opened } from './files';
 import type { ContourKind, Snakes } from './module';
 import { Past } from './past';
 import { type Place, type Preset, presetOf, presets, type Script, scriptText, type Spring, type Start, type Volcano } from './script';
