@@ -11,9 +11,11 @@ export type Vector3 = [number, number, number];
 /** A command that the session can execute. */
 export type Command = AnyCommand;
 
+/** What errors outside the session do not say. */
+export const uncoded = { where: '', place: '', code: 'none', values: null, fixes: [] } satisfies Partial<EngineErrorInfo>;
+
 /** What goes wrong outside the session. */
-export const errorOf = (kind: string, what: string, remedy: string): EngineErrorInfo =>
-  ({ kind, what, where: '', place: '', remedy, message: what, code: 'none', values: null, fixes: [] });
+export const errorOf = (kind: string, what: string, remedy: string): EngineErrorInfo => ({ ...uncoded, kind, what, remedy, message: what });
 
 export class EngineError extends Error {
   constructor(readonly info: EngineErrorInfo) {

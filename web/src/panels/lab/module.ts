@@ -1,4 +1,4 @@
-import { EngineError } from '../../engine/session_types';
+import { EngineError, uncoded } from '../../engine/session_types';
 import { start } from '../../engine/wasi';
 
 interface Exports {
@@ -134,7 +134,7 @@ export class LabModule {
     const at = this.wasm.lab_text();
     const bytes = new Uint8Array(this.wasm.memory.buffer, at, this.wasm.lab_text_size()).slice();
     const value = JSON.parse(new TextDecoder().decode(bytes)) as unknown;
-    if (succeeded === 0) throw new EngineError((value as { error: EngineError['info'] }).error);
+    if (succeeded === 0) throw new EngineError({ ...uncoded, ...(value as { error: EngineError['info'] }).error });
     return value as T;
   }
 }

@@ -1,4 +1,4 @@
-import { EngineError } from '../../engine/session_types';
+import { EngineError, uncoded } from '../../engine/session_types';
 import { start } from '../../engine/wasi';
 
 interface Exports {
@@ -165,7 +165,7 @@ export class SnakeModule {
 
   private json<T>(succeeded: number): T {
     const value = JSON.parse(this.text()) as unknown;
-    if (succeeded === 0) throw new EngineError((value as { error: EngineError['info'] }).error);
+    if (succeeded === 0) throw new EngineError({ ...uncoded, ...(value as { error: EngineError['info'] }).error });
     return value as T;
   }
 }
