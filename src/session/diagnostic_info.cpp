@@ -44,15 +44,29 @@ DiagnosticValues values_of(const Diagnostic& diagnostic) {
     const Field* const field = type.find(named.name);
     assert(field != nullptr);
     void* const member = field->of(&values);
-    if (const auto* number = std::get_if<double>(&named.value)) {
-      *static_cast<std::optional<double>*>(member) = *number;
-    } else if (const auto* text = std::get_if<std::string>(&named.value)) {
-      *static_cast<std::optional<std::string>*>(member) = *text;
-    } else {
-      *static_cast<std::vector<std::string>*>(member) = std::get<std::vector<std::string>>(named.value);
-    }
+    const auto assign = [member]<class T>(const T& value) {
+      using Member = std::conditional_t<std::is_same_v<T, std::vector<std::string>>, T, std::optional<T>>;
+      *static_cast<Member*>(member) = value;
+    };
+    std::visit(assign, named.value);
   }
   return values;
+}
+
+std::vector<NamedValue> named_values(const DiagnosticValues& values) {
+  std::vector<NamedValue> named;
+  for (const Field& field : type_of<DiagnosticValues>().fields) {
+    const void* const member = field.of(&values);
+    if (field.type->count(member) == 0) continue;
+    if (field.type->kind == Kind::list) {
+      named.emplace_back(field.name, *static_cast<const std::vector<std::string>*>(member));
+    } else if (field.type->element->kind == Kind::number) {
+      named.emplace_back(field.name, **static_cast<const std::optional<double>*>(member));
+    } else {
+      named.emplace_back(field.name, **static_cast<const std::optional<std::string>*>(member));
+    }
+  }
+  return named;
 }
 
 namespace {

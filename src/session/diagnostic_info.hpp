@@ -46,5 +46,7 @@ void describe(ErrorInfo& e, Fields& fields);
 
 /// By their names. Asserts that they have one.
 [[nodiscard]] DiagnosticValues values_of(const Diagnostic& diagnostic);
+/// Those that there are, in the order of the description.
+[[nodiscard]] std::vector<NamedValue> named_values(const DiagnosticValues& values);
 
 }  // namespace knead

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "commands.hpp"
+#include "described_state.hpp"
 #include "described_text.hpp"
 #include "diagnostic_info.hpp"
 #include "info_values.hpp"
@@ -33,20 +34,6 @@ struct SurfaceInfo {
   std::vector<CommandVariant> constraints;
   int moved = 0;
 };
-
-static void describe(ShellMaterial& m, Fields& fields) {
-  fields.name("shell info", "The material of a shell, in units of the file.");
-  fields.add("young", m.young, {.help = "its mean where it varies"});
-  fields.add("poisson", m.poisson);
-  fields.add("thickness", m.thickness, {.help = "its mean where it varies", .unit = Unit::length});
-  fields.add("density", m.density);
-}
-
-static void describe(FundamentalMaterial& m, Fields& fields) {
-  fields.name("fundamental info", "The weights of the fundamental forms, in the order 11, 12, 22.");
-  fields.add("w1", m.w1);
-  fields.add("w2", m.w2);
-}
 
 static void describe(SurfaceInfo& s, Fields& fields) {
   fields.name("surface info", "A surface of the session.");
@@ -110,38 +97,6 @@ static void describe(ToolInfo& t, Fields& fields) {
   fields.add("rotation", t.rotation, {.help = "a quaternion x, y, z, w"});
   fields.add("scale", t.scale, {.help = "along its own axes"});
   fields.add("size", t.size, {.help = "its smallest feature; null where it has none", .unit = Unit::length});
-}
-
-static void describe(StepRecord& s, Fields& fields) {
-  fields.name("step info", "What one step did.");
-  fields.add("time", s.time, {.help = "seconds"});
-  fields.add("energy", s.energy, {.help = "stretch + bend, in normalised units"});
-  fields.add("stretch", s.stretch);
-  fields.add("bend", s.bend);
-  fields.add("kinetic", s.kinetic);
-  fields.add("contact", s.contact);
-  fields.add("residual", s.residual, {.help = "relative imbalance of forces"});
-  fields.add("displacement", s.largest_displacement,
-             {.help = "the largest, from the surface as opened", .unit = Unit::length});
-  fields.add("gap", s.gap, {.help = "deepest entry into a tool, in sizes of that tool"});
-  fields.add("violation", s.violation, {.help = "of constraints", .unit = Unit::length});
-  fields.add("iterations", s.iterations);
-  fields.add("converged", s.converged);
-  fields.add("limited", s.limited, {.help = "the limit restricts the displacement"});
-  fields.add("note", s.note, {.help = "what went wrong, and the remedy"});
-  fields.add("load_factor", s.load_factor, {.help = "of a shell: the share of the load that is balanced"});
-  fields.add("increments", s.increments, {.help = "of a shell: Newton iterations of each part of the load"});
-  fields.add(
-      "energy_error", s.energy_error,
-      {.help = "of rational shapes: the largest error of an entry of the energy's matrix, relative to its diagonal"});
-}
-
-std::span<const Choice> choices(SeamContinuity) {
-  static constexpr Choice list[] = {{"none", SeamContinuity::none},
-                                    {"C0", SeamContinuity::c0},
-                                    {"G1", SeamContinuity::g1},
-                                    {"periodic", SeamContinuity::periodic}};
-  return list;
 }
 
 struct SeamInfo {

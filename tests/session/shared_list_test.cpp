@@ -33,7 +33,7 @@ TEST(SharedList, CopiesDoNotSeeEachOthersChanges) {
     SharedList<std::string> one = numbers(n), two = one, three = one;
     one.push_back("one");
     two.push_back("two");
-    three.own_back() = "changed";
+    three.own(n - 1) = "changed";
     EXPECT_EQ(one[n], "one");
     EXPECT_EQ(two[n], "two");
     EXPECT_EQ(one[n - 1], std::to_string(n - 1));
@@ -66,7 +66,7 @@ TEST(SharedList, ListsAreEqualIfTheirItemsAre) {
   EXPECT_EQ(numbers(130), numbers(130));
   EXPECT_NE(numbers(130), numbers(129));
   SharedList<std::string> other = numbers(130);
-  other.own_back() = "x";
+  other.own(3) = "x";
   EXPECT_NE(numbers(130), other);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "knead/session/session_info.hpp"
 #include "sheet.hpp"
 
 namespace knead {
@@ -109,7 +110,31 @@ TEST(Snapshot, SharesWhatTheHistoryShares) {
   EXPECT_LT(session.snapshot().size() - before, 50U * 1000U);
 }
 
-constexpr std::size_t head = std::string_view("Knead snapshot c\n").size();
+TEST(Snapshot, KeepsWhatProgramsReadOfNotes) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","size":[10,10],"net":[10,10]})",
+                R"({"do":"tool","name":"ball","radius":1.2,"position":[5,5,0.6],"plasticity":1})", R"({"do":"step"})"});
+  const std::vector<Note>& notes = session.state().notes;
+  ASSERT_TRUE(std::ranges::any_of(notes, [](const Note& n) { return n.diagnostic != nullptr; }));
+  const Session restored = again(session);
+  ASSERT_EQ(restored.state().notes, notes);
+  for (std::size_t k = 0; k < notes.size(); ++k) EXPECT_EQ(note_json(restored.state().notes[k]), note_json(notes[k]));
+}
+
+TEST(Snapshot, SharesAgainWhatStatesShared) {
+  Session session = on_sheet(rich);
+  run(session, {R"({"do":"load","pressure":0.2})"});
+  Session restored = again(session);
+  const SceneSurface* const last = &restored.state().surfaces.front();
+  const StepRecord* const step = &restored.state().steps.front();
+  run(restored, {R"({"do":"undo"})"});
+  EXPECT_EQ(&restored.state().surfaces.front(), last);
+  EXPECT_EQ(&restored.state().steps.front(), step);
+  run(restored, {R"({"do":"redo"})"});
+  EXPECT_EQ(restored.snapshot(), session.snapshot());
+}
+
+constexpr std::size_t head = std::string_view("Knead snapshot d\n").size();
 
 /// The bytes of a snapshot after its head with the version and the checksum that they have there.
 std::string sealed(std::string snapshot, char version) {
@@ -128,7 +153,7 @@ std::string sealed(std::string snapshot, char version) {
 
 TEST(Snapshot, ThatOfAnotherVersionIsRefusedWithWhatToDo) {
   const Session session = on_sheet();
-  for (const char version : {'1', '9', 'a', 'b', 'd'}) {
+  for (const char version : {'1', '9', 'a', 'b', 'c', 'e'}) {
     const auto restored = Session::restore(Document::fresh("test"), sealed(session.snapshot(), version));
     ASSERT_FALSE(restored) << version;
     EXPECT_EQ(restored.error().message().find('\n'), std::string::npos);

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -40,7 +41,7 @@ enum class Kind {
   array,     ///< fixed size: std::array, a small Eigen vector, adjacent members
   record,    ///< fields
   variant,   ///< std::variant of records, distinguished by their names
-  opaque,    ///< readable and writable only by its owner, like a shared surface
+  opaque,    ///< not for people: a shared object, or what is stored in another form
 };
 
 /// What a number measures.
@@ -125,7 +126,18 @@ struct Type {
   int (*value)(const void*) = nullptr;           ///< of choices; of variants the index
   void (*assign)(void*, int) = nullptr;          ///< of choices; default-constructs alternative k of variants
 
+  std::size_t weight = 0;  ///< of lists: bytes that each element takes in a copy
+  /// Of lists whose copies share their elements: element k to be read, where `at` makes it this list's own.
+  const void* (*look)(const void*, std::size_t) = nullptr;
+  const void* (*shared)(const void*) = nullptr;  ///< of opaque pointers: the object that is shared
+  /// Of what is stored in another form: the type of that, which is made of a value and read back from; false: it is
+  /// none of a value.
+  const Type* form = nullptr;
+  std::shared_ptr<void> (*to_form)(const void*) = nullptr;
+  bool (*from_form)(void*, void*) = nullptr;
+
   [[nodiscard]] const void* part(const void* whole, std::size_t k = 0) const {
+    if (look != nullptr) return look(whole, k);
     return at(const_cast<void*>(whole), k);  // NOLINT: `at` only adds to the address
   }
   /// The field of that name, of the record itself; null if there is none.
@@ -159,6 +171,12 @@ class Fields {
   void add(std::string_view name, M& member, const About& about = {}) {
     add(name, &member, type_of<M>(), about, false);
   }
+  /// Several fields of which nothing is said but their names.
+  template <class M, class... More>
+  void add_all(std::string_view name, M& member, More&&... more) {
+    add(name, member);
+    if constexpr (sizeof...(More) > 0) add_all(std::forward<More>(more)...);
+  }
   /// Two members that lie side by side as one field, an array.
   template <class M>
   void add_pair(std::string_view name, M& first, M& second, const About& about = {}) {
@@ -182,6 +200,12 @@ class Fields {
 /// Whether all numbers of a value, at any depth, are in the ranges of their fields. Error (input): the first that is
 /// not, with the path of its field. Missing numbers (empty optionals) pass. Cost: one check per number.
 [[nodiscard]] Expected<void> check_ranges(const Type& type, const void* value);
+
+/// A value as it is before anything is known of it.
+template <class T>
+T initial_of() {
+  return T{};
+}
 
 /// Types read and written only by their owner.
 template <class T>
@@ -217,7 +241,7 @@ const T& as(const void* value) {
 
 template <class T>
 const void* initial_value() {
-  static const T value{};
+  static const T value = initial_of<T>();
   return &value;
 }
 
@@ -248,8 +272,9 @@ struct TypeMaker<std::vector<E>> {
     return {.kind = Kind::list,
             .element = &type_of<E>(),
             .count = [](const void* v) { return as<std::vector<E>>(v).size(); },
-            .resize = [](void* v, std::size_t n) { as<std::vector<E>>(v).resize(n); },
-            .at = [](void* v, std::size_t k) -> void* { return &as<std::vector<E>>(v)[k]; }};
+            .resize = [](void* v, std::size_t n) { as<std::vector<E>>(v).resize(n, initial_of<E>()); },
+            .at = [](void* v, std::size_t k) -> void* { return &as<std::vector<E>>(v)[k]; },
+            .weight = sizeof(E)};
   }
 };
 template <class E>
@@ -285,7 +310,7 @@ requires Described<T>
 struct TypeMaker<T> {
   static Type make() {
     Type type;
-    T value{};
+    T value = initial_of<T>();
     Fields fields(type, &value);
     describe(value, fields);
     return type;
@@ -310,7 +335,9 @@ struct TypeMaker<std::variant<T...>> {
 template <class T>
 requires is_opaque<T>
 struct TypeMaker<T> {
-  static Type make() { return {.kind = Kind::opaque}; }
+  static Type make() {
+    return {.kind = Kind::opaque, .shared = [](const void* v) -> const void* { return as<T>(v).get(); }};
+  }
 };
 template <>
 struct TypeMaker<bool> {

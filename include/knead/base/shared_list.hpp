@@ -11,7 +11,7 @@ namespace knead {
 /// A list that grows at its end and whose copies share what they have in common: a history of thousands of states, each
 /// with all records so far, needs the memory of one.
 ///
-/// Copying n items costs O(n / 128); appending and changing the last one copy at most 128 items. Equality is that of
+/// Copying n items costs O(n / 128); appending and changing one copy at most 128 items. Equality is that of
 /// the items. Not thread-safe.
 template <class T>
 class SharedList {
@@ -60,15 +60,15 @@ class SharedList {
     if (size_ % chunk == 0) {
       chunks_.push_back(std::make_shared<std::vector<T>>());
     } else {
-      own_last();
+      own_chunk(chunks_.size() - 1);
     }
     chunks_.back()->push_back(std::move(item));
     ++size_;
   }
-  /// The last item, to be changed: in this list alone.
-  [[nodiscard]] T& own_back() {
-    own_last();
-    return chunks_.back()->back();
+  /// Item k, to be changed: in this list alone.
+  [[nodiscard]] T& own(std::size_t k) {
+    own_chunk(k / chunk);
+    return (*chunks_[k / chunk])[k % chunk];
   }
   /// Only the first `size` items; no more than there are.
   void truncate(std::size_t size) {
@@ -76,7 +76,7 @@ class SharedList {
     size_ = size;
     chunks_.resize((size + chunk - 1) / chunk);
     if (size % chunk == 0) return;
-    own_last();
+    own_chunk(chunks_.size() - 1);
     chunks_.back()->erase(chunks_.back()->begin() + static_cast<std::ptrdiff_t>(size % chunk), chunks_.back()->end());
   }
 
@@ -91,8 +91,8 @@ class SharedList {
  private:
   static constexpr std::size_t chunk = 128;
 
-  void own_last() {
-    if (chunks_.back().use_count() > 1) chunks_.back() = std::make_shared<std::vector<T>>(*chunks_.back());
+  void own_chunk(std::size_t k) {
+    if (chunks_[k].use_count() > 1) chunks_[k] = std::make_shared<std::vector<T>>(*chunks_[k]);
   }
 
   std::vector<std::shared_ptr<std::vector<T>>> chunks_;  // full but for the last one; shared ones do not change

@@ -8,7 +8,7 @@
 namespace knead {
 
 /// What a command did besides what it was asked for: a text for people, and what a program reads of it, null if nothing
-/// but the text is known. Notes with the same text are the same; snapshots keep the text.
+/// but the text is known. Notes with the same text are the same; snapshots keep both.
 struct Note : std::string {
   std::shared_ptr<const Diagnostic> diagnostic;
 

@@ -151,8 +151,8 @@ class Session {
   [[nodiscard]] Expected<std::string> save_as(const Format& format, const SaveOptions& how = {}) const;
 
   /// The whole session except the document's file, as bytes: every state of the history with every number as it is, and
-  /// the commands. Data shared by states is written once. If the surfaces of the history need more than
-  /// `history_bytes`, the oldest states are omitted: their commands stay in the journal but cannot be undone.
+  /// the commands. Data shared by states is written once. If the history needs more than `history_bytes`,
+  /// the oldest states are omitted: their commands stay in the journal but cannot be undone.
   [[nodiscard]] std::string snapshot(std::size_t history_bytes = std::size_t{64} << 20U) const;
   /// The session of which `snapshot` was taken, bit for bit, with undo and redo; nothing is recomputed. Errors (input):
   /// bytes that are damaged, of another version, or of a document with other surfaces.

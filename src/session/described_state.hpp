@@ -1,0 +1,21 @@
+#pragma once
+
+#include "knead/base/describe.hpp"
+#include "knead/session/session.hpp"
+
+namespace knead {
+
+/// Its document is left out, as are the parts of surfaces that faces show and the courses of edges, which follow from
+/// it.
+template <>
+const Type& type_of<Scene>();
+template <>
+const Type& type_of<SessionState>();
+
+// Parts of it that are reported as well.
+void describe(ShellMaterial& m, Fields& fields);
+void describe(FundamentalMaterial& m, Fields& fields);
+void describe(StepRecord& s, Fields& fields);
+std::span<const Choice> choices(SeamContinuity);
+
+}  // namespace knead
