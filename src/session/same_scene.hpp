@@ -4,9 +4,8 @@
 
 namespace knead {
 
-/// Whether surfaces and bodies, what holds them and how they evolve are the same in two scenes of one session, every
-/// number bit for bit. What settings and steps cannot change is not compared: tools, forces, probes, edges that follow,
-/// lattices. A scene with an open stroke is no other's equal.
+/// Whether two scenes of one session are the same, every number bit for bit, but for edges that have come to follow.
+/// A scene with an open stroke is no other's equal.
 ///
 /// Cost: linear in the control points of surfaces that are not shared.
 [[nodiscard]] bool same_scene(const Scene& a, const Scene& b);
