@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "commands.hpp"
 #include "described_json.hpp"
-#include "restated.hpp"
 
 namespace knead {
 
@@ -124,12 +124,6 @@ Expected<std::vector<Command>> parse_commands(std::string_view text) {
 }
 
 std::string to_json(const Command& command) { return to_json(type_of<CommandVariant>(), &command.any().fields); }
-
-std::string to_json(const Constraint& constraint) { return to_json(restated(constraint)); }
-std::string to_json(const SceneForce& force) { return to_json(make_command(restated(force))); }
-std::string to_json(const Load& load) { return to_json(make_command(LoadCommand{load})); }
-std::string to_json(const EvolutionPolicy& evolution) { return to_json(make_command(EvolveCommand{evolution})); }
-std::string to_json(const SeamPolicy& seams) { return to_json(make_command(SeamsCommand{seams})); }
 
 Expected<std::vector<Command>> parse_script(std::string_view text, const std::string& name, std::size_t* before) {
   const auto fail = [&name](Error error) {

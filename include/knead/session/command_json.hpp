@@ -23,13 +23,6 @@ namespace knead {
 /// same command.
 [[nodiscard]] std::string to_json(const Command& command);
 
-// The JSON form of parts of a scene: that of the command that makes them.
-[[nodiscard]] std::string to_json(const Constraint& constraint);
-[[nodiscard]] std::string to_json(const SceneForce& force);
-[[nodiscard]] std::string to_json(const Load& load);
-[[nodiscard]] std::string to_json(const EvolutionPolicy& evolution);
-[[nodiscard]] std::string to_json(const SeamPolicy& seams);
-
 /// The first command of a session by default: {"do": "hold", "mode": "trim", "all": true}, so that every face still
 /// fits its neighbours.
 [[nodiscard]] Command default_hold();
