@@ -26,7 +26,12 @@ std::optional<Error> wrong_number(const Field* field, const Type& type, const vo
       if (!type.innermost().fields.empty() || !type.innermost().variants.empty() ||
           (field != nullptr && field->range != Range{})) {
         for (std::size_t k = 0; k < type.count(value); ++k) {
-          if (auto error = wrong_number(field, *type.element, type.part(value, k))) return error;
+          auto error = wrong_number(field, *type.element, type.part(value, k));
+          if (!error) continue;
+          if (field != nullptr && type.kind == Kind::list && error->where == field->name) {
+            error->where += fmt::format("[{}]", k);
+          }
+          return error;
         }
       }
       return std::nullopt;
@@ -59,6 +64,8 @@ std::string in_words(const Range& range) {
   if (beyond) text += (text.empty() ? "" : ", ") + std::string(range.open_above ? "< " : "<= ") + most;
   return text;
 }
+
+std::span<const Choice> Field::named() const { return choices.empty() ? type->innermost().choices : choices; }
 
 const Field* Type::find(std::string_view field) const {
   const auto at_field = std::ranges::find(fields, field, &Field::name);

@@ -42,6 +42,9 @@ void describe_allowance(std::optional<ThroughAllowance>& allow, Fields& fields);
 std::span<const Choice> choices(StepWeight);
 std::span<const Choice> choices(EdgeChoice);
 
+/// The directions of a surface.
+inline constexpr Choice surface_directions[] = {{"u", "the first"}, {"v", "the second"}};
+
 /// A surface point: fractions of the domain, or the visible middle.
 struct SurfacePlace {
   Fractions at = {0.5, 0.5};

@@ -18,17 +18,28 @@ const Type& type_of<CommandVariant>() {
 
 namespace {
 
-/// The same with the fields that its texts stand for (`text_forms`).
+/// The same with the fields that its texts stand for (`text_forms`), unless those are given themselves.
 Json spelled_out(Json json) {
-  for (auto& [name, value] : json.members) {
-    const auto form = std::ranges::find(text_forms, name, &TextForm::field);
-    if (form == std::end(text_forms) || !value.is(Json::Kind::text)) continue;
-    if (form->begins ? !value.text.starts_with(form->text) : value.text != form->text) continue;
-    name = form->stands_for;
-    if (form->begins) continue;
-    value = {};
-    value.kind = Json::Kind::boolean;
-    value.boolean = true;
+  const Type& commands = type_of<CommandVariant>();
+  const Json* const name = json.find(commands.name);
+  const int k = name != nullptr ? commands.variant(name->text) : -1;
+  if (k < 0) return json;
+  const Type& command = *commands.variants[static_cast<std::size_t>(k)];
+  for (const TextForm& form : text_forms) {
+    if (command.find(form.field) == nullptr || command.find(form.stands_for) == nullptr) continue;
+    const auto at = std::ranges::find(json.members, form.field, [](const auto& member) { return member.first; });
+    if (at == json.members.end() || !at->second.is(Json::Kind::text)) continue;
+    const std::string& text = at->second.text;
+    if (form.begins ? !text.starts_with(form.text) : text != form.text) continue;
+    if (json.find(form.stands_for) != nullptr) {
+      json.members.erase(at);
+      continue;
+    }
+    at->first = form.stands_for;
+    if (form.begins) continue;
+    at->second = {};
+    at->second.kind = Json::Kind::boolean;
+    at->second.boolean = true;
   }
   return json;
 }
@@ -45,19 +56,6 @@ Expected<void> check_version(const Json& json, const char* form) {
                        "translate it to version 2: \"Scripts of version 1\" in docs/scripts.md says how");
   }
   return input_error("the version of the script is not 2", "knead", form);
-}
-
-/// The error for a field made meaningless by the rest of a command.
-template <class C>
-Expected<void> check_applicable(const Json& json, const C& command) {
-  if constexpr (requires { inapplicable(command, std::string_view{}); }) {
-    for (const auto& [name, value] : json.members) {
-      const bool says_nothing = value.is(Json::Kind::null) || (value.is(Json::Kind::list) && value.list.empty());
-      if (says_nothing) continue;
-      if (const auto error = inapplicable(command, name)) return std::unexpected(*error);
-    }
-  }
-  return {};
 }
 
 /// Appends the commands of a list.
@@ -102,8 +100,6 @@ Expected<Command> read_command(const Json& given) {
   if (auto done = read_variant(json, type_of<CommandVariant>(), &any.fields, "command"); !done) {
     return std::unexpected(done.error());
   }
-  const auto check = [&](const auto& command) { return check_applicable(json, command); };
-  if (auto done = std::visit(check, any.fields); !done) return std::unexpected(done.error());
   return Command(std::move(any));
 }
 

@@ -64,7 +64,7 @@ void each_field(const Type& record, std::vector<std::string_view>& seen, auto&& 
 std::string allowed(const Field& field) {
   if (field.flat) return joined(variant_names(*field.type));
   std::string text;
-  for (const Choice& choice : field.type->innermost().choices) {
+  for (const Choice& choice : field.named()) {
     text += (text.empty() ? "" : ", ") + std::string(choice.name);
     if (!choice.help.empty()) text += " (" + without_links(std::string(choice.help)) + ")";
   }
@@ -81,12 +81,12 @@ std::string cell(std::string text) {
 std::string meaning(const Field& field) {
   std::string text(field.help);
   text += range_note(field);
-  const Type& last = field.type->innermost();
+  const std::span<const Choice> named = field.named();
   bool explained = false;
-  for (const Choice& choice : last.choices) explained = explained || !choice.help.empty();
-  if (!last.choices.empty()) {
+  for (const Choice& choice : named) explained = explained || !choice.help.empty();
+  if (!named.empty()) {
     std::string list;
-    for (const Choice& choice : last.choices) {
+    for (const Choice& choice : named) {
       list += list.empty() ? "" : explained ? ". " : ", ";
       list += fmt::format("`\"{}\"`", choice.name);
       if (!choice.help.empty()) list += fmt::format(": {}", choice.help);

@@ -25,27 +25,30 @@ std::string numbers_wanted(const Type& type) {
 }
 
 /// Reads anything but a record; returns what the value should have been, or nothing on success.
-std::string read_value(const Json& json, const Type& type, void* value, double factor, bool uniform = false) {
+std::string read_value(const Json& json, const Type& type, void* value, const About& about, bool uniform = false) {
   switch (type.kind) {
     case Kind::boolean:
       if (!json.is(Json::Kind::boolean)) return "true or false";
       *static_cast<bool*>(value) = json.boolean;
       return "";
     case Kind::integer: {
-      constexpr double limit = 2e9;
       const double x = json.number;
-      if (!json.is(Json::Kind::number) || x != std::floor(x) || !(std::abs(x) <= limit)) return "a whole number";
+      const bool whole = json.is(Json::Kind::number) && x == std::floor(x) && std::abs(x) <= largest_integer;
+      if (!whole) return "a whole number";
       *static_cast<int*>(value) = static_cast<int>(x);
       return "";
     }
     case Kind::number:
       if (!json.is(Json::Kind::number)) return "a number";
-      *static_cast<double*>(value) = json.number / factor;
+      *static_cast<double*>(value) = json.number / about.factor;
       return std::isfinite(json.number) ? "" : "a finite number";
     case Kind::text:
       if (!json.is(Json::Kind::text)) return "a string";
       *static_cast<std::string*>(value) = json.text;
-      return "";
+      if (about.choices.empty() || std::ranges::find(about.choices, json.text, &Choice::name) != about.choices.end()) {
+        return "";
+      }
+      return "one of: " + joined(names_of(about.choices));
     case Kind::choice: {
       const Choice* choice = json.is(Json::Kind::text) ? type.choice(json.text) : nullptr;
       if (choice == nullptr) return "one of: " + joined(names_of(type.choices));
@@ -54,29 +57,29 @@ std::string read_value(const Json& json, const Type& type, void* value, double f
     }
     case Kind::optional:
       type.resize(value, 1);
-      return read_value(json, *type.element, type.at(value, 0), factor, uniform);
+      return read_value(json, *type.element, type.at(value, 0), about, uniform);
     case Kind::list:
       if (uniform && json.is(Json::Kind::number)) {
         type.resize(value, 1);
-        return read_value(json, *type.element, type.at(value, 0), factor);
+        return read_value(json, *type.element, type.at(value, 0), about);
       }
       if (!json.is(Json::Kind::list)) return "a list";
       type.resize(value, json.list.size());
       for (std::size_t k = 0; k < json.list.size(); ++k) {
-        const std::string wanted = read_value(json.list[k], *type.element, type.at(value, k), factor);
+        const std::string wanted = read_value(json.list[k], *type.element, type.at(value, k), about);
         if (!wanted.empty()) return "a list, each entry " + wanted;
       }
       return "";
     case Kind::array:
       if (uniform && json.is(Json::Kind::number)) {
         for (std::size_t k = 0; k < type.length; ++k) {
-          if (auto wanted = read_value(json, *type.element, type.at(value, k), factor); !wanted.empty()) return wanted;
+          if (auto wanted = read_value(json, *type.element, type.at(value, k), about); !wanted.empty()) return wanted;
         }
         return "";
       }
       if (!json.is(Json::Kind::list) || json.list.size() != type.length) return numbers_wanted(type);
       for (std::size_t k = 0; k < type.length; ++k) {
-        if (!read_value(json.list[k], *type.element, type.at(value, k), factor).empty()) return numbers_wanted(type);
+        if (!read_value(json.list[k], *type.element, type.at(value, k), about).empty()) return numbers_wanted(type);
       }
       return "";
     default:
@@ -88,10 +91,13 @@ std::string read_value(const Json& json, const Type& type, void* value, double f
 std::optional<Error> read_part(const Json& json, const Type& type, void* value, std::string_view name,
                                const About& about) {
   const Kind last = type.innermost().kind;
-  if (last != Kind::record && last != Kind::variant) {
-    const std::string wanted = read_value(json, type, value, about.factor, about.uniform);
+  // A text that is not known is named with its place.
+  const bool listed = type.kind == Kind::list && !about.choices.empty() && json.is(Json::Kind::list);
+  const bool in_optional = type.kind == Kind::optional && !about.choices.empty();
+  if (last != Kind::record && last != Kind::variant && !listed && !in_optional) {
+    const std::string wanted = read_value(json, type, value, about, about.uniform);
     if (wanted.empty()) return std::nullopt;
-    if (type.innermost().kind == Kind::choice && json.is(Json::Kind::text)) {
+    if ((last == Kind::choice || !about.choices.empty()) && json.is(Json::Kind::text)) {
       return wrong(name, shown(json) + " is not known", "use " + wanted);
     }
     return wrong(name, shown(json) + " does not fit", "give " + wanted);
@@ -126,6 +132,22 @@ std::optional<Error> read_part(const Json& json, const Type& type, void* value, 
   }
 }
 
+/// The error for a field that another one, of the value that it has, leaves no meaning. An empty list says nothing.
+std::optional<Error> without_meaning(const Json& given, const Field& field, const Type& type, const void* record) {
+  if (field.only.field.empty() || (given.is(Json::Kind::list) && given.list.empty())) return std::nullopt;
+  const auto& with = *static_cast<const std::string*>(type.find(field.only.field)->of(record));
+  const auto has_meaning = [&with](const Field& f) {
+    return std::ranges::find(f.only.values, with) != f.only.values.end();
+  };
+  if (has_meaning(field)) return std::nullopt;
+  std::vector<std::string_view> known;
+  for (const Field& other : type.fields) {
+    if (has_meaning(other)) known.push_back(other.name);
+  }
+  return wrong(field.name, fmt::format("the {} {} has no {}", field.only.field, with, field.name),
+               known.empty() ? "it has no measures of its own" : "its fields are: " + joined(known));
+}
+
 /// Reads the fields of one record that are in the object; ignores any other members.
 std::optional<Error> read_fields(const Json& json, const Type& type, void* record) {
   for (const Field& field : type.fields) {
@@ -142,6 +164,7 @@ std::optional<Error> read_fields(const Json& json, const Type& type, void* recor
       const Type& held = *variant.variants[static_cast<std::size_t>(variant.value(member))];
       if (auto error = read_fields(json, held, variant.at(member, 0))) return error;
     } else if (found != nullptr) {
+      if (auto error = without_meaning(*found, field, type, record)) return error;
       if (auto error = read_part(*found, *field.type, member, field.name, field)) return error;
     } else if (field.presence == Presence::required) {
       return wrong(field.name, "the field is missing", fmt::format("give \"{}\"", field.name));
@@ -288,7 +311,7 @@ Expected<void> read_record(const Json& json, const Type& type, void* record, std
                                  : tag.empty()  ? "it has none"
                                                 : fmt::format("it has none but \"{}\"", tag)));
   }
-  return {};
+  return check_ranges(type, record);
 }
 
 Expected<void> read_variant(const Json& json, const Type& type, void* variant, std::string_view what) {

@@ -7,7 +7,8 @@ namespace knead {
 
 /// Reads an object's members into the fields of a record; missing fields keep their values. Members named `tag`, which
 /// gave the type, are skipped. Errors (input) name the field, with its path: an unknown one, with the known ones
-/// listed; one of the wrong type; a required one that is missing.
+/// listed; one of the wrong type, of a number out of its range, or of a text that is not among its choices; a required
+/// one that is missing; one that another leaves no meaning (`OnlyWith`).
 [[nodiscard]] Expected<void> read_record(const Json& json, const Type& type, void* record, std::string_view tag = {});
 
 /// Reads an object into a variant: its tag says which. Errors: as above; for an unknown name the known ones are listed,
@@ -23,6 +24,9 @@ struct TextForm {
 inline constexpr TextForm text_forms[] = {{"at", "middle", "middle"}, {"which", "edge", "#", true}};
 /// That of a field; null if there is none.
 [[nodiscard]] const TextForm* text_form(const Type& record, const Field& field);
+
+/// Whole numbers are from minus to plus this.
+inline constexpr double largest_integer = 2e9;
 
 /// How a field without a value is written; variants always omit it, as commands do.
 enum class Absent { left_out, null };

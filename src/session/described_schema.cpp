@@ -8,7 +8,11 @@
 namespace knead {
 namespace {
 
-std::string bounds(const Range& range) {
+std::string bounds(Range range, Kind kind) {
+  if (kind == Kind::integer) {
+    range.least = std::max(range.least, -largest_integer);
+    range.most = std::min(range.most, largest_integer);
+  }
   std::string text;
   if (std::isfinite(range.least)) {
     text += fmt::format(",\"{}\":{}", range.open_below ? "exclusiveMinimum" : "minimum", json_number(range.least));
@@ -29,13 +33,14 @@ class Schema {
       case Kind::boolean:
         return R"({"type":"boolean"})";
       case Kind::integer:
-        return R"({"type":"integer")" + bounds(range) + "}";
+        return R"({"type":"integer")" + bounds(range, type.kind) + "}";
       case Kind::number:
-        return R"({"type":"number")" + bounds(range) + "}";
+        return R"({"type":"number")" + bounds(range, type.kind) + "}";
       case Kind::text:
-        return R"({"type":"string"})";
+        if (field == nullptr || field->choices.empty()) return R"({"type":"string"})";
+        return choices(field->choices);
       case Kind::choice:
-        return names(names_of(type.choices));
+        return choices(type.choices);
       case Kind::optional:
         if (absent_ == Absent::left_out) return value(*type.element, field);
         return fmt::format(R"({{"anyOf":[{},{{"type":"null"}}]}})", value(*type.element, field));
@@ -62,6 +67,29 @@ class Schema {
     std::string text;
     for (std::string_view name : all) text += fmt::format("{}\"{}\"", text.empty() ? "" : ",", name);
     return "{\"enum\":[" + text + "]}";
+  }
+
+  /// Each with its text, if they have one.
+  static std::string choices(std::span<const Choice> all) {
+    if (std::ranges::all_of(all, [](const Choice& c) { return c.help.empty(); })) return names(names_of(all));
+    std::string text;
+    for (const Choice& c : all) {
+      text +=
+          fmt::format("{}{{\"const\":\"{}\",\"description\":{}}}", text.empty() ? "" : ",", c.name, json_text(c.help));
+    }
+    return "{\"oneOf\":[" + text + "]}";
+  }
+
+  /// What a field requires of the one that gives it a meaning (`OnlyWith`).
+  static std::string requirement(const Field& field, const Type& owner) {
+    const auto& [other, values] = field.only;
+    const auto& initial = *static_cast<const std::string*>(owner.find(other)->of(owner.initial));
+    const bool stands = std::ranges::find(values, initial) != values.end();
+    const std::string schema =
+        fmt::format(R"({{"properties":{{"{}":{}}}{}}})", other, names({values.begin(), values.end()}),
+                    stands ? std::string() : fmt::format(R"(,"required":["{}"])", other));
+    if (field.type->kind != Kind::list) return schema;
+    return fmt::format(R"({{"anyOf":[{{"properties":{{"{}":{{"maxItems":0}}}}}},{}]}})", field.name, schema);
   }
 
   /// With its description and default in front.
@@ -94,11 +122,12 @@ class Schema {
     std::string text = R"({"type":"object",)";
     if (!type.help.empty()) text += "\"description\":" + json_text(type.help) + ",";
     if (!members.required.empty()) text += "\"required\":[" + members.required + "],";
+    if (!members.dependent.empty()) text += "\"dependentSchemas\":{" + members.dependent + "},";
     return text + R"("additionalProperties":false,"properties":{)" + members.properties + "}}";
   }
 
   struct Members {
-    std::string properties, required;
+    std::string properties, required, dependent;
     std::vector<std::string_view> seen;
     void require(std::string_view name) { required += fmt::format("{}\"{}\"", required.empty() ? "" : ",", name); }
   };
@@ -112,6 +141,10 @@ class Schema {
           fmt::format("{}\n  \"{}\":{}", members.properties.empty() ? "" : ",", field.name, member(field, type));
       const bool required = field.presence == Presence::required || (absent_ == Absent::null && !field.flat);
       if (always && required) members.require(field.name);
+      if (!field.only.field.empty()) {
+        members.dependent +=
+            fmt::format("{}\n  \"{}\":{}", members.dependent.empty() ? "" : ",", field.name, requirement(field, type));
+      }
       if (!field.flat) continue;
       for (const Type* held : field.type->variants) add_members(*held, members, false);
     }

@@ -37,7 +37,7 @@ class TypeScript {
   void list(const Type& variant, const std::string& name);
 
   /// The type of a value, after the declarations that it needs. An opaque one is called by its name.
-  std::string written(const Type& type, const std::string& suffix, Absent absent);
+  std::string written(const Type& type, const std::string& suffix, Absent absent, std::span<const Choice> named = {});
 
  private:
   void record(const Type& type, const std::string& name, std::string_view tag, const std::string& suffix,

@@ -118,7 +118,8 @@ std::string TypeScript::member(const Type& owner, const Field& field, bool alway
     instead = form->begins ? fmt::format(" | `{}${{string}}`", form->text) : fmt::format(" | '{}'", form->text);
   }
   return about(field) + fmt::format("  {}{}: {}{}{};\n", field.name, always_there ? "" : "?",
-                                    field.uniform ? "number | " : "", written(*field.type, suffix, absent), instead);
+                                    field.uniform ? "number | " : "",
+                                    written(*field.type, suffix, absent, field.named()), instead);
 }
 
 std::string TypeScript::member_of_any(const Type& variant, std::string_view name) {
@@ -130,14 +131,15 @@ std::string TypeScript::member_of_any(const Type& variant, std::string_view name
     const Field* field = held->find(name);
     if (field == nullptr) continue;
     if (field->uniform) add("number");
-    add(written(*field->type, "", Absent::left_out));
+    add(written(*field->type, "", Absent::left_out, field->named()));
   }
   std::string text_of_types;
   for (const std::string& type : types) text_of_types += (text_of_types.empty() ? "" : " | ") + type;
   return text_of_types;
 }
 
-std::string TypeScript::written(const Type& type, const std::string& suffix, Absent absent) {
+std::string TypeScript::written(const Type& type, const std::string& suffix, Absent absent,
+                                std::span<const Choice> named) {
   switch (type.kind) {
     case Kind::boolean:
       return "boolean";
@@ -145,20 +147,20 @@ std::string TypeScript::written(const Type& type, const std::string& suffix, Abs
     case Kind::number:
       return "number";
     case Kind::text:
-      return "string";
     case Kind::choice: {
+      if (named.empty()) return "string";
       std::string names;
-      for (const Choice& choice : type.choices) names += fmt::format("{}'{}'", names.empty() ? "" : " | ", choice.name);
+      for (const Choice& choice : named) names += fmt::format("{}'{}'", names.empty() ? "" : " | ", choice.name);
       return names;
     }
     case Kind::optional:
-      return written(*type.element, suffix, absent) + (absent == Absent::null ? " | null" : "");
+      return written(*type.element, suffix, absent, named) + (absent == Absent::null ? " | null" : "");
     case Kind::list: {
-      const std::string element = written(*type.element, suffix, absent);
+      const std::string element = written(*type.element, suffix, absent, named);
       return element.find('|') == std::string::npos ? element + "[]" : "(" + element + ")[]";
     }
     case Kind::array: {
-      const std::string element = written(*type.element, suffix, absent);
+      const std::string element = written(*type.element, suffix, absent, named);
       std::string entries;
       for (std::size_t k = 0; k < type.length; ++k) entries += (k > 0 ? ", " : "") + element;
       return "[" + entries + "]";

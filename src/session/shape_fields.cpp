@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
 
 #include "acts/selection.hpp"
 #include "described_json.hpp"
@@ -49,6 +50,18 @@ std::vector<std::string_view> fields_of_shape(const Type& shape) {
   return names;
 }
 
+/// The names of the shapes that have this field.
+std::span<const std::string_view> shapes_with(std::string_view field) {
+  static std::map<std::string_view, std::vector<std::string_view>> known = [] {
+    std::map<std::string_view, std::vector<std::string_view>> shapes;
+    for (const Type* shape : type_of<Shape>().variants) {
+      for (const std::string_view name : fields_of_shape(*shape)) shapes[name].push_back(shape->name);
+    }
+    return shapes;
+  }();
+  return known[field];
+}
+
 bool names_any(ShapeFields fields) {
   return std::ranges::any_of(type_of<ShapeFields>().fields,
                              [&](const Field& field) { return field.type->count(field.of(&fields)) > 0; });
@@ -57,41 +70,47 @@ bool names_any(ShapeFields fields) {
 /// The measures that several shapes have, or that need more explanation than their shape's.
 void add_named_measures(ShapeFields& f, Fields& fields, std::string_view fallback = {}) {
   const auto otherwise = [fallback](std::string_view as_new) { return fallback.empty() ? as_new : fallback; };
-  fields.add("radius", f.radius,
-             {.help = "of spheres, cylinders and the like; where a shape has `sizes`, all of them",
-              .unit = Unit::length,
-              .range = above(0),
-              .fallback = otherwise("a tenth of the diagonal")});
-  fields.add("minor", f.minor,
-             {.help = "tube radius of torus and supertoroid",
-              .unit = Unit::length,
-              .range = above(0),
-              .fallback = otherwise("a quarter of the radius")});
-  fields.add("height", f.height,
-             {.help = "of cylinder, cone, capsule (without its caps) and wedge (from its foot to its ridge)",
-              .unit = Unit::length,
-              .range = above(0),
-              .fallback = otherwise("twice the radius; of a wedge a tenth of the diagonal")});
-  fields.add("top_radius", f.top_radius, {.help = "of a cone", .unit = Unit::length, .fallback = otherwise("`0`")});
-  fields.add("thickness", f.thickness,
-             {.help = "wall of a bowl",
-              .unit = Unit::length,
-              .range = above(0),
-              .fallback = otherwise("a tenth of the radius")});
-  fields.add("rounding", f.rounding,
-             {.help = "radius of the edges of a box, or of the ridge of a wedge",
-              .unit = Unit::length,
-              .fallback = otherwise("`0`")});
-  fields.add("sizes", f.sizes,
-             {.help = "`[a, b, c]`: semi-axes of (super)ellipsoids, half sides of a box",
-              .unit = Unit::length,
-              .range = above(0),
-              .fallback = otherwise("the radius each")});
-  fields.add("exponents", f.exponents,
-             {.help = "`[e1, e2]` of superellipsoid and supertoroid", .fallback = otherwise("`[1, 1]`")});
-  fields.add("surface", f.surface,
-             {.help = "of shape `surface`: the id of the surface of the document that is the tool, as it is now",
-              .fallback = fallback});
+  const auto add = [&](std::string_view name, auto& member, About about) {
+    if (fallback.empty()) about.only = {"shape", shapes_with(name)};
+    fields.add(name, member, about);
+  };
+  add("radius", f.radius,
+      {.help = "of spheres, cylinders and the like; where a shape has `sizes`, all of them",
+       .unit = Unit::length,
+       .range = above(0),
+       .fallback = otherwise("a tenth of the diagonal")});
+  add("minor", f.minor,
+      {.help = "tube radius of torus and supertoroid",
+       .unit = Unit::length,
+       .range = above(0),
+       .fallback = otherwise("a quarter of the radius")});
+  add("height", f.height,
+      {.help = "of cylinder, cone, capsule (without its caps) and wedge (from its foot to its ridge)",
+       .unit = Unit::length,
+       .range = above(0),
+       .fallback = otherwise("twice the radius; of a wedge a tenth of the diagonal")});
+  add("top_radius", f.top_radius,
+      {.help = "of a cone", .unit = Unit::length, .range = at_least(0), .fallback = otherwise("`0`")});
+  add("thickness", f.thickness,
+      {.help = "wall of a bowl",
+       .unit = Unit::length,
+       .range = above(0),
+       .fallback = otherwise("a tenth of the radius")});
+  add("rounding", f.rounding,
+      {.help = "radius of the edges of a box, or of the ridge of a wedge",
+       .unit = Unit::length,
+       .range = at_least(0),
+       .fallback = otherwise("`0`")});
+  add("sizes", f.sizes,
+      {.help = "`[a, b, c]`: semi-axes of (super)ellipsoids, half sides of a box",
+       .unit = Unit::length,
+       .range = above(0),
+       .fallback = otherwise("the radius each")});
+  add("exponents", f.exponents,
+      {.help = "`[e1, e2]` of superellipsoid and supertoroid", .fallback = otherwise("`[1, 1]`")});
+  add("surface", f.surface,
+      {.help = "of shape `surface`: the id of the surface of the document that is the tool, as it is now",
+       .fallback = fallback});
 }
 
 /// A number of shapes that the measures above do not name.
@@ -140,7 +159,8 @@ void add_measures(ShapeFields& f, Fields& fields, std::string_view fallback) {
                {.help = help,
                 .unit = about.unit,
                 .range = about.range,
-                .fallback = fallback.empty() ? std::string_view(as_new) : fallback});
+                .fallback = fallback.empty() ? std::string_view(as_new) : fallback,
+                .only = fallback.empty() ? OnlyWith{"shape", shapes_with(name)} : OnlyWith{}});
   }
 }
 
@@ -149,33 +169,30 @@ void describe(ShapeFields& f, Fields& fields) {
   add_measures(f, fields);
 }
 
-const std::string& shape_names() {
-  static const std::string names = joined(variant_names(type_of<Shape>()));
-  return names;
+std::span<const Choice> shape_choices() {
+  static const std::vector<Choice> list = [] {
+    std::vector<Choice> choices;
+    for (const Type* shape : type_of<Shape>().variants) choices.emplace_back(shape->name, shape->help);
+    return choices;
+  }();
+  return list;
 }
 
 std::string_view shape_name(const Shape& shape) { return type_of<Shape>().variants[shape.index()]->name; }
 
-Error no_such_measure(std::string_view shape, std::string_view field, const std::vector<std::string_view>& fields) {
-  return {ErrorKind::input, fmt::format("the shape {} has no {}", shape, field), std::string(field),
-          fields.empty() ? "it has no measures of its own" : "its fields are: " + joined(fields)};
-}
-
-std::optional<Error> no_measure_of(std::string_view shape, std::string_view field) {
-  const int k = type_of<Shape>().variant(shape);
-  if (k < 0 || type_of<ShapeFields>().find(field) == nullptr) return std::nullopt;
-  const auto fields = fields_of_shape(*type_of<Shape>().variants[static_cast<std::size_t>(k)]);
+/// The error for a field that a shape, given by name, does not have but another does; else nothing. A radius counts as
+/// a field if there are `sizes`.
+static std::optional<Error> no_measure_of(const Type& shape, std::string_view field) {
+  const auto fields = fields_of_shape(shape);
   if (std::ranges::find(fields, field) != fields.end()) return std::nullopt;
-  return no_such_measure(shape, field, fields);
+  return Error{ErrorKind::input, fmt::format("the shape {} has no {}", shape.name, field), std::string(field),
+               fields.empty() ? "it has no measures of its own" : "its fields are: " + joined(fields)};
 }
 
 Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, double diagonal, const Act& act,
                            const Shape* before) {
   const Type& shapes = type_of<Shape>();
   const int k = shapes.variant(name);
-  if (k < 0) {
-    return input_error(fmt::format("\"{}\" is not a shape", name), "shape", "the shapes are: " + shape_names());
-  }
   Shape shape;
   shapes.assign(&shape, k);
   if (auto* spline = std::get_if<SplineShape>(&shape)) {
@@ -215,9 +232,10 @@ Expected<Shape> edited_shape(const Shape& shape, std::string_view name, const Sh
                              double diagonal, const Act& act) {
   if (name == shape_name(shape) && !names_any(fields)) return shape;
   ShapeFields given = fields;
+  const Type& named = *type_of<Shape>().variants[static_cast<std::size_t>(type_of<Shape>().variant(name))];
   for (const Field& field : type_of<ShapeFields>().fields) {
     if (field.type->count(field.of(&given)) == 0) continue;
-    if (auto error = no_measure_of(name, field.name)) return std::unexpected(*error);
+    if (auto error = no_measure_of(named, field.name)) return std::unexpected(*error);
   }
   return make_shape(name, fields, unit, diagonal, act, &shape);
 }

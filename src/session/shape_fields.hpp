@@ -23,23 +23,17 @@ struct ShapeFields {
 
 void describe(ShapeFields& f, Fields& fields);
 
-/// Adds the measures to the fields of a command. `fallback`: the default in words; empty: those of a new tool.
+/// Adds the measures to the fields of a command, those of a new tool only with the shapes that have them. `fallback`:
+/// the default in words; empty: those of a new tool.
 void add_measures(ShapeFields& f, Fields& fields, std::string_view fallback = {});
 
-/// "sphere, ellipsoid, …"
-[[nodiscard]] const std::string& shape_names();
+/// The shapes by their names, each with what it is.
+[[nodiscard]] std::span<const Choice> shape_choices();
 [[nodiscard]] std::string_view shape_name(const Shape& shape);
-
-/// The error for a field that a shape, given by name, does not have but another does; else nothing. A radius counts as
-/// a field if there are `sizes`.
-[[nodiscard]] std::optional<Error> no_measure_of(std::string_view shape, std::string_view field);
-/// The same for a shape with these fields.
-[[nodiscard]] Error no_such_measure(std::string_view shape, std::string_view field,
-                                    const std::vector<std::string_view>& fields);
 
 /// The shape with these measures. Given lengths are multiplied by `unit`. Of the others, those that `before` has stay;
 /// the rest are the defaults of the shape, for a radius of 1, times the radius, which defaults to a tenth of
-/// `diagonal`. Errors (input): an unknown shape or surface.
+/// `diagonal`. Required: a known name. Errors (input): an unknown surface.
 [[nodiscard]] Expected<Shape> make_shape(std::string_view name, ShapeFields fields, double unit, double diagonal,
                                          const Act& act, const Shape* before = nullptr);
 

@@ -54,7 +54,7 @@ TEST(Errors, AWrongValueIsNamedWithItsPlaceAndRemedy) {
   EXPECT_TRUE(refused(Json::array({command("step")}), 3, {"commands[0]", "#285"}));
   EXPECT_TRUE(refused(Json::array({command("select", {{"surface", "#1"}})}), 3, {"#1", "#285", "#1044"}));
   EXPECT_TRUE(refused(Json::array({command("select")}), 3, {"commands[0]", "surface", "missing"}));
-  EXPECT_TRUE(refused(Json{skin, command("hold", {{"rows", -1}})}, 3, {"commands[1]", "rows", "0 or more"}));
+  EXPECT_TRUE(refused(Json{skin, command("hold", {{"rows", -1}})}, 3, {"commands[1]", "rows", ">= 0"}));
   EXPECT_TRUE(refused(Json{skin, command("hold", {{"rows", 1.5}})}, 3, {"commands[1].rows", "whole"}));
   EXPECT_TRUE(refused(Json{skin, command("pin", {{"control_points", {{0, 0}, {14, 0}}}})}, 3,
                       {"commands[1]", "control_points[1]", "14 by 12"}));

@@ -43,10 +43,10 @@ TEST(Hostile, TextFromFilesDoesNotReachTheTerminalRaw) {
   const Workshop workshop;
   const std::string out = workshop / "out.step";
   const std::string lines = workshop.script(Json::array({command("new", {{"shape", "a\nb\x1B[2J"}})}));
-  EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", out, "--script", lines}), 3, {"a\\nb\\x1B[2J"}));
+  EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", out, "--script", lines}), 3, {"a\\nb\\u001b[2J"}));
   const std::string huge = workshop.script(Json::array({command("new", {{"shape", std::string(2000000, 'x')}})}));
   const Outcome run = knead({"sculpt", "--new", "-o", out, "--script", huge});
-  EXPECT_TRUE(fails_with(run, 3, {"…", "is not a shape"}));
+  EXPECT_TRUE(fails_with(run, 3, {"…", "is not known"}));
   EXPECT_LT(run.err.size(), 3000U);
   const std::string named = workshop.script(Json::array({command("new", {{"name", "\x1B[31mred\n"}})}));
   ASSERT_EQ(knead({"sculpt", "--new", "-o", out, "--script", named}).code, 0);

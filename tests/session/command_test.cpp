@@ -135,7 +135,7 @@ TEST(Command, APinnedPointStaysOrGoesToItsPlace) {
   EXPECT_LT((at(*first(session).current, 0.7, 0.2) - Point(7, 2, 0)).norm(), 1e-10 * 14);
   EXPECT_EQ(refusal(session, R"({"do":"pin"})").where, "control_points");
   EXPECT_EQ(refusal(session, R"({"do":"pin","to":[0,0,0]})").where, "to");
-  EXPECT_EQ(refusal(session, R"({"do":"pin","at":[0.5,1.5]})").where, "at");
+  EXPECT_EQ(refusal(session, R"({"do":"pin","at":[0.5,1.5]})").where, "at[1]");
   const Error e = refusal(session, R"({"do":"pin","at":[0.3,0.6],"to":[3,6,1]})");
   EXPECT_NE(e.message().find("0.3"), std::string::npos) << "contradictions are named: " << e.message();
 }
@@ -169,7 +169,7 @@ TEST(Command, FrozenRegionsAndKeptCurvesDoNotMove) {
   EXPECT_EQ(refusal(lines, R"({"do":"keep","u":0.5,"v":0.5})").where, "keep");
   EXPECT_EQ(refusal(lines, R"({"do":"keep","u":-0.5})").where, "u");
   EXPECT_EQ(refusal(lines, R"({"do":"keep","v":1.5})").where, "v");
-  EXPECT_EQ(refusal(lines, R"({"do":"keep","curve":[[0,2],[1,1]]})").where, "curve");
+  EXPECT_EQ(refusal(lines, R"({"do":"keep","curve":[[0,2],[1,1]]})").where, "curve[0]");
 }
 
 TEST(Command, SymmetryOfAnEdgeAndOfAWholeSheet) {

@@ -127,7 +127,8 @@ TEST(Described, TheSchemaTellsTypesRangesAndWhatIsRequired) {
   EXPECT_EQ(schema.at("additionalProperties"), false);
   const auto& members = schema.at("properties");
   EXPECT_EQ(members.at("height").at("exclusiveMinimum"), 0);
-  EXPECT_EQ(members.at("glaze").at("enum"), nlohmann::json({"matt", "shiny"}));
+  EXPECT_EQ(members.at("glaze").at("oneOf"), nlohmann::json({{{"const", "matt"}, {"description", "soft light"}},
+                                                             {{"const", "shiny"}, {"description", "hard light"}}}));
   EXPECT_EQ(members.at("name").at("default"), "pot");
   EXPECT_EQ(members.at("handles").at("items").at("required"), nlohmann::json::array({"at"}));
   EXPECT_EQ(members.at("shape").at("enum").size(), std::variant_size_v<Shape>);

@@ -110,7 +110,7 @@ TEST(Tool, FieldsThatTheShapeDoesNotHaveAreRefused) {
   for (const auto& [shape, field, value, has] :
        {Case{"supertoroid", "sizes", "[1,1,1]", "radius, minor, exponents"}, Case{"sphere", "minor", "1", "radius"},
         Case{"plane", "radius", "1", ""}, Case{"capsule", "rounding", "0.1", "radius, height"},
-        Case{"box", "surface", "\"#1\"", "radius, sizes, rounding"}}) {
+        Case{"box", "surface", "\"#1\"", "radius, rounding, sizes"}}) {
     Session session = on_sheet();
     const Error error = refusal(
         session, fmt::format(R"({{"do":"tool","shape":"{}","position":[5,5,9],"{}":{}}})", shape, field, value));

@@ -190,7 +190,7 @@ TEST(Command, ALatticeCarriesTheSurfaceAlongAsOneStepOfUndo) {
   EXPECT_EQ(first(session).rest, first(session).current);
   run(session, {R"({"do":"undo"})"});
   EXPECT_EQ(first(session).current->control_points(), before);
-  EXPECT_EQ(refusal(session, R"({"do":"lattice","hold":["top"]})").where, "hold");
+  EXPECT_EQ(refusal(session, R"({"do":"lattice","hold":["top"]})").where, "hold[0]");
   EXPECT_EQ(refusal(session, R"({"do":"lattice","margin":0})").where, "margin");
   EXPECT_EQ(refusal(session, R"({"do":"lattice","steps":0})").where, "steps");
 }

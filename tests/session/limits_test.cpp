@@ -55,7 +55,8 @@ TEST(Limits, StepsAreCountedBeforeTheyAreTaken) {
         R"({"do":"stroke","path":[[0,0,0],[1,1,1]],"steps":500001})", R"({"do":"lattice","steps":2000000000})"}) {
     Session session = sheet_and({R"({"do":"tool","at":[0.5,0.5],"radius":0.2})"});
     const Error error = refusal(session, each);
-    EXPECT_NE(error.what.find("too many"), std::string::npos) << each << ": " << error.message();
+    EXPECT_TRUE(error.what.contains("too many") || error.what.contains("out of range"))
+        << each << ": " << error.message();
     EXPECT_NE(error.remedy.find("1000000"), std::string::npos) << error.message();
   }
 }

@@ -118,7 +118,7 @@ TEST(Stamp, SaysWhatIsWrong) {
   EXPECT_NE(error(R"("pattern":[[1,2],[3]])").find("row 2 has 1 heights"), std::string::npos);
   EXPECT_NE(error(R"("pattern":[[1,2]])").find("1 × 2"), std::string::npos);
   EXPECT_NE(error(R"("shape":"plane")").find("no bounds"), std::string::npos);
-  EXPECT_NE(error(R"("shape":"cupboard")").find("is not a shape"), std::string::npos);
+  EXPECT_NE(error(R"("shape":"cupboard")").find("is not known"), std::string::npos);
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ TEST(Command, SpringsDrawAndVolcanoesDriveAway) {
   run(session,
       {R"({"do":"force","kind":"volcano","at":[0.5,0.5],"to":[5,5,-1],"strength":0.1})", R"({"do":"step","count":5})"});
   EXPECT_GT(at(*first(session).current, 0.5, 0.5).z(), 0.01);
-  EXPECT_EQ(refusal(session, R"({"do":"force","at":[2,0],"to":[0,0,0]})").where, "at");
+  EXPECT_EQ(refusal(session, R"({"do":"force","at":[2,0],"to":[0,0,0]})").where, "at[0]");
   EXPECT_EQ(refusal(session, R"({"do":"force","at":[0,0],"to":[0,0,0],"strength":-1})").where, "strength");
   EXPECT_EQ(refusal(session, R"({"do":"force","at":[0,0],"to":[0,0,0],"core":0})").where, "core");
 }

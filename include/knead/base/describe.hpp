@@ -79,6 +79,14 @@ struct Choice {
   requires std::is_enum_v<E>
   constexpr Choice(std::string_view choice_name, E choice, std::string_view text = {})
       : name(choice_name), value(static_cast<int>(choice)), help(text) {}
+  /// A text that a field may be.
+  constexpr Choice(std::string_view choice_name, std::string_view text) : name(choice_name), help(text) {}
+};
+
+/// The values of another field of the same record, a text, with which a field has a meaning; of no field: always.
+struct OnlyWith {
+  std::string_view field = {};
+  std::span<const std::string_view> values = {};
 };
 
 /// The description of a field besides its name and type.
@@ -93,6 +101,10 @@ struct About {
   double factor = 1;
   /// An array of numbers that are mostly equal, or a list in which one number stands for all: it may be written alone.
   bool uniform = false;
+  /// The texts that it may be, or that may be in its list; empty: any.
+  std::span<const Choice> choices = {};
+  /// With other values of that field, which is described before this one, it is refused.
+  OnlyWith only = {};
 };
 
 struct Type;
@@ -104,6 +116,8 @@ struct Field : About {
   /// A variant whose name and fields count as those of the record itself; `name` is then the variant's tag.
   bool flat = false;
 
+  /// The named values that it may have: its own or those of its type; empty if they have no names.
+  [[nodiscard]] std::span<const Choice> named() const;
   [[nodiscard]] void* of(void* record) const { return static_cast<char*>(record) + offset; }
   [[nodiscard]] const void* of(const void* record) const { return static_cast<const char*>(record) + offset; }
 };

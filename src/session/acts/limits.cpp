@@ -26,23 +26,11 @@ Expected<void> check_document_size(const Scene& scene, std::int64_t more) {
                      "net", "use fewer");
 }
 
-Expected<void> check_steps(int steps, const char* field, int least, std::size_t places) {
-  if (steps < least) {
-    return input_error(
-        least == 0 ? fmt::format("{} steps cannot be done", steps) : fmt::format("{} steps are too few", steps), field,
-        fmt::format("use {} or more", least));
-  }
+Expected<void> check_steps(int steps, std::size_t places) {
   if (places == 0 || static_cast<std::size_t>(steps) <= max_steps / places) return {};
   return input_error(places == 1 ? fmt::format("{} steps are too many", steps)
                                  : fmt::format("{} steps at each of {} positions are too many", steps, places),
-                     field, fmt::format("a command may take {} in all", max_steps));
-}
-
-Expected<void> check_modes(int count) {
-  constexpr int most = 100;
-  if (count >= 1 && count <= most) return {};
-  return input_error(fmt::format("{} is not a number of modes to look for", count), "count",
-                     fmt::format("use 1 to {}", most));
+                     "steps", fmt::format("a command may take {} in all", max_steps));
 }
 
 Expected<void> check_radius(double radius) {

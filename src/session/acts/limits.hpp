@@ -14,6 +14,7 @@ namespace knead {
 inline constexpr std::int64_t max_net_size = 4000000;        ///< control points of one surface
 inline constexpr std::int64_t max_document_size = 20000000;  ///< control points of all that a document holds
 inline constexpr int max_steps = 1000000;                    ///< of one command
+inline constexpr int most_modes = 100;                       ///< or factors of buckling, of one command
 inline constexpr std::size_t max_json_depth = 64;            ///< lists and objects inside each other; commands need six
 
 /// An error about `net` if a net of these counts (0 or more) is larger than `max_net_size`.
@@ -23,13 +24,10 @@ inline constexpr std::size_t max_json_depth = 64;            ///< lists and obje
 /// points, with so many more.
 [[nodiscard]] Expected<void> check_document_size(const Scene& scene, std::int64_t more);
 
-/// An error about `field` if there are fewer than `least` steps at each of `places`, or more than `max_steps` in all.
-[[nodiscard]] Expected<void> check_steps(int steps, const char* field, int least = 1, std::size_t places = 1);
+/// An error about `steps` if those at each of `places` are more than `max_steps` in all.
+[[nodiscard]] Expected<void> check_steps(int steps, std::size_t places);
 
 /// An error about `radius` if it is no length from 1e-50 to 1e50: the square of a smaller one vanishes.
 [[nodiscard]] Expected<void> check_radius(double radius);
-
-/// An error about `count` if it is not a number of modes that can be sought: 1 to 100.
-[[nodiscard]] Expected<void> check_modes(int count);
 
 }  // namespace knead

@@ -147,11 +147,6 @@ Expected<void> check_pen(const BrushCommand& c) {
   if (unpressed && !c.pressure.empty()) {
     return input_error("grab, twist and scale have no pressure", "pressure", "leave it out");
   }
-  for (std::size_t k = 0; k < c.pressure.size(); ++k) {
-    if (c.pressure[k] >= 0 && c.pressure[k] <= 1) continue;
-    return input_error(fmt::format("{} is not a pressure", c.pressure[k]), fmt::format("pressure[{}]", k),
-                       "use a number from 0 to 1");
-  }
   for (std::size_t k = 0; k < c.tilt.size(); ++k) {
     if (in_space(c.tilt[k]).allFinite()) continue;
     return input_error("a number is not finite", fmt::format("tilt[{}]", k),
@@ -221,7 +216,7 @@ void describe(BrushCommand& c, Fields& fields) {
   fields.add("surfaces", c.surfaces,
              {.help = "ids of the surface of each point of a path that leads over several selected ones"});
   fields.add("pressure", c.pressure,
-             {.help = "of a pen at each point of the path, `0` to `1`, linear in between; not of grab, twist and scale",
+             {.help = "of a pen at each point of the path, linear in between; not of grab, twist and scale",
               .unit = Unit::fraction,
               .range = between(0, 1),
               .fallback = "`1`"});
@@ -263,7 +258,8 @@ void describe(BrushCommand& c, Fields& fields) {
   fields.add(
       "shape", c.shape,
       {.help = "of stamp, in place of `pattern`: the shape of a tool as it is seen along its axis, as wide as the "
-               "`core`"});
+               "`core`",
+       .choices = shape_choices()});
   fields.add("steady", c.steady,
              {.help = "the brush is drawn along the path by a rope of so many radii, which takes out what trembles",
               .range = at_least(0)});

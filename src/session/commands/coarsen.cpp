@@ -11,14 +11,12 @@ namespace knead {
 
 void describe(CoarsenCommand& c, Fields& fields) {
   fields.name("coarsen", "remove knots where the shape changes by no more than a tolerance");
-  fields.add("tolerance", c.tolerance, {.help = "a length", .unit = Unit::length, .presence = Presence::required});
+  fields.add("tolerance", c.tolerance,
+             {.help = "a length", .unit = Unit::length, .range = at_least(0), .presence = Presence::required});
 }
 
 Expected<void> execute(const CoarsenCommand& c, Act& act) {
   if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
-  if (!(std::isfinite(c.tolerance) && c.tolerance >= 0)) {
-    return input_error(fmt::format("{} is not a tolerance", c.tolerance), "tolerance", "use a length of 0 or more");
-  }
   for (SceneSurface& s : selected_surfaces(act.state)) {
     const auto done = coarsen(s, c.tolerance);
     if (!done) return std::unexpected(done.error());

@@ -76,14 +76,19 @@ void describe(DragCommand& c, Fields& fields) {
   fields.name("drag", "grip a surface point, drag it and let it go, as one command");
   fields.add("at", c.at,
              {.help = "`[s, t]`: the point; or `\"middle\"`, the visible point farthest from all edges",
-              .unit = Unit::fraction});
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
   fields.add("by", c.by, {.help = "`[dx, dy, dz]`", .unit = Unit::length, .presence = Presence::required});
   fields.add("radius", c.radius,
-             {.help = "of the footprint, a length", .unit = Unit::length, .fallback = "a tenth of the diagonal"});
-  fields.add("strength", c.strength, {.help = "spring constant of the grip"});
-  fields.add("steps", c.steps, {.help = "number of steps along the way"});
-  fields.add("plasticity", c.plasticity,
-             {.help = "share of the displacement that becomes rest shape", .unit = Unit::fraction});
+             {.help = "of the footprint, a length",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "a tenth of the diagonal"});
+  fields.add("strength", c.strength, {.help = "spring constant of the grip", .range = between(0, max_tool_stiffness)});
+  fields.add("steps", c.steps, {.help = "number of steps along the way", .range = between(1, max_steps)});
+  fields.add(
+      "plasticity", c.plasticity,
+      {.help = "share of the displacement that becomes rest shape", .unit = Unit::fraction, .range = between(0, 1)});
   fields.add("relative", c.relative, {.help = "`by` and `radius` are fractions of the diagonal"});
   fields.add("surface", c.surface, {.help = "id of the surface of the point", .fallback = "the first selected one"});
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
@@ -94,14 +99,6 @@ Expected<void> execute(const DragCommand& c, Act& act) {
   const auto chosen = selected_surface(act, c.surface);
   if (!chosen) return std::unexpected(chosen.error());
   SceneSurface& surface = act.state.surfaces[static_cast<std::size_t>(*chosen)];
-  if (auto few = check_steps(c.steps, "steps"); !few) return few;
-  if (!(c.plasticity >= 0 && c.plasticity <= 1)) {
-    return input_error(fmt::format("{} is not a plasticity", c.plasticity), "plasticity", "use a number from 0 to 1");
-  }
-  if (!(c.strength >= 0 && c.strength <= max_tool_stiffness)) {
-    return input_error(fmt::format("{} is not a strength", c.strength), "strength",
-                       fmt::format("use a number from 0 to {}", max_tool_stiffness));
-  }
   const auto length = diagonal(act);
   if (!length) return std::unexpected(length.error());
   const double unit = c.relative ? *length : 1, radius = c.radius ? *c.radius * unit : 0.1 * *length;

@@ -82,26 +82,28 @@ void hold_bare_sides(Act& act, SceneSurface& s, const std::vector<SurfaceEdge>& 
 }  // namespace
 
 std::span<const Choice> choices(EdgeChoice) {
-  static constexpr Choice list[] = {{"all", EdgeChoice::all},
+  static constexpr Choice list[] = {{"all", EdgeChoice::all, "every side"},
                                     {"u0", EdgeChoice::u0, "where u is least"},
-                                    {"u1", EdgeChoice::u1},
-                                    {"v0", EdgeChoice::v0},
-                                    {"v1", EdgeChoice::v1}};
+                                    {"u1", EdgeChoice::u1, "where it is greatest"},
+                                    {"v0", EdgeChoice::v0, "where v is least"},
+                                    {"v1", EdgeChoice::v1, "where it is greatest"}};
   return list;
 }
 
 std::span<const Choice> choices(SideChoice) {
-  static constexpr Choice list[] = {
-      {"all", SideChoice::all}, {"u0", SideChoice::u0, "where u is least; of a curve, its beginning"},
-      {"u1", SideChoice::u1},   {"v0", SideChoice::v0},
-      {"v1", SideChoice::v1},   {"w0", SideChoice::w0, "of a volume"},
-      {"w1", SideChoice::w1}};
+  static constexpr Choice list[] = {{"all", SideChoice::all, "every side"},
+                                    {"u0", SideChoice::u0, "where u is least; of a curve, its beginning"},
+                                    {"u1", SideChoice::u1, "where it is greatest; of a curve, its end"},
+                                    {"v0", SideChoice::v0, "where v is least"},
+                                    {"v1", SideChoice::v1, "where it is greatest"},
+                                    {"w0", SideChoice::w0, "of a volume, where w is least"},
+                                    {"w1", SideChoice::w1, "where it is greatest"}};
   return list;
 }
 
 std::span<const Choice> choices(EdgeCondition) {
   static constexpr Choice list[] = {
-      {"position", EdgeCondition::position},
+      {"position", EdgeCondition::position, "where it is"},
       {"clamped", EdgeCondition::clamped, "with its tangent planes"},
       {"curvature", EdgeCondition::curvature, "with its curvatures too"},
       {"free", EdgeCondition::free, "not held; an edge of a face follows"},

@@ -46,23 +46,24 @@ void describe(EditToolCommand& c, Fields& fields) {
   fields.add("tool", c.tool, {.help = "its name; or:", .fallback = "the only tool"});
   fields.add("name", c.name, {.help = "its name", .fallback = "the only tool"});
   fields.add("shape", c.shape,
-             {.help = "another shape: measures that both shapes have are kept, the others are those of a new tool"});
+             {.help = "another shape: measures that both shapes have are kept, the others are those of a new tool",
+              .choices = shape_choices()});
   add_measures(c.measures, fields, "as it was");
   fields.add("axis", c.axis,
              {.help = "new direction of its own z axis, reached the shortest way, without twist about that axis; or:"});
   fields.add("orientation", c.orientation, as_of_tool);
-  fields.add("scale", c.scale, {.help = "as for `tool`; replaces the previous scale"});
+  fields.add("scale", c.scale, {.help = "as for `tool`; replaces the previous scale", .range = above(0)});
   fields.add("position", c.position, length);
-  fields.add("at", c.at, {.help = "as for `tool`", .unit = Unit::fraction});
+  fields.add("at", c.at, {.help = "as for `tool`", .unit = Unit::fraction, .range = between(0, 1)});
   fields.add("middle", c.middle, as_of_tool);
   fields.add("mode", c.mode, {.help = "how it acts; the stiffness does not change"});
-  fields.add("stiffness", c.stiffness, as_of_tool);
-  fields.add("range", c.range, length);
+  fields.add("stiffness", c.stiffness, {.help = "as for `tool`", .range = between(0, max_tool_stiffness)});
+  fields.add("range", c.range, {.help = "as for `tool`", .unit = Unit::length, .range = at_least(0)});
   fields.add("direction", c.direction, {.help = "of proximity"});
   fields.add("touches", c.touches, as_of_tool);
   fields.add("rigid", c.rigid, as_of_tool);
-  fields.add("friction", c.friction, as_of_tool);
-  fields.add("plasticity", c.plasticity, as_of_tool);
+  fields.add("friction", c.friction, {.help = "as for `tool`", .range = at_least(0)});
+  fields.add("plasticity", c.plasticity, {.help = "as for `tool`", .unit = Unit::fraction, .range = between(0, 1)});
   fields.add("relative", c.relative, {.help = "lengths and position of this command are fractions of the diagonal"});
 }
 
@@ -70,7 +71,6 @@ Expected<void> execute(const EditToolCommand& c, Act& act) {
   if (c.tool && c.name && *c.tool != *c.name) {
     return input_error("tool and name are different", "name", "give one of them: tools are not renamed");
   }
-  if (auto done = check_ranges(type_of<EditToolCommand>(), &c); !done) return done;
   auto found = find_tool(act, c.tool ? c.tool : c.name);
   if (!found) return std::unexpected(found.error());
   Tool edited = **found;

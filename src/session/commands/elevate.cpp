@@ -10,12 +10,11 @@ namespace knead {
 
 void describe(ElevateCommand& c, Fields& fields) {
   fields.name("elevate", "raise the degree without changing the shape");
-  fields.add("by", c.by, {.help = "in u and in v"});
+  fields.add("by", c.by, {.help = "in u and in v", .range = at_least(0)});
 }
 
 Expected<void> execute(const ElevateCommand& c, Act& act) {
   if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
-  if (c.by[0] < 0 || c.by[1] < 0) return input_error("a degree cannot be lowered", "by", "use numbers >= 0");
   for (int index : act.state.selection()) {
     auto& s = act.state.surfaces[static_cast<std::size_t>(index)];
     auto done = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {

@@ -51,31 +51,20 @@ void describe(EvolveCommand& c, Fields& fields) {
   fields.name("evolve", "what steps do; static solves at once");
   fields.add("mode", c.evolution.mode, {.help = "what a step solves"});
   fields.add("lambda", c.evolution.lambda,
-             {.help = "acm: λ ≥ 0, inverse step size: small goes straight to equilibrium, large creeps. 0 requires "
-                      "that something is held"});
-  fields.add("time_step", c.evolution.time_step, {.help = "dynamic: time per step"});
+             {.help = "acm: λ, inverse step size: small goes straight to equilibrium, large creeps. 0 requires "
+                      "that something is held",
+              .range = at_least(0)});
+  fields.add("time_step", c.evolution.time_step, {.help = "dynamic: time per step", .range = above(0)});
   fields.add("weight", c.evolution.weight, {.help = "acm: the weights of a step"});
   fields.add("route", c.evolution.route, {.help = "how tool forces are integrated"});
   fields.add("accuracy", c.evolution.accuracy, {.help = "how exactly steps in contact are solved"});
   fields.add("solver", c.evolution.solver, {.help = "how the systems of steps are solved"});
-  fields.add(
-      "energy_tolerance", c.evolution.energy_tolerance,
-      {.help = "rational shapes: the largest error of an entry of the energy's matrix, relative to its diagonal"});
+  fields.add("energy_tolerance", c.evolution.energy_tolerance,
+             {.help = "rational shapes: the largest error of an entry of the energy's matrix, relative to its diagonal",
+              .range = between(1e-14, 0.1)});
 }
 
 Expected<void> execute(const EvolveCommand& c, Act& act) {
-  if (!(std::isfinite(c.evolution.lambda) && c.evolution.lambda >= 0)) {
-    return input_error(fmt::format("{} is not a step parameter", c.evolution.lambda), "lambda",
-                       "use a finite number >= 0");
-  }
-  if (!(std::isfinite(c.evolution.time_step) && c.evolution.time_step > 0)) {
-    return input_error(fmt::format("{} is not a time step", c.evolution.time_step), "time_step",
-                       "use a finite number > 0");
-  }
-  if (!(c.evolution.energy_tolerance >= 1e-14 && c.evolution.energy_tolerance <= 0.1)) {
-    return input_error(fmt::format("{} is not a tolerance of energies", c.evolution.energy_tolerance),
-                       "energy_tolerance", "use a number from 1e-14 to 0.1");
-  }
   if (c.evolution.mode == Evolution::stationary) {
     if (auto made = run(act, {.evolution = c.evolution}); !made) return std::unexpected(made.error());
   }

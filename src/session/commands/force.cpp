@@ -27,11 +27,15 @@ void describe(ForceCommand& c, Fields& fields) {
   fields.add("at", c.at,
              {.help = "`[s, t]`: the surface point, of a curve `[s]`, of a volume `[s, t, r]`; of all kinds but line "
                       "and moment",
-              .unit = Unit::fraction});
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
   fields.add("to", c.to, {.help = "`[x, y, z]`: of springs and volcanoes", .unit = Unit::length});
-  fields.add("strength", c.strength, {.help = "spring constant, or k of the volcano's k/r²"});
+  fields.add("strength", c.strength,
+             {.help = "spring constant, or k of the volcano's k/r²", .range = between(0, max_tool_stiffness)});
   fields.add("core", c.core,
-             {.help = "distance within which the force of a volcano no longer grows", .unit = Unit::length});
+             {.help = "distance within which the force of a volcano no longer grows",
+              .unit = Unit::length,
+              .range = above(0)});
   fields.add(
       "vector", c.vector,
       {.help = "`[x, y, z]`: of a dead force, or of a line force per length; lengths and forces are those of the "
@@ -68,15 +72,7 @@ Expected<void> check_kind(const ForceCommand& f) {
   return {};
 }
 
-Expected<void> check_force(const ForceCommand& c) {
-  if (auto complete = check_kind(c); !complete) return complete;
-  if (!(c.strength >= 0 && c.strength <= max_tool_stiffness)) {
-    return input_error(fmt::format("{} is not a strength", c.strength), "strength",
-                       fmt::format("use a number from 0 to {}", max_tool_stiffness));
-  }
-  if (std::isfinite(c.core) && c.core > 0) return {};
-  return input_error(fmt::format("{} is not a length", c.core), "core", "use a number > 0");
-}
+Expected<void> check_force(const ForceCommand& c) { return check_kind(c); }
 
 }  // namespace
 

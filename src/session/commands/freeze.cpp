@@ -11,7 +11,10 @@ namespace knead {
 void describe(FreezeCommand& c, Fields& fields) {
   fields.name("freeze", "hold a region, rounded outward to whole knot spans");
   fields.add("region", c.freeze.region,
-             {.help = "`[[s0, s1], [t0, t1]]`", .unit = Unit::fraction, .presence = Presence::required});
+             {.help = "`[[s0, s1], [t0, t1]]`",
+              .unit = Unit::fraction,
+              .range = between(0, 1),
+              .presence = Presence::required});
 }
 
 Expected<void> execute(const FreezeCommand& c, Act& act) {

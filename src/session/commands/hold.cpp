@@ -12,7 +12,7 @@
 namespace knead {
 
 std::span<const Choice> choices(HoldMode) {
-  static constexpr Choice names[] = {{"rows", HoldMode::rows},
+  static constexpr Choice names[] = {{"rows", HoldMode::rows, "outer rows of control points"},
                                      {"trim", HoldMode::trim, "the edges of the faces"},
                                      {"trim-g1", HoldMode::trim_g1, "with their tangent planes"},
                                      {"trim-g2", HoldMode::trim_g2, "with their curvatures too"},
@@ -22,7 +22,7 @@ std::span<const Choice> choices(HoldMode) {
 
 void describe(HoldCommand& c, Fields& fields) {
   fields.name("hold", "hold the edges of faces, or the outer rows of control points on every side");
-  fields.add("rows", c.rows, {.help = "number of rows in mode `rows`; 0 holds none"});
+  fields.add("rows", c.rows, {.help = "number of rows in mode `rows`; 0 holds none", .range = at_least(0)});
   fields.add("mode", c.mode, {.help = "what is held", .fallback = "`\"rows\"`"});
   fields.add("all", c.all, {.help = "for every surface of the document, not only the selected ones"});
 }
@@ -51,7 +51,6 @@ Expected<void> execute(const HoldCommand& c, Act& act) {
     if (auto some = some_selected(act); !some) return some;
     if (act.state.body && holds_trims(mode)) return of_surfaces(act, "faces", R"(use "mode":"rows")");
   }
-  if (c.rows < 0) return input_error(fmt::format("{} rows cannot be held", c.rows), "rows", "use 0 or more");
   const auto hold = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
     s.hold_rows = mode == HoldMode::rows ? c.rows : 0;
     if constexpr (D == 2) hold_edges(s, mode);

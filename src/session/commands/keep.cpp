@@ -7,12 +7,17 @@ namespace knead {
 void describe(KeepCommand& c, Fields& fields) {
   fields.name("keep", "hold a curve of the surface");
   fields.add("u", c.keep.u,
-             {.help = "the line u = const at this fraction of the domain, exactly", .unit = Unit::fraction});
-  fields.add("v", c.keep.v, {.help = "the line v = const", .unit = Unit::fraction});
+             {.help = "the line u = const at this fraction of the domain, exactly",
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
+  fields.add("v", c.keep.v, {.help = "the line v = const", .unit = Unit::fraction, .range = between(0, 1)});
   fields.add("curve", c.keep.curve,
-             {.help = "`[[s, t], …]`, a polyline in the domain, to the tolerance", .unit = Unit::fraction});
+             {.help = "`[[s, t], …]`, a polyline in the domain, to the tolerance",
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
   fields.add("tolerance", c.keep.tolerance,
-             {.help = "of a polyline: it moves by no more than this share of the motion around it"});
+             {.help = "of a polyline: it moves by no more than this share of the motion around it",
+              .range = {.least = 0, .most = 1, .open_below = true}});
 }
 
 Expected<void> execute(const KeepCommand& c, Act& act) {

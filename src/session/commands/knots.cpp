@@ -9,7 +9,8 @@ namespace knead {
 
 void describe(KnotsCommand& c, Fields& fields) {
   fields.name("knots", "set knots for the same control points: the shape changes permanently");
-  fields.add("direction", c.direction, {.help = "`\"u\"` or `\"v\"`", .presence = Presence::required});
+  fields.add("direction", c.direction,
+             {.help = "whose", .presence = Presence::required, .choices = surface_directions});
   fields.add(
       "knots", c.knots,
       {.help = "the whole knot vector, of the same length, with multiplicities up to the degree inside the domain, "
@@ -21,9 +22,6 @@ Expected<void> execute(const KnotsCommand& c, Act& act) {
   auto surface = selected_alone(act);
   if (!surface) return std::unexpected(surface.error());
   SceneSurface& s = **surface;
-  if (c.direction != "u" && c.direction != "v") {
-    return input_error(fmt::format("\"{}\" is not a direction", c.direction), "direction", "use u or v");
-  }
   const int d = c.direction == "u" ? 0 : 1;
   const KnotVector& before = s.current->knots(d);
   const std::size_t count = before.knots().size();

@@ -12,6 +12,10 @@
 
 namespace knead {
 
+static constexpr Choice block_faces[] = {{"u0", "the first end along x"}, {"u1", "the last"},
+                                         {"v0", "the first along y"},     {"v1", "the last"},
+                                         {"w0", "the first along z"},     {"w1", "the last"}};
+
 void describe(LatticeCommand& c, Fields& fields) {
   fields.name("lattice", "deform the surfaces with an elastic block of space that the tools act on");
   fields.add("net", c.net, {.help = "control points of the block along x, y, z"});
@@ -19,12 +23,9 @@ void describe(LatticeCommand& c, Fields& fields) {
   fields.add("margin", c.margin,
              {.help = "how far the block reaches beyond the control points, as a share of their diagonal",
               .unit = Unit::fraction});
-  fields.add("steps", c.steps, {.help = "number of steps"});
-  fields.add("lambda", c.lambda, {.help = "inverse step size"});
-  fields.add(
-      "hold", c.hold,
-      {.help =
-           "faces of the block that stay: `\"u0\"`, `\"u1\"` (ends along x), `\"v0\"`, `\"v1\"`, `\"w0\"`, `\"w1\"`"});
+  fields.add("steps", c.steps, {.help = "number of steps", .range = between(1, max_steps)});
+  fields.add("lambda", c.lambda, {.help = "inverse step size", .range = at_least(0)});
+  fields.add("hold", c.hold, {.help = "faces of the block that stay", .choices = block_faces});
   fields.add("which", c.which,
              {.help = "control points of the block that are moved by hand; that of indices i, j, k along x, y, z is "
                       "`(i · net[1] + j) · net[2] + k`"});
@@ -85,7 +86,6 @@ Expected<Points> moved_by_hand(const LatticeCommand& c, Points points) {
 Expected<void> execute(const LatticeCommand& c, Act& act) {
   auto surface = selected(act);
   if (!surface) return std::unexpected(surface.error());
-  if (auto few = check_steps(c.steps, "steps"); !few) return few;
   const bool by_hand = !c.which.empty() || c.by.has_value();
   if (by_hand && !c.hold.empty()) return input_error("faces hold against tools only", "hold", "leave it out, or which");
   if (c.again && !by_hand)

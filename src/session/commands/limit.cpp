@@ -12,7 +12,8 @@ namespace knead {
 
 void describe(LimitCommand& c, Fields& fields) {
   fields.name("limit", "limit the displacement of every point from the surface as opened");
-  fields.add("distance", c.distance, {.help = "a length > 0", .unit = Unit::length, .fallback = "no limit"});
+  fields.add("distance", c.distance,
+             {.help = "a length", .unit = Unit::length, .range = above(0), .fallback = "no limit"});
   fields.add("relative", c.relative, {.help = "`distance` is a fraction of the diagonal"});
 }
 
@@ -20,10 +21,6 @@ Expected<void> execute(const LimitCommand& c, Act& act) {
   if (!c.distance) {
     act.state.limit.reset();
     return {};
-  }
-  if (!(std::isfinite(*c.distance) && *c.distance > 0)) {
-    return input_error(fmt::format("{} is not a distance", *c.distance), "distance",
-                       "use a number > 0, or leave it out");
   }
   for (const SceneSurface& s : act.state.surfaces) {
     if (same_basis(*s.opened, *s.current)) continue;

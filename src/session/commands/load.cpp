@@ -40,7 +40,6 @@ Expected<void> execute(const LoadCommand& c, Act& act) {
   if (c.load.tolerance && !c.load.formula) {
     return input_error("a tolerance is given without a formula", "tolerance", "leave it out");
   }
-  if (auto checked = check_ranges(type_of<LoadCommand>(), &c); !checked) return checked;
   if (c.load.varies()) {
     auto surface = selected(act);
     if (!surface) return std::unexpected(surface.error());

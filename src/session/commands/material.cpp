@@ -199,7 +199,7 @@ Expected<void> check_fields(const MaterialCommand& c) {
   if (c.preset && (c.region || c.coefficient)) {
     return input_error("a preset is for whole surfaces", "preset", "leave out region and coefficient");
   }
-  return check_ranges(type_of<MaterialCommand>(), &c);
+  return {};
 }
 
 /// What strokes leave after the command.
@@ -270,6 +270,12 @@ std::optional<MaterialPreset> preset_of(const SceneSurface& s) {
   return std::nullopt;
 }
 
+static constexpr Choice coefficients[] = {{"alpha11", "stretch"},  {"alpha12", "stretch"},
+                                          {"alpha22", "stretch"},  {"beta11", "bend"},
+                                          {"beta12", "bend"},      {"beta22", "bend"},
+                                          {"mass", "per area"},    {"damping", "force per velocity and area"},
+                                          {"young", "of a shell"}, {"thickness", "of a shell"}};
+
 void describe(MaterialCommand& c, Fields& fields) {
   fields.name("material", "resistance to stretching and bending, in the order 11, 12, 22; fields not given stay");
   fields.add(
@@ -277,17 +283,21 @@ void describe(MaterialCommand& c, Fields& fields) {
       {.help = "stretch; α11, α22 ≥ 0 and α12² ≤ α11 α22; of a curve `[11]`, of a volume `[11, 12, 13, 22, 23, 33]`",
        .fallback = "as it was"});
   fields.add("beta", c.beta, {.help = "bend; none negative", .fallback = "as it was"});
-  fields.add("mass", c.mass, {.help = "per area, for `evolve` dynamic and `load` gravity", .fallback = "as it was"});
-  fields.add("damping", c.damping,
-             {.help = "force per velocity and area, for `evolve` dynamic", .fallback = "as it was"});
+  fields.add(
+      "mass", c.mass,
+      {.help = "per area, for `evolve` dynamic and `load` gravity", .range = at_least(0), .fallback = "as it was"});
+  fields.add(
+      "damping", c.damping,
+      {.help = "force per velocity and area, for `evolve` dynamic", .range = at_least(0), .fallback = "as it was"});
   fields.add("region", c.region,
              {.help = "`[[s0, s1], [t0, t1]]`: only there; what was set elsewhere stays",
               .unit = Unit::fraction,
+              .range = between(0, 1),
               .fallback = "everywhere"});
   fields.add("falloff", c.falloff, {.help = "width of the border of the region, in fractions", .unit = Unit::fraction});
-  fields.add("coefficient", c.coefficient,
-             {.help = "`alpha11` … `beta22`, `mass` or `damping`, of a shell `young` or `thickness`: only this one, by "
-                      "samples or a formula; `alpha` and `beta` are then ignored"});
+  fields.add(
+      "coefficient", c.coefficient,
+      {.help = "only this one, by samples or a formula; `alpha` and `beta` are then ignored", .choices = coefficients});
   fields.add("counts", c.counts, {.help = "`[m, n]` samples over the domain, its ends included"});
   fields.add("samples", c.samples,
              {.help = "m n numbers, along v first, linear in between; all that is convex coefficient by coefficient"});
@@ -315,11 +325,17 @@ void describe(MaterialCommand& c, Fields& fields) {
               .fallback = "that of the preset"});
   fields.add("lengths", c.lengths, {.help = "what `yield` and `locality` count", .fallback = "`radii`"});
   fields.add("model", c.model, {.help = "of whole surfaces", .fallback = "as it was, at first `linear`"});
-  fields.add("young", c.young, {.help = "of a shell: Young's modulus, force per area; all in units of the file"});
-  fields.add("poisson", c.poisson, {.help = "of a shell: Poisson's ratio", .fallback = "as it was, at first 0"});
-  fields.add("thickness", c.thickness, {.help = "of a shell", .unit = Unit::length});
+  fields.add("young", c.young,
+             {.help = "of a shell: Young's modulus, force per area; all in units of the file", .range = above(0)});
+  fields.add("poisson", c.poisson,
+             {.help = "of a shell: Poisson's ratio",
+              .range = {.least = -1, .most = 0.5, .open_below = true},
+              .fallback = "as it was, at first 0"});
+  fields.add("thickness", c.thickness, {.help = "of a shell", .unit = Unit::length, .range = above(0)});
   fields.add("density", c.density,
-             {.help = "of a shell: mass per volume, for `load` gravity", .fallback = "as it was, at first 0"});
+             {.help = "of a shell: mass per volume, for `load` gravity",
+              .range = at_least(0),
+              .fallback = "as it was, at first 0"});
   fields.add(
       "w1", c.w1,
       {.help = "of `fundamental`: weights of the first form, 11, 12, 22, or one number for all; per du dv of the "

@@ -15,7 +15,8 @@ void describe(MeasureCommand& c, Fields& fields) {
   fields.add("at", c.at,
              {.help = "`[s, t]`: a point of the surface; or `\"middle\"`, the visible point farthest "
                       "from all edges",
-              .unit = Unit::fraction});
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
 }
 

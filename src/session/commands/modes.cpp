@@ -11,12 +11,11 @@ namespace knead {
 
 void describe(ModesCommand& c, Fields& fields) {
   fields.name("modes", "report the lowest natural frequencies about the present state");
-  fields.add("count", c.count, {.help = "number of modes; rigid ones count too"});
+  fields.add("count", c.count, {.help = "number of modes; rigid ones count too", .range = between(1, most_modes)});
 }
 
 Expected<void> execute(const ModesCommand& c, Act& act) {
   if (auto chosen = selected(act); !chosen) return std::unexpected(chosen.error());
-  if (auto few = check_modes(c.count); !few) return few;
   auto found = natural_modes(act.state, c.count);
   if (!found) return std::unexpected(found.error());
   act.state.modes.clear();

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "../new_body.hpp"
-#include "exchange/step/write/text.hpp"
+#include "exchange/length_units.hpp"
 #include "knead/spline/revolution.hpp"
 #include "session/acts/act.hpp"
 #include "session/acts/limits.hpp"
@@ -122,11 +122,6 @@ Expected<Surface> turned(const NewCommand& c) {
 }
 
 Expected<Surface> shape_of(const NewCommand& c) {
-  static constexpr std::array<std::string_view, 5> shapes = {"plane", "cylinder", "sphere", "torus", "revolution"};
-  if (std::ranges::find(shapes, c.shape) == shapes.end()) {
-    return input_error(fmt::format("\"{}\" is not a shape", c.shape), "shape",
-                       "the shapes are: plane, cylinder, sphere, torus, revolution, curve, volume");
-  }
   if (c.knots_w) return input_error("surfaces have two directions", "knots_w", "leave it out");
   if (auto counted = check_counts(c, 2); !counted) return std::unexpected(counted.error());
   if (c.shape == "plane") return net_of(c);
@@ -137,55 +132,74 @@ Expected<Surface> shape_of(const NewCommand& c) {
   return turned(c);
 }
 
-struct Measures {
-  std::string_view shape;
-  std::vector<std::string_view> fields;
-};
-
 }  // namespace
 
-std::optional<Error> inapplicable(const NewCommand& c, std::string_view field) {
-  static const std::vector<Measures> shapes = {{"plane", {"size"}},
-                                               {"cylinder", {"radius", "height"}},
-                                               {"sphere", {"radius"}},
-                                               {"torus", {"radius", "minor"}},
-                                               {"revolution", {"profile"}},
-                                               {"curve", {"form", "size", "radius", "height", "turns"}},
-                                               {"volume", {"form", "size", "radius", "height"}}};
-  if (field == "size" && !c.size) return std::nullopt;
-  const auto has = [field](const Measures& m) { return std::ranges::find(m.fields, field) != m.fields.end(); };
-  const auto own = std::ranges::find(shapes, c.shape, &Measures::shape);
-  if (own == shapes.end() || has(*own) || std::ranges::none_of(shapes, has)) return std::nullopt;
-  return no_such_measure(own->shape, field, own->fields);
+static constexpr Choice made_shapes[] = {{"plane", "a flat sheet in z = 0 with a corner in the origin"},
+                                         {"cylinder", "without its ends, the lower one in z = 0"},
+                                         {"sphere", "about the origin, v from pole to pole"},
+                                         {"torus", "about the origin"},
+                                         {"revolution", "of a profile about z"},
+                                         {"curve", "of a `form`"},
+                                         {"volume", "of a `form`"}};
+
+/// What has a measure.
+static constexpr std::string_view with_size[] = {"plane", "curve", "volume"}, with_form[] = {"curve", "volume"},
+                                  with_radius[] = {"cylinder", "sphere", "torus", "curve", "volume"},
+                                  with_height[] = {"cylinder", "curve", "volume"}, with_minor[] = {"torus"},
+                                  with_turns[] = {"curve"}, with_profile[] = {"revolution"};
+static constexpr OnlyWith of_shape(std::span<const std::string_view> values) { return {"shape", values}; }
+
+static std::span<const Choice> unit_choices() {
+  static const auto texts = [] {
+    std::vector<std::string> sizes;
+    for (const KnownLengthUnit& unit : known_length_units()) sizes.push_back(fmt::format("{} mm", unit.millimetres));
+    return sizes;
+  }();
+  static const auto list = [] {
+    std::vector<Choice> units;
+    for (const KnownLengthUnit& unit : known_length_units()) units.emplace_back(unit.name, texts[units.size()]);
+    return units;
+  }();
+  return list;
 }
 
 void describe(NewCommand& c, Fields& fields) {
   fields.name("new", "make a surface, a curve or a volume, in a document without a file, and select it");
-  fields.add("shape", c.shape,
-             {.help = "`\"plane\"`: a flat sheet in z = 0 with a corner in the origin. `\"cylinder\"`: without its "
-                      "ends, the lower one in z = 0. `\"sphere\"`: about the origin, v from pole to pole. `\"torus\"`: "
-                      "about the origin. `\"revolution\"` of a profile. `\"curve\"`, `\"volume\"`: of a `form`"});
-  fields.add("form", c.form, {.help = "of a curve or a volume", .fallback = "`\"line\"`, `\"box\"`"});
+  fields.add("shape", c.shape, {.help = "what is made", .choices = made_shapes});
+  fields.add("form", c.form,
+             {.help = "of a curve or a volume", .fallback = "`\"line\"`, `\"box\"`", .only = of_shape(with_form)});
   fields.add(
       "size", c.size,
       {.help = "of a plane: width along x (u) and height along y (v); of a line along x; of a box along x, y, z; "
                "one number for all",
        .unit = Unit::length,
+       .range = above(0),
        .fallback = "`1`",
-       .uniform = true});
+       .uniform = true,
+       .only = of_shape(with_size)});
   fields.add("radius", c.radius,
              {.help = "of cylinder, sphere, circle and helix; of a torus, to the middle of its tube",
               .unit = Unit::length,
-              .fallback = "`0.5`"});
+              .range = above(0),
+              .fallback = "`0.5`",
+              .only = of_shape(with_radius)});
   fields.add("height", c.height,
-             {.help = "of a cylinder or a helix", .unit = Unit::length, .fallback = "twice the radius"});
-  fields.add("turns", c.turns, {.help = "of a helix", .range = above(0), .fallback = "`3`"});
+             {.help = "of a cylinder or a helix",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "twice the radius",
+              .only = of_shape(with_height)});
+  fields.add("turns", c.turns,
+             {.help = "of a helix", .range = above(0), .fallback = "`3`", .only = of_shape(with_turns)});
   fields.add("minor", c.minor,
              {.help = "tube radius of a torus, less than `radius`",
               .unit = Unit::length,
-              .fallback = "a quarter of the radius"});
+              .range = above(0),
+              .fallback = "a quarter of the radius",
+              .only = of_shape(with_minor)});
   fields.add("profile", c.profile,
-             {.help = "of a revolution: `[[r, z], …]`, r ≥ 0, control points of a B-spline of degree `degree[1]`"});
+             {.help = "of a revolution: `[[r, z], …]`, r ≥ 0, control points of a B-spline of degree `degree[1]`",
+              .only = of_shape(with_profile)});
   fields.add("degree", c.degree,
              {.help = "in u and v, of a volume also w; one number for all; only v for the surfaces cylinder and "
                       "revolution; what is round has degree 2 around",
@@ -210,9 +224,9 @@ void describe(NewCommand& c, Fields& fields) {
               .fallback = "none"});
   fields.add("position", c.position, {.help = "where the origin of the shape goes", .unit = Unit::length});
   fields.add("unit", c.unit,
-             {.help = "`mm`, `um`, `cm`, `dm`, `m`, `km`, `inch`, `foot`, `yard`, `mile`, `mil` or `microinch`; a "
-                      "document has one",
-              .fallback = "that of existing surfaces, otherwise `\"mm\"`"});
+             {.help = "of lengths; a document has one",
+              .fallback = "that of existing surfaces, otherwise `\"mm\"`",
+              .choices = unit_choices()});
   fields.add("name", c.name, {.help = "its label in the file", .fallback = "its kind"});
 }
 
@@ -226,9 +240,6 @@ Expected<void> execute(const NewCommand& c, Act& act) {
                               : act.state.surfaces.empty() ? common_of(act.state.bodies.front()).unit
                                                            : act.state.surfaces.front().unit;
   const std::string unit = c.unit.value_or(present);
-  if (!is_length_unit(unit)) {
-    return input_error(fmt::format("\"{}\" is not a unit", unit), "unit", "use " + list_of_length_units());
-  }
   if (unit != present && !first) {
     return input_error(fmt::format("the surfaces of this document are in {}", present), "unit",
                        "give lengths in that unit: a file has one");

@@ -41,7 +41,4 @@ struct NewCommand {
 Expected<void> execute(const NewCommand& c, Act& act);
 void describe(NewCommand& c, Fields& fields);
 
-/// The error for a measure that the shape of the command does not have; nothing for other fields.
-[[nodiscard]] std::optional<Error> inapplicable(const NewCommand& c, std::string_view field);
-
 }  // namespace knead

@@ -19,7 +19,9 @@ void describe(PinCommand& c, Fields& fields) {
                "or `at`. They are identified by number, "
                "so the net cannot be refined while they are pinned"});
   fields.add("at", c.at,
-             {.help = "`[s, t]`: a surface point; of a curve `[s]`, of a volume `[s, t, r]`", .unit = Unit::fraction});
+             {.help = "`[s, t]`: a surface point; of a curve `[s]`, of a volume `[s, t, r]`",
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
   fields.add("to", c.to,
              {.help = "`[x, y, z]` where that point goes", .unit = Unit::length, .fallback = "where it is"});
   fields.add("components", c.components,

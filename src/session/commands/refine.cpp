@@ -26,7 +26,9 @@ std::span<const Choice> choices(RefinePermission) {
 
 void describe(RefineCommand& c, Fields& fields) {
   fields.name("refine", "refine the net without changing the shape");
-  fields.add("region", c.region, {.help = "`[[s0, s1], [t0, t1]]`: halves the spans there", .unit = Unit::fraction});
+  fields.add(
+      "region", c.region,
+      {.help = "`[[s0, s1], [t0, t1]]`: halves the spans there", .unit = Unit::fraction, .range = between(0, 1)});
   fields.add("under", c.under, {.help = "name of a tool: halves the spans that it reaches"});
   fields.add("knots_u", c.knots_u, {.help = "knots to insert in u, as parameters of the file"});
   fields.add("knots_v", c.knots_v, {.help = "knots to insert in v"});

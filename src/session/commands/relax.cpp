@@ -64,12 +64,18 @@ void add_mirror_images(const SceneSurface& surface, std::vector<bool>& free) {
 
 void describe(RelaxCommand& c, Fields& fields) {
   fields.name("relax", "smooth the surface around a point");
-  fields.add("at", c.at, {.help = "`[s, t]`: the point", .unit = Unit::fraction, .presence = Presence::required});
+  fields.add(
+      "at", c.at,
+      {.help = "`[s, t]`: the point", .unit = Unit::fraction, .range = between(0, 1), .presence = Presence::required});
   fields.add("radius", c.radius,
-             {.help = "how far it reaches, a length", .unit = Unit::length, .fallback = "a tenth of the diagonal"});
+             {.help = "how far it reaches, a length",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "a tenth of the diagonal"});
   fields.add("strength", c.strength,
-             {.help = "about the share removed of a bump (1 − ρ²/r²)² on a sheet, > 0, up to 1: λ = 40 (1 − "
-                      "strength) / (3 r² strength); smaller bumps lose more"});
+             {.help = "about the share removed of a bump (1 − ρ²/r²)² on a sheet: λ = 40 (1 − "
+                      "strength) / (3 r² strength); smaller bumps lose more",
+              .range = {.least = 0, .most = 1, .open_below = true}});
   fields.add("surface", c.surface, {.help = "id of the surface of the point", .fallback = "the first selected one"});
   fields.add("relative", c.relative, {.help = "`radius` is a fraction of the diagonal"});
   describe_allowance(c.allow, fields);
@@ -79,9 +85,6 @@ Expected<void> execute(const RelaxCommand& c, Act& act) {
   const auto chosen = selected_surface(act, c.surface);
   if (!chosen) return std::unexpected(chosen.error());
   const SceneSurface& surface = act.state.surfaces[static_cast<std::size_t>(*chosen)];
-  if (!(c.strength > 0 && c.strength <= 1)) {
-    return input_error(fmt::format("{} is not a strength", c.strength), "strength", "use a number > 0, up to 1");
-  }
   const auto length = diagonal(act);
   if (!length) return std::unexpected(length.error());
   const double radius = c.radius ? *c.radius * (c.relative ? *length : 1) : 0.1 * *length;

@@ -9,7 +9,13 @@
 namespace knead {
 namespace {
 
-constexpr std::string_view kinds[] = {"hold", "pins", "edges", "freeze", "keep", "symmetry", "mask"};
+constexpr Choice kinds[] = {{"hold", "rows and edges of faces"},
+                            {"pins", "control points and points"},
+                            {"edges", "edges, ends and sides"},
+                            {"freeze", "regions"},
+                            {"keep", "curves"},
+                            {"symmetry", "at edges and between mirror images"},
+                            {"mask", "what brushes have painted"}};
 
 /// The name of a constraint in `release`.
 struct KindOf {
@@ -27,29 +33,15 @@ struct KindOf {
   std::string_view operator()(const TrimEdgeHold&) const { return "edges"; }
 };
 
-/// Error (input): something is named that cannot be released.
-Expected<void> check_release(const ReleaseCommand& c) {
-  const std::vector<std::string> what = c.what.value_or(std::vector<std::string>{});
-  for (std::size_t k = 0; k < what.size(); ++k) {
-    if (std::ranges::find(kinds, what[k]) != std::end(kinds)) continue;
-    return input_error(fmt::format("\"{}\" cannot be released", what[k]), fmt::format("what[{}]", k),
-                       "use hold, pins, edges, freeze, keep, symmetry or mask");
-  }
-  return {};
-}
-
 }  // namespace
 
 void describe(ReleaseCommand& c, Fields& fields) {
   fields.name("release", "free what is held, pinned, frozen, kept or masked");
-  fields.add(
-      "what", c.what,
-      {.help = "some of `hold`, `pins`, `edges`, `freeze`, `keep`, `symmetry`, `mask`", .fallback = "all of them"});
+  fields.add("what", c.what, {.help = "what of it", .fallback = "all of it", .choices = kinds});
 }
 
 Expected<void> execute(const ReleaseCommand& c, Act& act) {
   if (auto some = some_selected(act); !some) return some;
-  if (auto known = check_release(c); !known) return known;
   const auto meant = [&](std::string_view kind) {
     return !c.what || std::ranges::find(*c.what, kind) != c.what->end();
   };

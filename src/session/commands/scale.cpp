@@ -9,7 +9,7 @@ namespace knead {
 void describe(ScaleCommand& c, Fields& fields) {
   fields.name("scale", "scale a tool along its own axes");
   fields.add("tool", c.tool, {.help = "its name", .fallback = "the only tool"});
-  fields.add("by", c.by, {.help = "`[a, b, c]`, factors > 0", .presence = Presence::required});
+  fields.add("by", c.by, {.help = "`[a, b, c]`, factors", .range = above(0), .presence = Presence::required});
 }
 
 Expected<void> execute(const ScaleCommand& c, Act& act) {
@@ -17,7 +17,6 @@ Expected<void> execute(const ScaleCommand& c, Act& act) {
   if (!tool) return std::unexpected(tool.error());
   Placement at = (*tool)->shape.placement();
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!(c.by[k] > 0)) return input_error(fmt::format("{} is not a factor", c.by[k]), "by", "use three numbers > 0");
     at.scale[k] *= c.by[k];
   }
   auto scaled = PlacedShape::create((*tool)->shape.shape(), at);

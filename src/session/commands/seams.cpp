@@ -12,6 +12,7 @@ void describe(SeamsCommand& c, Fields& fields) {
   fields.add("tolerance", c.seams.tolerance,
              {.help = "how far apart the edges of a seam may be, a length",
               .unit = Unit::length,
+              .range = above(0),
               .fallback = "1e-4 of the diagonal of the selected surfaces"});
   fields.add(
       "smooth", c.seams.smooth,
@@ -20,9 +21,6 @@ void describe(SeamsCommand& c, Fields& fields) {
 }
 
 Expected<void> execute(const SeamsCommand& c, Act& act) {
-  if (c.seams.tolerance && !(*c.seams.tolerance > 0)) {
-    return input_error(fmt::format("{} is not a tolerance", *c.seams.tolerance), "tolerance", "use a length > 0");
-  }
   act.state.seams = c.seams;
   return {};
 }

@@ -19,23 +19,22 @@ std::span<const Choice> choices(StepAllowance) {
 
 void describe(StepCommand& c, Fields& fields) {
   fields.name("step", "let the selected surfaces evolve under the tools");
-  fields.add("count", c.count, {.help = "number of steps"});
-  fields.add("lambda", c.lambda, {.help = "for these steps only", .fallback = "that of `evolve`"});
+  fields.add("count", c.count, {.help = "number of steps", .range = between(0, max_steps)});
+  fields.add("lambda", c.lambda,
+             {.help = "for these steps only", .range = at_least(0), .fallback = "that of `evolve`"});
   fields.add("weight", c.weight, {.help = "for these steps only", .fallback = "that of `evolve`"});
   fields.add("allow", c.allow, {.help = "what it does not stop or warn at"});
   fields.add("increments", c.increments,
-             {.help = "of a shell: the load is applied in this many equal parts", .fallback = "1"});
+             {.help = "of a shell: the load is applied in this many equal parts",
+              .range = between(1, max_steps),
+              .fallback = "1"});
 }
 
 Expected<void> execute(const StepCommand& c, Act& act) {
-  if (auto few = check_steps(c.count, "count", 0); !few) return few;
   EvolutionPolicy evolution = act.state.evolution;
   if (c.lambda) evolution.lambda = *c.lambda;
   if (c.weight) evolution.weight = *c.weight;
   if (act.state.body && c.increments) return of_surfaces(act, "increments");
-  if (c.increments) {
-    if (auto few = check_steps(*c.increments, "increments", 1); !few) return few;
-  }
   const auto made = run(act, {.count = c.count,
                               .evolution = evolution,
                               .increments = c.increments,

@@ -33,10 +33,11 @@ void describe(StrokeCommand& c, Fields& fields) {
              {.help = "`[[x, y, z], …]`, positions of its centre; empty to lift a tool that is down",
               .unit = Unit::length,
               .presence = Presence::required});
-  fields.add("steps", c.steps, {.help = "at each position, where the shape at the end stays"});
+  fields.add("steps", c.steps, {.help = "at each position, where the shape at the end stays", .range = at_least(1)});
   fields.add("plasticity", c.plasticity,
              {.help = "share of the displacement that becomes rest shape, of what the material lets stay",
-              .unit = Unit::fraction});
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
   fields.add("plastic", c.plastic, {.help = "when what the tool does becomes the shape", .fallback = "`\"material\"`"});
   fields.add(
       "open", c.open,
@@ -56,10 +57,7 @@ Expected<void> execute(const StrokeCommand& c, Act& act) {
   if (c.path.empty() && !act.state.stroke) {
     return input_error("the path has no positions", "path", "give one or more: [[x, y, z], ...]");
   }
-  if (auto few = check_steps(c.steps, "steps", 1, c.path.size()); !few) return few;
-  if (!(c.plasticity >= 0 && c.plasticity <= 1)) {
-    return input_error(fmt::format("{} is not a plasticity", c.plasticity), "plasticity", "use a number from 0 to 1");
-  }
+  if (auto few = check_steps(c.steps, c.path.size()); !few) return few;
   const auto length = diagonal(act);
   if (!length) return std::unexpected(length.error());
   const PlacedShape before = (*tool)->shape;

@@ -13,8 +13,9 @@ void describe(SymmetryCommand& c, Fields& fields) {
   fields.name("symmetry", "keep a symmetry");
   fields.add("edge", c.edge, {.help = "stays in the plane, the surface perpendicular to it; this or `mirror`"});
   fields.add("mirror", c.mirror,
-             {.help = "`\"u\"` or `\"v\"`: the direction along which partners lie. An asymmetric net is refined where "
-                      "`refine` permits it; otherwise the error says which knots are missing"});
+             {.help = "the direction along which partners lie. An asymmetric net is refined where `refine` permits it; "
+                      "otherwise the error says which knots are missing",
+              .choices = surface_directions});
   fields.add("point", c.point,
              {.help = "`[x, y, z]` of the plane", .unit = Unit::length, .fallback = "for `mirror`: of the best plane"});
   fields.add("normal", c.normal, {.help = "`[x, y, z]` of the plane", .fallback = "for `mirror`: of the best plane"});
@@ -27,9 +28,6 @@ Expected<void> execute(const SymmetryCommand& c, Act& act) {
     return input_error("one of edge and mirror is needed", "symmetry", "give exactly one of them");
   }
   if (c.edge && !(c.point && c.normal)) return input_error("the plane is missing", "normal", "give point and normal");
-  if (c.mirror && *c.mirror != "u" && *c.mirror != "v") {
-    return input_error(fmt::format("\"{}\" is not a direction", *c.mirror), "mirror", "use u or v");
-  }
   if (c.mirror && act.state.permission == RefinePermission::automatic) {
     // Exactly the knots that make the net symmetric.
     const int direction = *c.mirror == "u" ? 0 : 1;

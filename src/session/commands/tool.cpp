@@ -45,10 +45,6 @@ Expected<Placement> placement_of(const ToolCommand& c, double unit, Act& act) {
 
 }  // namespace
 
-std::optional<Error> inapplicable(const ToolCommand& c, std::string_view field) {
-  return no_measure_of(c.shape, field);
-}
-
 Expected<Eigen::Quaterniond> rotation_of(const std::array<double, 4>& q) {
   const Eigen::Quaterniond given(q[3], q[0], q[1], q[2]);
   const double norm = given.norm();
@@ -73,7 +69,8 @@ std::span<const Choice> choices(ToolMode) {
 }
 
 std::span<const Choice> choices(ToolDirection) {
-  static constexpr Choice list[] = {{"pull", ToolDirection::pull}, {"push", ToolDirection::push}};
+  static constexpr Choice list[] = {{"pull", ToolDirection::pull, "towards the tool's surface"},
+                                    {"push", ToolDirection::push, "away from it"}};
   return list;
 }
 
@@ -87,31 +84,35 @@ std::span<const Choice> choices(ToolTouch) {
 void describe(ToolCommand& c, Fields& fields) {
   fields.name("tool", "add a tool to the scene, or replace the one of that name");
   fields.add("name", c.name, {.help = "what `move` and `remove` call it"});
-  fields.add("shape", c.shape, {.help = shape_names()});
+  fields.add("shape", c.shape, {.help = "its form", .choices = shape_choices()});
   add_measures(c.measures, fields);
   fields.add("axis", c.axis, {.help = "direction of its own z axis; or:", .fallback = "`[0, 0, 1]`"});
   fields.add("orientation", c.orientation,
              {.help = "its rotation, a quaternion `[x, y, z, w]` of any length", .fallback = "`[0, 0, 0, 1]`"});
-  fields.add("scale", c.scale, {.help = "factors along its own axes", .fallback = "`[1, 1, 1]`"});
+  fields.add("scale", c.scale, {.help = "factors along its own axes", .range = above(0), .fallback = "`[1, 1, 1]`"});
   fields.add("position", c.position,
              {.help = "`[x, y, z]` of the centre; this or `at` is needed (a `surface` stays in place without them)",
               .unit = Unit::length});
   fields.add("at", c.at,
              {.help = "`[s, t]`: the centre on the surface as it is now; or `\"middle\"`, the visible point farthest "
                       "from all edges",
-              .unit = Unit::fraction});
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
   fields.add("mode", c.mode, {.help = "how it acts"});
-  fields.add("stiffness", c.stiffness, {.help = "k, from 0 to 1e10", .fallback = "`1e4`; `100` for proximity"});
-  fields.add("range", c.range,
-             {.help = "how far proximity reaches", .unit = Unit::length, .fallback = "half the size"});
+  fields.add("stiffness", c.stiffness,
+             {.help = "k", .range = between(0, max_tool_stiffness), .fallback = "`1e4`; `100` for proximity"});
+  fields.add(
+      "range", c.range,
+      {.help = "how far proximity reaches", .unit = Unit::length, .range = at_least(0), .fallback = "half the size"});
   fields.add("direction", c.direction, {.help = "of proximity"});
   fields.add("touches", c.touches, {.help = "of surfaces that edges of faces bound"});
   fields.add("rigid", c.rigid, {.help = "raise k until nothing enters by more than 1e-4 of the tool's size"});
-  fields.add("friction", c.friction, {.help = "Coulomb's coefficient"});
-  fields.add(
-      "plasticity", c.plasticity,
-      {.help = "share of the displacement that `remove` leaves in the rest shape, 0 to 1", .unit = Unit::fraction});
+  fields.add("friction", c.friction, {.help = "Coulomb's coefficient", .range = at_least(0)});
+  fields.add("plasticity", c.plasticity,
+             {.help = "share of the displacement that `remove` leaves in the rest shape",
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
   fields.add("relative", c.relative, {.help = "lengths and position are fractions of the diagonal"});
 }
 
@@ -123,7 +124,6 @@ Expected<void> execute(const ToolCommand& c, Act& act) {
     return input_error(on_surface ? "both position and at are given" : "neither position nor at is given", "position",
                        "give one of them");
   }
-  if (auto done = check_ranges(type_of<ToolCommand>(), &c); !done) return done;
   // Measuring the surface costs as much as a step of a small net: a tool whose lengths are all given does not need it.
   const bool infinite = c.shape == "plane";
   double length = 0;

@@ -36,9 +36,6 @@ std::span<const Choice> choices(ToolTouch);
 Expected<void> execute(const ToolCommand& c, Act& act);
 void describe(ToolCommand& c, Fields& fields);
 
-/// The error for a field that the shape of the command does not have; nothing for other fields.
-[[nodiscard]] std::optional<Error> inapplicable(const ToolCommand& c, std::string_view field);
-
 /// The rotation of a quaternion [x, y, z, w]. Error (input): it is zero or not finite.
 [[nodiscard]] Expected<Eigen::Quaterniond> rotation_of(const std::array<double, 4>& orientation);
 

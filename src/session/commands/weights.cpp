@@ -12,8 +12,8 @@ namespace knead {
 void describe(WeightsCommand& c, Fields& fields) {
   fields.name("weights", "set weights: control points stay, the shape changes permanently");
   describe(c.points, fields);
-  fields.add("weight", c.weight, {.help = "weight of each, > 0; 1 unless set before; this or `by`"});
-  fields.add("by", c.by, {.help = "a factor > 0 by which each weight is multiplied"});
+  fields.add("weight", c.weight, {.help = "weight of each; 1 unless set before; this or `by`", .range = above(0)});
+  fields.add("by", c.by, {.help = "a factor by which each weight is multiplied", .range = above(0)});
 }
 
 Expected<void> execute(const WeightsCommand& c, Act& act) {

@@ -1,4 +1,5 @@
 import type { End } from '../engine/client';
+import type { NewCommand } from '../engine/generated';
 import { type Command, EngineError } from '../engine/session_types';
 import { autosave, isReadable, type Kept, olderDocument } from './autosave';
 import { loadContext } from './context';
@@ -179,7 +180,7 @@ export class Documents {
       if (surfaces.length === 0) throw new Error(`“${name}” holds no surface. ${left} Open a file with surfaces or polysurfaces`);
       const create = surfaces.map(({ name: label, patch }): Command => {
         const { weights, ...rest } = patch;
-        return { do: 'new', name: label, unit, ...rest, ...(weights ? { weights } : {}) };
+        return { do: 'new', name: label, unit: unit as NewCommand['unit'], ...rest, ...(weights ? { weights } : {}) };
       });
       await this.begin(name, { kind: 'rhino', name, bytes }, () => host.client.fresh(name, create));
       if (left) host.notify({ kind: 'info', text: left });

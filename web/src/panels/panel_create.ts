@@ -47,7 +47,7 @@ interface Patch {
 
 /** The command for what the panel shows; an error text if there is none. */
 export function newCommand(p: Patch): NewCommand | string {
-  const command: NewCommand = { do: 'new', name: p.shape === 'points' ? 'patch' : p.shape === 'plane' ? 'sheet' : p.shape, unit: p.unit };
+  const command: NewCommand = { do: 'new', name: p.shape === 'points' ? 'patch' : p.shape === 'plane' ? 'sheet' : p.shape, unit: p.unit as NewCommand['unit'] };
   if (p.position.some((x) => x !== 0)) command.position = p.position;
   if (isForm(p.shape)) {
     const kind = forms[p.shape], form = p.shape === 'solid' ? 'cylinder' : p.shape;

@@ -1,5 +1,5 @@
 import { format, parseLength } from '../document/units';
-import { type BodyInfo, type EditToolCommand, shapes } from '../engine/generated';
+import { type BodyInfo, type EditToolCommand, shapes, type ToolCommand } from '../engine/generated';
 import { unitOf } from '../engine/session_state';
 import type { Command, ToolInfo, Vector3 } from '../engine/session_types';
 import { constraintInWords } from '../tools/held';
@@ -108,7 +108,7 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
   return [
     row(...(['translate', 'rotate', 'scale'] as const).map((m) =>
       toggle({ translate: 'Move', rotate: 'Turn', scale: 'Resize' }[m], mode === m, () => setGizmo(m)))),
-    field('Shape', select('Shape', shapeTitles, tool.shape, (shape) => change({ shape }))),
+    field('Shape', select('Shape', shapeTitles, tool.shape, (shape) => change({ shape: shape as ToolCommand['shape'] }))),
     ...measures(app, tool, offer),
     field('Mode', select('Mode', [['collision', 'Collision'], ['proximity', 'Proximity'], ['imprint', 'Imprint']], tool.mode, (m) => change({ mode: m })),
       'Collision pushes out what has entered; proximity draws from either side; imprint leaves its shape at once'),

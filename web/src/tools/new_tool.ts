@@ -23,7 +23,7 @@ export function newTool(host: ToolHost, { shape, surface }: Placing, radius: num
   let number = 1;
   while (taken.has(`tool ${number}`)) ++number;
   const name = `tool ${number}`;
-  const common = { do: 'tool', name, shape, plasticity: 1, touches: 'visible' } satisfies ToolCommand;
+  const common = { do: 'tool', name, shape: shape as ToolCommand['shape'], plasticity: 1, touches: 'visible' } satisfies ToolCommand;
   if (shape === 'surface') return { ...common, surface };
   const centre = point.clone().addScaledVector(normal, (reaches[shape] ?? 1) * radius * 1.02).add(new THREE.Vector3(...host.viewer.origin));
   const axis = facing.includes(shape) ? normal.clone().negate() : normal;
