@@ -13,8 +13,7 @@
 
 #include "cad_input.hpp"
 #include "cli.hpp"
-#include "knead/energy/loads.hpp"
-#include "knead/energy/stiffness.hpp"
+#include "knead/contact/free_system.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/matrix_files.hpp"
@@ -94,23 +93,6 @@ Expected<Surface> read_shape(const MatricesArguments& options, std::string& id) 
   }
   return usage_error(fmt::format("there is no surface \"{}\"", options.surface), "--surface",
                      "`knead info` lists those of the file");
-}
-
-/// Rows and columns of the unknowns that are free.
-SparseMatrix reduced(const SparseMatrix& matrix, const std::vector<std::int64_t>& free) {
-  if (static_cast<Eigen::Index>(free.size()) == matrix.rows()) return matrix;
-  std::vector<Eigen::Triplet<double>> entries;
-  std::vector<int> place(static_cast<std::size_t>(matrix.rows()), -1);
-  for (std::size_t k = 0; k < free.size(); ++k) place[static_cast<std::size_t>(free[k])] = static_cast<int>(k);
-  for (int column = 0; column < matrix.outerSize(); ++column) {
-    for (SparseMatrix::InnerIterator at(matrix, column); at; ++at) {
-      const int i = place[static_cast<std::size_t>(at.row())], j = place[static_cast<std::size_t>(column)];
-      if (i >= 0 && j >= 0) entries.emplace_back(i, j, at.value());
-    }
-  }
-  SparseMatrix result(static_cast<Eigen::Index>(free.size()), static_cast<Eigen::Index>(free.size()));
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
 }
 
 /// Makes the files of a directory, and lists them; they come into it together, or none does.
@@ -205,23 +187,15 @@ Expected<void> Writer::write(const fs::path& directory) const {
   return done;
 }
 
-struct Model {
-  Surface shape;
-  DomainScaling<2> scaling;
-  StiffnessOptions options;
-  std::vector<std::int64_t> free;  // unknowns that are not held
-};
-
-Expected<void> write_operator(const Model& model, const std::string& name, const std::string& formula,
+Expected<void> write_operator(const FreeSystem& system, const std::string& name, const std::string& formula,
                               const Energy<2>& energy, Writer& writer) {
-  const auto made =
-      Stiffness<2>::create(model.shape, on_scaled_domain<2>(energy, model.scaling.factors), model.options);
+  const auto made = system.of(energy);
   if (!made) return std::unexpected(made.error());
-  return writer.matrix(name, formula, reduced(made->assemble(), model.free), made->error_bound());
+  return writer.matrix(name, formula, made->matrix, made->error_bound);
 }
 
-Expected<void> write_stiffness(const Model& model, const Material& material, Writer& writer) {
-  auto done = write_operator(model, "K", "the sum of the terms below, each times its coefficient",
+Expected<void> write_stiffness(const FreeSystem& system, const Material& material, Writer& writer) {
+  auto done = write_operator(system, "K", "the sum of the terms below, each times its coefficient",
                              stretch_and_bend(material), writer);
   constexpr std::array<const char*, 6> formulas = {"int R_i,s R_j,s",     "int R_i,s R_j,t + R_i,t R_j,s",
                                                    "int R_i,t R_j,t",     "int R_i,ss R_j,ss",
@@ -230,7 +204,7 @@ Expected<void> write_stiffness(const Model& model, const Material& material, Wri
     Material one;
     one.alpha = one.beta = {0, 0, 0};
     (k < 3 ? one.alpha : one.beta)[k % 3] = 1;
-    done = write_operator(model, fmt::format("K_{}{}", k < 3 ? "alpha" : "beta", indices[k % 3]), formulas[k],
+    done = write_operator(system, fmt::format("K_{}{}", k < 3 ? "alpha" : "beta", indices[k % 3]), formulas[k],
                           stretch_and_bend(one), writer);
   }
   return done;
@@ -253,71 +227,59 @@ Expected<void> run(const MatricesArguments& options) {
   std::string id;
   auto shape = read_shape(options, id);
   if (!shape) return std::unexpected(shape.error());
-  const auto [m, n] = shape->net();
-  if (options.hold < 0 || 2 * options.hold >= std::min(m, n)) {
-    return usage_error(fmt::format("{} rows on each side leave nothing of {} x {}", options.hold, m, n), "--hold",
-                       "hold fewer");
-  }
+  const auto net = shape->net();
+  const auto free = of_option(free_unknowns(net, options.hold), "--hold");
+  if (!free) return std::unexpected(free.error());
   const auto settings = options.rational.read();
   if (!settings) return std::unexpected(settings.error());
-  Model model{*std::move(shape), {}, *settings, {}};
+  DomainScaling<2> scaling;
   if (options.units == "normalised") {
-    const auto scaling = normalised_scaling<2>(model.shape);
-    if (!scaling) return std::unexpected(scaling.error());
-    model.scaling = *scaling;
+    const auto normalised = normalised_scaling<2>(*shape);
+    if (!normalised) return std::unexpected(normalised.error());
+    scaling = *normalised;
   }
-  for (int k = 0; k < m * n; ++k) {
-    const int i = k / n, j = k % n, h = options.hold;
-    if (i >= h && i < m - h && j >= h && j < n - h) model.free.push_back(k);
-  }
+  const FreeSystem system(*std::move(shape), *free, scaling, *settings);
   Writer writer;
-  if (auto done = write_stiffness(model, *material, writer); !done) return done;
-  if (auto done = write_operator(model, "M", "mass int R_i R_j", mass_energy<2>(options.mass), writer); !done)
+  if (auto done = write_stiffness(system, *material, writer); !done) return done;
+  if (auto done = write_operator(system, "M", "mass int R_i R_j", mass_energy<2>(options.mass), writer); !done)
     return done;
-  if (auto done = write_operator(model, "D", "damping int R_i R_j", mass_energy<2>(options.damping), writer); !done) {
-    return done;
-  }
-  const Point force((*load)[0], (*load)[1], (*load)[2]);
-  const auto nodal = load_forces<2>(model.shape, model.scaling, [&](const std::array<double, 2>&) { return force; });
-  if (!nodal) return std::unexpected(nodal.error());
-  Points forces(static_cast<Eigen::Index>(model.free.size()), 3);
-  for (std::size_t k = 0; k < model.free.size(); ++k)
-    forces.row(static_cast<Eigen::Index>(k)) = nodal->row(model.free[k]);
-  if (auto done = writer.array("F", "load int R_i", npy(forces)); !done) return done;
-  if (auto done = writer.array("points", "control points", npy(model.shape.control_points() / model.scaling.length));
-      !done) {
+  if (auto done = write_operator(system, "D", "damping int R_i R_j", mass_energy<2>(options.damping), writer); !done) {
     return done;
   }
-  if (auto done = writer.array("free", "unknowns of the rows, of all m n", npy(model.free)); !done) return done;
+  const auto forces = system.forces({(*load)[0], (*load)[1], (*load)[2]});
+  if (!forces) return std::unexpected(forces.error());
+  if (auto done = writer.array("F", "load int R_i", npy(*forces)); !done) return done;
+  if (auto done = writer.array("points", "control points", npy(system.points())); !done) return done;
+  if (auto done = writer.array("free", "unknowns of the rows, of all m n", npy(system.free())); !done) return done;
 
   Json knots = Json::array();
   for (int d = 0; d < 2; ++d) {
-    const auto values = model.shape.knots(d).knots();
+    const auto values = system.shape().knots(d).knots();
     knots.push_back(std::vector<double>(values.begin(), values.end()));
   }
-  const auto weights = model.shape.weights();
+  const auto weights = system.shape().weights();
   const Json description = {
       {"file", options.file},
       {"surface", id},
-      {"degree", {model.shape.knots(0).degree(), model.shape.knots(1).degree()}},
-      {"net", {m, n}},
+      {"degree", {system.shape().knots(0).degree(), system.shape().knots(1).degree()}},
+      {"net", net},
       {"knots", std::move(knots)},
       {"weights", std::vector<double>(weights.begin(), weights.end())},
       {"ordering", "control point (i, j) of the net m x n is unknown i n + j, from 0; the same for x, y and z"},
       {"units", options.units},
-      {"length", model.scaling.length},
-      {"factors", model.scaling.factors},
+      {"length", scaling.length},
+      {"factors", scaling.factors},
       {"alpha", *alpha},
       {"beta", *beta},
       {"mass", options.mass},
       {"damping", options.damping},
       {"load", *load},
       {"held_rows", options.hold},
-      {"unknowns", model.free.size()},
+      {"unknowns", system.free().size()},
       {"matrices", writer.written}};
   if (auto done = writer.file("matrices.json", description.dump(1) + "\n"); !done) return done;
   if (auto done = writer.write(options.out); !done) return done;
-  say("wrote {} matrices and arrays of {} unknowns to {}\n", writer.written.size(), model.free.size(), options.out);
+  say("wrote {} matrices and arrays of {} unknowns to {}\n", writer.written.size(), system.free().size(), options.out);
   return {};
 }
 
