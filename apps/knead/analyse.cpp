@@ -5,9 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli.hpp"
-#include "knead/exchange/field_grid.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/scene/shell_fields.hpp"
+#include "knead/session/report.hpp"
 #include "outputs.hpp"
 #include "run_script.hpp"
 #include "say.hpp"
@@ -21,35 +20,6 @@ struct AnalyseArguments {
   UnpackOption unpack;
   int samples = 41;
 };
-
-/// The shapes of modes on the control points of one selected surface, which begin at a row of theirs.
-std::vector<std::pair<std::string, Points>> shapes_on(const SessionState& state, Eigen::Index first,
-                                                      Eigen::Index count) {
-  std::vector<std::pair<std::string, Points>> shapes;
-  const auto append = [&](const char* name, const std::vector<ModeRecord>& modes) {
-    for (std::size_t k = 0; k < modes.size(); ++k) {
-      if (modes[k].shape.rows() < first + count) continue;  // of another selection, or another net
-      shapes.emplace_back(fmt::format("{}_{}", name, k + 1), modes[k].shape.middleRows(first, count));
-    }
-  };
-  append("mode", state.modes);
-  append("buckling", state.buckling);
-  return shapes;
-}
-
-Expected<std::vector<FieldGrid>> grids_of(const SessionState& state, int samples) {
-  std::vector<FieldGrid> grids;
-  Eigen::Index first = 0;
-  for (const int index : state.selection()) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
-    const Eigen::Index count = s.current->size();
-    auto grid = result_grid(s, samples, shapes_on(state, first, count));
-    if (!grid) return std::unexpected(grid.error().within(s.id));
-    grids.push_back(std::move(*grid));
-    first += count;
-  }
-  return grids;
-}
 
 std::string joined(const std::vector<double>& values) {
   std::string text;
@@ -111,7 +81,7 @@ Expected<void> run(const AnalyseArguments& options) {
   Session session(std::move(*document));
   if (auto done = execute(session, *commands); !done) return std::unexpected(done.error());
   if (!session.state().selected) return input_error("no surface is selected", options.script, "select one");
-  const auto grids = grids_of(session.state(), options.samples);
+  const auto grids = result_grids(session.state(), options.samples);
   if (!grids) return std::unexpected(grids.error());
   const auto json = results_json(session.state(), *grids);
   if (!json) return std::unexpected(json.error());

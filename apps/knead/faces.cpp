@@ -10,48 +10,13 @@
 #include "cli.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/face_edges.hpp"
-#include "knead/scene/followed.hpp"
-#include "knead/scene/trims.hpp"
+#include "knead/session/report.hpp"
 #include "say.hpp"
 
 namespace knead::cli {
 namespace {
 
-const char* hold_name(int order) {
-  constexpr const char* names[] = {"free", "position", "clamped", "curvature"};
-  return names[order + 1];
-}
-
-template <class F>
-void for_each_report(const SessionState& state, const F& f) {
-  for (const SceneSurface& s : state.surfaces) {
-    const bool moved = s.current != s.opened;
-    if (!s.visible || s.visible->edges.empty() || !(moved || holds_trims(s.constraints))) continue;
-    const auto report = trim_report(s);
-    if (report) f(s, *report);
-  }
-}
-
 double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
-
-/// The angles at an edge that follows and was smooth as opened; none for other edges.
-std::optional<Parting> angles_at(const SessionState& state, const std::string& id) {
-  const auto found = std::ranges::find(state.followed, id, &FollowedEdge::id);
-  if (found == state.followed.end() || !found->course || !is_smooth(*found->course)) return std::nullopt;
-  const auto measured = parting(state, *found->course);
-  return measured ? std::optional(*measured) : std::nullopt;
-}
-
-/// Whether edges of faces were freed, so that they may be open.
-bool frees_edges(const SessionState& state) {
-  const auto frees = [](const KeptConstraint& kept) {
-    const auto* all = std::get_if<TrimHolds>(&kept.constraint);
-    const auto* edge = std::get_if<TrimEdgeHold>(&kept.constraint);
-    return (all != nullptr && all->order < 0) || (edge != nullptr && edge->order < 0 && !edge->follow);
-  };
-  return std::ranges::any_of(state.surfaces,
-                             [&](const SceneSurface& s) { return std::ranges::any_of(s.constraints, frees); });
-}
 
 void print_region(const brep::SplineSurface& s, const VisibleRegion& region) {
   const auto [lower, upper] = region.extent();
@@ -78,17 +43,9 @@ void print_region(const brep::SplineSurface& s, const VisibleRegion& region) {
 
 }  // namespace
 
-std::vector<std::string> notes_on_open_edges(const Session& session) {
-  std::vector<std::string> notes;
-  const auto parted = frees_edges(session.state()) ? session.parted_edges() : Expected<std::vector<PartedEdge>>();
-  for (const PartedEdge& edge : parted.value_or(std::vector<PartedEdge>())) {
-    if (edge.freed) notes.push_back(note_on(edge));
-  }
-  return notes;
-}
-
 void print_edges(const SessionState& state) {
-  for_each_report(state, [](const SceneSurface& s, const TrimReport& report) {
+  for (const auto& [index, report, angles] : report_edges(state)) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
     int held = 0;
     double largest = 0;
     for (const TrimReport::Edge& edge : report.edges) {
@@ -98,7 +55,7 @@ void print_edges(const SessionState& state) {
     say("  {}: {} of {} edges held, {} of {} control points free, largest deviation along held edges {:.2g} {}", s.id,
         held, report.edges.size(), report.free, s.current->size(), largest, s.unit);
     say("; largest edge gap {:.2g} {} (at {} points)\n", report.largest, s.unit, report.samples);
-  });
+  }
   for (const FollowedEdge& edge : state.followed) {
     const auto angles = angles_at(state, edge.id);
     if (!angles) continue;
@@ -109,28 +66,29 @@ void print_edges(const SessionState& state) {
 
 std::string edges_json(const SessionState& state) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for_each_report(state, [&](const SceneSurface& s, const TrimReport& report) {
+  for (const auto& [index, report, all_angles] : report_edges(state)) {
     nlohmann::ordered_json edges = nlohmann::ordered_json::array();
-    for (const TrimReport::Edge& edge : report.edges) {
+    for (std::size_t k = 0; k < report.edges.size(); ++k) {
+      const TrimReport::Edge& edge = report.edges[k];
       edges.push_back({{"id", edge.held.id},
-                       {"hold", edge.follows ? "follow" : hold_name(edge.held.order)},
+                       {"hold", hold_of(edge)},
                        {"along_lines", edge.held.along_lines},
                        {"control_points", edge.held.points},
                        {"deviation", edge.deviation},
                        {"faces", edge.neighbours}});
-      const auto angles = edge.follows ? angles_at(state, edge.held.id) : std::nullopt;
+      const auto& angles = all_angles[k];
       if (!angles) continue;
       edges.back()["angle"] = in_degrees(angles->angle);
       edges.back()["angle_before"] = in_degrees(angles->angle_before);
     }
-    list.push_back({{"surface", s.id},
+    list.push_back({{"surface", state.surfaces[static_cast<std::size_t>(index)].id},
                     {"net", report.net},
                     {"free", report.free},
                     {"visible", report.visible},
                     {"largest_gap", report.largest},
                     {"samples", report.samples},
                     {"edges", std::move(edges)}});
-  });
+  }
   return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

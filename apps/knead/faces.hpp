@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "knead/brep/model.hpp"
 #include "knead/session/session.hpp"
@@ -14,9 +13,6 @@ void print_edges(const SessionState& state);
 
 /// The same with every edge, as a JSON list.
 [[nodiscard]] std::string edges_json(const SessionState& state);
-
-/// Notes on the edges that were freed and are open. If they cannot be known, `save` says why.
-[[nodiscard]] std::vector<std::string> notes_on_open_edges(const Session& session);
 
 /// For every surface on which faces lie: its visible part, its middle, and the edges with their neighbours; then the
 /// surfaces of other forms, their faces, and whether they can be converted.

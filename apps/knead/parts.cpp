@@ -82,19 +82,6 @@ Json parts_json(const brep::Model& model) {
   return {{"unit", assembly->unit}, {"parts", std::move(parts)}, {"warnings", assembly->warnings}};
 }
 
-std::vector<RepeatedSurface> repeated_surfaces(const Session& session) {
-  std::vector<RepeatedSurface> result;
-  const brep::Model* const model = session.document().model();
-  if (model == nullptr || model->instances.empty() || !model->assembly) return result;
-  const auto& surfaces = session.state().surfaces;
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    const brep::Part* part = model->assembly->part_of(surfaces[k].id);
-    if (part == nullptr || part->places.size() < 2 || session.moved_control_points(static_cast<int>(k)) == 0) continue;
-    result.push_back({surfaces[k].id, part->name, part->places.size()});
-  }
-  return result;
-}
-
 void print_places(std::span<const RepeatedSurface> surfaces) {
   for (const RepeatedSurface& r : surfaces) {
     say("  {}: its part \"{}\" stands in {} places of the assembly, and has changed in all of them\n", r.surface,

@@ -216,6 +216,7 @@ Expected<void> run(const SculptArguments& options) {
   const auto done = execute(session, *commands, options.keep_partial);
   if (!done) return std::unexpected(done.error());
   const Outcome outcome = outcome_of(session, opened);
+  if (outcome.no_energy) say(stderr, "knead: warning: there is no energy: {}\n", outcome.no_energy->message());
   print_summary(options, session, outcome);
   if (!done->complete) {
     const std::size_t implied = std::min(commands->implied, done->commands);

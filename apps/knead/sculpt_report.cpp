@@ -2,18 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "cli.hpp"
 #include "faces.hpp"
-#include "knead/scene/shell_fields.hpp"
 #include "knead/session/session_info.hpp"
+#include "parts.hpp"
 #include "picture.hpp"
 #include "run_script.hpp"
-#include "say.hpp"
 
 namespace knead::cli {
 namespace {
@@ -69,31 +67,26 @@ std::string report_json(const SessionState& state, const Outcome& o, const std::
 }
 
 /// The readings of the scene's probes: the entries of each list.
-Expected<std::string> probes_json(const SessionState& state) {
+std::string probes_json(std::span<const ProbeReport> probes) {
   const auto vector = [](const Point& p) {
     return fmt::format("[{},{},{}]", json_number(p[0]), json_number(p[1]), json_number(p[2]));
   };
   std::map<std::string, std::string> lists;
-  for (const Probe& probe : state.probes) {
-    const auto reading = read_probe(state, probe);
-    if (!reading) return std::unexpected(reading.error());
+  for (const auto& [probe, surface, reading, shell] : probes) {
     std::string& list = lists[probe.list];
     list += fmt::format(
         R"({}{{"name":{},"surface":{},"at":[{},{}],"point":{},"displacement":{},"normal":{},"curvature":{})",
-        list.empty() ? "\n " : ",\n ", json_string(probe.name),
-        json_string(state.surfaces[static_cast<std::size_t>(probe.surface)].id), json_number(probe.at[0]),
-        json_number(probe.at[1]), vector(reading->point), vector(reading->displacement), vector(reading->normal),
-        reading->curvature
-            ? fmt::format("[{},{}]", json_number((*reading->curvature)[0]), json_number((*reading->curvature)[1]))
+        list.empty() ? "\n " : ",\n ", json_string(probe.name), json_string(surface), json_number(probe.at[0]),
+        json_number(probe.at[1]), vector(reading.point), vector(reading.displacement), vector(reading.normal),
+        reading.curvature
+            ? fmt::format("[{},{}]", json_number((*reading.curvature)[0]), json_number((*reading.curvature)[1]))
             : "null");
-    const auto shell = read_shell(state, probe.surface, probe.at);
-    if (!shell) return std::unexpected(shell.error());
-    if (*shell) {
+    if (shell) {
       const auto pair = [](const std::array<double, 2>& x) {
         return fmt::format("[{},{}]", json_number(x[0]), json_number(x[1]));
       };
-      list += fmt::format(R"(,"von_mises":{},"membrane":{},"moment":{},"bending_strain":{})", pair((*shell)->von_mises),
-                          pair((*shell)->membrane), pair((*shell)->moment), json_number((*shell)->bending_strain));
+      list += fmt::format(R"(,"von_mises":{},"membrane":{},"moment":{},"bending_strain":{})", pair(shell->von_mises),
+                          pair(shell->membrane), pair(shell->moment), json_number(shell->bending_strain));
     }
     list += "}";
   }
@@ -104,59 +97,10 @@ Expected<std::string> probes_json(const SessionState& state) {
 
 }  // namespace
 
-const char* name_of(SeamContinuity continuity) {
-  constexpr const char* names[] = {"none", "C0", "G1", "periodic"};
-  return names[static_cast<int>(continuity)];
-}
-
-std::string name_of(const SessionState& state, const PatchEdge& edge) {
-  return fmt::format("{} {}", state.surfaces[static_cast<std::size_t>(edge.patch)].id, edge_name(edge.edge));
-}
-
-Outcome outcome_of(Session& session, std::size_t opened) {
-  const SessionState& state = session.state();
-  Outcome o;
-  o.places = repeated_surfaces(session);
-  o.notes = state.notes;
-  const std::vector<std::string> open = notes_on_open_edges(session);
-  o.notes.insert(o.notes.end(), open.begin(), open.end());
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  // Finished work is written even if its energy cannot be computed.
-  if (const auto energy = session.energy()) {
-    o.energy_after = *energy;
-    o.energy_before = state.energy_before.value_or(*energy);
-  } else {
-    o.energy_after = unknown;
-    o.energy_before = state.energy_before.value_or(unknown);
-    say(stderr, "knead: warning: there is no energy: {}\n", energy.error().message());
-  }
-  for (const StepRecord& s : state.steps) o.time += s.time;
-  if (!state.steps.empty()) {
-    o.residual = state.steps.back().residual;
-    o.gap = state.steps.back().gap;
-  }
-  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
-    const int moved = session.moved_control_points(static_cast<int>(k));
-    const bool converted = !session.document().is_fresh() && k >= opened;
-    if (moved > 0 || converted) ++o.surfaces;
-    if (moved == 0) continue;
-    o.moved += moved;
-    o.largest_displacement = std::max(o.largest_displacement, session.largest_displacement(static_cast<int>(k)));
-  }
-  for (const SceneBody& body : state.bodies) {
-    const int moved = moved_control_points(body);
-    if (moved == 0) continue;
-    o.moved += moved;
-    ++o.bodies;
-    o.largest_displacement = std::max(o.largest_displacement, largest_displacement(body));
-  }
-  return o;
-}
-
 Expected<std::string> report_of(const SessionState& state, const Outcome& o) {
-  const auto probes = probes_json(state);
+  const auto probes = report_probes(state);
   if (!probes) return std::unexpected(probes.error());
-  return report_json(state, o, *probes);
+  return report_json(state, o, probes_json(*probes));
 }
 
 Expected<std::string> picture_of(const SessionState& state) {

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "knead/exchange/field_grid.hpp"
+#include "knead/scene/followed.hpp"
+#include "knead/scene/shell_fields.hpp"
+#include "knead/scene/trims.hpp"
+#include "knead/session/session.hpp"
+
+namespace knead {
+
+// What the commands of a session have made of it, as values: the report and the analysis that programs write.
+
+/// A changed surface whose part stands in several places of an assembly: the change shows in all of them.
+struct RepeatedSurface {
+  std::string surface, part;
+  std::size_t places = 0;
+};
+
+/// What a script has made of a session. Times in seconds, lengths in units of the file.
+struct Outcome {
+  double time = 0;                             ///< of all steps
+  double energy_before = 0, energy_after = 0;  ///< NaN where there is none
+  double residual = 0, gap = 0;                ///< of the last step; the gap in sizes of the tool
+  double largest_displacement = 0;             ///< of any point, from the shape as opened
+  int moved = 0;                               ///< control points
+  int surfaces = 0, bodies = 0;                ///< that have changed; converted surfaces count too
+  std::vector<RepeatedSurface> places;
+  std::vector<Note> notes;         ///< of the session, and on edges that are open
+  std::optional<Error> no_energy;  ///< why the energy cannot be computed
+};
+
+/// \param opened how many surfaces the file had: those that follow were converted, and are written as B-splines
+/// Cost: an evaluation of the energy, and of every moved shape.
+[[nodiscard]] Outcome outcome_of(Session& session, std::size_t opened);
+
+/// The edges of the faces on one surface: how they are held, how far the surface is from them.
+struct EdgesReport {
+  int surface = 0;  ///< index
+  TrimReport trims;
+  /// At each edge of `trims`: the angles between its tangent planes, where it follows and was smooth as opened.
+  std::vector<std::optional<Parting>> angles;
+};
+
+/// Of every surface with known edges that moved, or that holds them, in order. Surfaces whose edges cannot be measured
+/// are left out. Cost: that of `trim_report` and `parting`.
+[[nodiscard]] std::vector<EdgesReport> report_edges(const SessionState& state);
+
+/// "follow", or what of an edge is held: "free", "position", "clamped", "curvature".
+[[nodiscard]] std::string_view hold_of(const TrimReport::Edge& edge);
+
+/// The angles at an edge that follows and was smooth as opened; none for other edges.
+[[nodiscard]] std::optional<Parting> angles_at(const SessionState& state, const std::string& edge);
+
+/// "none", "C0", "G1", "periodic".
+[[nodiscard]] std::string_view name_of(SeamContinuity continuity);
+/// "#12 u0": a side of a surface.
+[[nodiscard]] std::string name_of(const SessionState& state, const PatchEdge& edge);
+
+/// A probe of the scene with its reading, and that of the shell there.
+struct ProbeReport {
+  Probe probe;
+  std::string surface;  ///< id
+  ProbeReading reading;
+  std::optional<ShellPointResults> shell;
+};
+
+/// In the order of the scene. Errors: those of `read_probe` and `read_shell`. Cost: one evaluation for each.
+[[nodiscard]] Expected<std::vector<ProbeReport>> report_probes(const SessionState& state);
+
+/// The results of an analysis: `result_grid` of each selected surface, with the shapes `mode_1`, …, `buckling_1`, … of
+/// its modes and buckling modes. Errors: those of `result_grid`, at the id of the surface.
+[[nodiscard]] Expected<std::vector<FieldGrid>> result_grids(const SessionState& state, int samples);
+
+}  // namespace knead
