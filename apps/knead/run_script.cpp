@@ -2,71 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
 
 #include "cli.hpp"
-#include "knead/exchange/compression.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/exchange/format.hpp"
-#include "knead/exchange/nrrd.hpp"
 #include "knead/session/command_json.hpp"
+#include "knead/session/script_error.hpp"
 #include "progress.hpp"
 #include "working.hpp"
 
 namespace knead::cli {
 namespace {
 
-/// ": commands[3]"; nothing of a command that scripts begin with.
-std::string place_in(const Script& script, std::size_t command) {
-  return command < script.implied ? std::string() : fmt::format(": commands[{}]", command - script.implied);
-}
-
-/// The error of a command with its place in the script; one about an entity names the CAD file that it is in.
-Error within_script(Error error, const Session& session, const Script& script, std::size_t command) {
-  const std::string place =
-      command < script.implied ? std::string() : fmt::format("commands[{}]", command - script.implied);
-  if (error.file.empty() && error.where.starts_with('#') && !session.document().is_fresh()) {
-    error.file = session.document().name();
-  }
-  if (!error.file.empty() && error.file != script.name) {
-    const std::string line = error.line > 0 ? fmt::format(":{}", error.line) : "";
-    error.where = error.file + line + (error.where.empty() ? "" : ": " + error.where);
-  }
-  error.file = script.name;
-  error.line = 0;
-  if (error.kind == ErrorKind::usage) error.kind = ErrorKind::input;
-  return place.empty() ? error : error.within(place);
-}
-
-/// What the bytes of a file are where they are known to be no script: "a STEP file".
-std::string kind_of_file(std::string_view bytes) {
-  using namespace std::string_view_literals;
-  if (bytes.find_first_not_of(" \t\r\n") == bytes.npos) return "an empty file";
-  if (bytes.starts_with("\x89PNG"sv) || bytes.starts_with("\xFF\xD8\xFF"sv)) return "an image";
-  if (is_nrrd(bytes)) return "an NRRD file";
-  if (compression_of(bytes) != Compression::none) return "a compressed file";
-  if (bytes[0] == '{' || bytes[0] == '[') return {};
-  for (const Format& format : formats()) {
-    if (format.recognises == nullptr || !format.recognises(bytes)) continue;
-    const bool vowel = std::string_view("AEIO").find(format.name.front()) != std::string_view::npos;
-    return fmt::format("{} {} file", vowel ? "an" : "a", format.name);
-  }
-  return {};
+/// The place of a command in its script; none of one that scripts begin with.
+std::optional<std::size_t> place_in(const Script& script, std::size_t command) {
+  return command < script.implied ? std::nullopt : std::optional(command - script.implied);
 }
 
 }  // namespace
-
-Error in_script(Error error, std::string_view text, const std::string& name) {
-  if (const std::string kind = kind_of_file(text); !kind.empty()) {
-    error = {ErrorKind::input,
-             "this is " + kind + ", not a script",
-             {},
-             R"(write JSON: {"knead": 2, "commands": [...]}; `knead commands` explains them)"};
-  }
-  if (error.kind == ErrorKind::usage) error.kind = ErrorKind::input;
-  error.file = name;
-  return error;
-}
 
 Expected<Script> read_script(const std::string& name) {
   const auto text = read_file(name);
@@ -74,7 +28,7 @@ Expected<Script> read_script(const std::string& name) {
   Script script;
   script.name = name;
   auto commands = parse_script(*text, name, &script.implied);
-  if (!commands) return std::unexpected(in_script(commands.error(), *text, name));
+  if (!commands) return std::unexpected(error_of_script(commands.error(), *text, name));
   script.commands = std::move(*commands);
   return script;
 }
@@ -104,10 +58,12 @@ Expected<Execution> execute(Session& session, const Script& script, bool stops) 
   Execution execution;
   for (const Command& command : script.commands) {
     if (execution.commands == script.implied) session.begin_history();  // what a script begins with is not undone
-    work_on(script.name + place_in(script, execution.commands));
+    const auto place = place_in(script, execution.commands);
+    work_on(script.name + (place ? fmt::format(": commands[{}]", *place) : ""));
     auto done = session.execute(command, progress, go_on);
     if (stops && Interrupt::asked()) return execution;
-    if (!done) return std::unexpected(within_script(std::move(done.error()), session, script, execution.commands));
+    if (!done)
+      return std::unexpected(error_at_command(std::move(done.error()), session.document(), script.name, place));
     ++execution.commands;
   }
   work_on({});

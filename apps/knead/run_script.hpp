@@ -18,10 +18,6 @@ struct Script {
 
 [[nodiscard]] Expected<Script> read_script(const std::string& name);
 
-/// The error of reading a script, with the file's name: whatever is wrong in a script is wrong input. Where the text is
-/// a file of another kind, that is what is said.
-[[nodiscard]] Error in_script(Error error, std::string_view text, const std::string& name);
-
 /// A usage error where both a file and none, or neither, is asked for.
 [[nodiscard]] Expected<void> check_source(const std::string& file, bool fresh);
 /// Opens a CAD file, or begins without one.

@@ -13,10 +13,10 @@
 #include "image_file.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/nrrd.hpp"
+#include "knead/session/script_error.hpp"
 #include "knead/session/snake_script.hpp"
 #include "knead/session/snake_text.hpp"
 #include "outputs.hpp"
-#include "run_script.hpp"
 #include "say.hpp"
 #include "volume_snake.hpp"
 
@@ -44,7 +44,7 @@ Expected<SnakeScript> script_in(const SnakeArguments& options) {
   if (!text) return std::unexpected(text.error());
   auto script = parse_snake_script(*text);
   if (script) return script;
-  return std::unexpected(in_script(script.error(), *text, options.script));
+  return std::unexpected(error_of_script(script.error(), *text, options.script));
 }
 
 Expected<void> write_results(const std::vector<SnakeResult>& snakes, const SnakeArguments& options,

@@ -12,10 +12,10 @@
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/nrrd.hpp"
+#include "knead/session/script_error.hpp"
 #include "knead/session/volume_snake_script.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "outputs.hpp"
-#include "run_script.hpp"
 #include "say.hpp"
 
 namespace knead::cli {
@@ -63,7 +63,7 @@ Expected<VolumeSnakeScript> script_of(const SnakeArguments& options, const Volum
   if (!text) return std::unexpected(text.error());
   auto script = parse_volume_snake_script(*text);
   if (script) return script;
-  return std::unexpected(in_script(script.error(), *text, options.script));
+  return std::unexpected(error_of_script(script.error(), *text, options.script));
 }
 
 std::string list_of(std::span<const double> numbers) {

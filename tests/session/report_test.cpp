@@ -1,8 +1,9 @@
-// What commands have made of a session, as values.
+// What commands have made of a session, as values; errors of scripts with their places.
 #include "knead/session/report.hpp"
 
 #include <algorithm>
 
+#include "knead/session/script_error.hpp"
 #include "support.hpp"
 
 namespace knead::testing {
@@ -92,6 +93,34 @@ TEST(ResultGrids, HaveTheDisplacementAndTheModes) {
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
   }
   EXPECT_EQ(result_grids(session.state(), 1).error().where.substr(0, 2), "#1");
+}
+
+TEST(ScriptErrors, NameScriptCommandAndFile) {
+  Session fresh(Document::fresh("sheet"));
+  const Error error{ErrorKind::usage, "too large", "radius", "use less"};
+  const Error made = error_at_command(error, fresh.document(), "press.json", 3);
+  EXPECT_EQ(made.message(), "press.json: commands[3]: radius: too large; use less");
+  EXPECT_EQ(made.kind, ErrorKind::input) << "what is wrong in a script is wrong input";
+  EXPECT_EQ(error_at_command(error, fresh.document(), "press.json", std::nullopt).message(),
+            "press.json: radius: too large; use less");
+
+  const auto document = Document::open(bonnet);
+  ASSERT_TRUE(document);
+  const Error entity{ErrorKind::numerical, "has no area", "#285", ""};
+  const Error in_file = error_at_command(entity, *document, "press.json", 0);
+  EXPECT_EQ(in_file.message(), "press.json: commands[0]: " + bonnet + ": #285: has no area");
+  EXPECT_EQ(in_file.kind, ErrorKind::numerical);
+  EXPECT_EQ(error_at_command(entity, fresh.document(), "press.json", 0).where, "commands[0]: #285")
+      << "a new document has no file";
+}
+
+TEST(ScriptErrors, SayWhatAFileIsThatIsNoScript) {
+  const Error error{ErrorKind::input, "this is not JSON", "", ""};
+  EXPECT_EQ(error_of_script(error, "ISO-10303-21;\nHEADER;", "a").what, "this is a STEP file, not a script");
+  EXPECT_EQ(error_of_script(error, " \n", "a").what, "this is an empty file, not a script");
+  EXPECT_EQ(error_of_script(error, "\x89PNG....", "a").what, "this is an image, not a script");
+  EXPECT_EQ(error_of_script(error, "NRRD0004\n", "a").what, "this is an NRRD file, not a script");
+  EXPECT_EQ(error_of_script(error, "{", "a").message(), "a: this is not JSON");
 }
 
 }  // namespace
