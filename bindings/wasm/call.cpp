@@ -35,8 +35,9 @@ void read(const Json& json, Settings& settings) {
 
 /// The next of the bytes, as many as the JSON says.
 Expected<void> read(const Json& json, Bytes& to, std::string& bytes) {
-  const auto size = static_cast<std::size_t>(std::max(0.0, json.number));
-  if (size > bytes.size()) return usage_error("there are fewer bytes than the request says");
+  if (!(json.number >= 0 && json.number <= static_cast<double>(bytes.size())))
+    return usage_error("there are fewer bytes than the request says");
+  const auto size = static_cast<std::size_t>(json.number);
   std::string later = bytes.substr(size);
   bytes.resize(size);
   to.data = std::exchange(bytes, std::move(later));

@@ -55,7 +55,9 @@ Expected<Points> FreeSystem::forces(const Point& load) const {
   const auto nodal = load_forces<2>(shape_, scaling_, [&](const std::array<double, 2>&) { return load; });
   if (!nodal) return std::unexpected(nodal.error());
   Points result(static_cast<Eigen::Index>(free_.size()), 3);
-  for (std::size_t k = 0; k < free_.size(); ++k) result.row(static_cast<Eigen::Index>(k)) = nodal->row(free_[k]);
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    result.row(static_cast<Eigen::Index>(k)) = nodal->row(static_cast<Eigen::Index>(free_[k]));
+  }
   return result;
 }
 

@@ -146,7 +146,7 @@ TEST(Describe, ANumberOutOfRangeIsNamedWithItsPath) {
   EXPECT_EQ(check_ranges(type, &cart).error().where, "load");
   cart.load.reset();
   cart.drive = Sail{{0, -3}};
-  EXPECT_EQ(check_ranges(type, &cart).error().where, "corners");
+  EXPECT_EQ(check_ranges(type, &cart).error().where, "corners[1]");
   cart.drive = Wheel{.spokes = 2};
   EXPECT_EQ(check_ranges(type, &cart).error().where, "spokes");
 }
