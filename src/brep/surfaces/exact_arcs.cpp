@@ -11,7 +11,7 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr double on_axis = 1e-12;  // of angles, and of a radius: what is nearer to the axis is on it
 
-int quarters(double angle) { return std::max(1, static_cast<int>(std::ceil(angle / (full_turn / 4) - on_axis))); }
+int quarter_turns(double angle) { return std::max(1, static_cast<int>(std::ceil(angle / (full_turn / 4) - on_axis))); }
 
 /// The end of part k.
 double part_end(const Interval& range, int pieces, int k) {
@@ -50,7 +50,7 @@ Expected<Curve> conic_spline(const Interval& range, int pieces, bool closed, con
 
 Expected<Curve> ellipse_spline(const Point& centre, const Point& a, const Point& b, const Interval& range) {
   return conic_spline(
-      range, quarters(range.length()), whole_turn(range.length()),
+      range, quarter_turns(range.length()), whole_turn(range.length()),
       [&](double t) -> Point { return centre + std::cos(t) * a + std::sin(t) * b; },
       [&](double from, double to) {
         const double middle = (from + to) / 2, weight = std::cos((to - from) / 2);
@@ -59,7 +59,7 @@ Expected<Curve> ellipse_spline(const Point& centre, const Point& a, const Point&
 }
 
 Expected<Surface> swept_about(const Curve& profile, const Point& origin, const Point& axis, const Interval& angles) {
-  const int pieces = quarters(angles.length());
+  const int pieces = quarter_turns(angles.length());
   auto round = double_knots(angles, pieces);
   if (!round) return std::unexpected(round.error());
   const bool closed = whole_turn(angles.length());
