@@ -44,7 +44,7 @@ void print_region(const brep::SplineSurface& s, const VisibleRegion& region) {
 }  // namespace
 
 void print_edges(const SessionState& state) {
-  for (const auto& [index, report, angles] : report_edges(state)) {
+  for (const auto& [index, report] : report_edges(state)) {
     const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
     int held = 0;
     double largest = 0;
@@ -66,17 +66,16 @@ void print_edges(const SessionState& state) {
 
 std::string edges_json(const SessionState& state) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const auto& [index, report, all_angles] : report_edges(state)) {
+  for (const auto& [index, report] : report_edges(state)) {
     nlohmann::ordered_json edges = nlohmann::ordered_json::array();
-    for (std::size_t k = 0; k < report.edges.size(); ++k) {
-      const TrimReport::Edge& edge = report.edges[k];
+    for (const TrimReport::Edge& edge : report.edges) {
       edges.push_back({{"id", edge.held.id},
                        {"hold", hold_of(edge)},
                        {"along_lines", edge.held.along_lines},
                        {"control_points", edge.held.points},
                        {"deviation", edge.deviation},
                        {"faces", edge.neighbours}});
-      const auto& angles = all_angles[k];
+      const auto angles = edge.follows ? angles_at(state, edge.held.id) : std::nullopt;
       if (!angles) continue;
       edges.back()["angle"] = in_degrees(angles->angle);
       edges.back()["angle_before"] = in_degrees(angles->angle_before);

@@ -132,12 +132,25 @@ std::size_t Weight::of(const Type& type, const void* value) {
       return sizeof(double) * (sum + static_cast<std::size_t>(spline.size()) * (spline.rational() ? 4 : 3));
     });
   }
+  if (type.shared_by > 0) return of_shared(type, value);
   if (type.element != nullptr) sum = type.count(value) * type.weight;
-  if (type.weight == 1 || (type.element != nullptr && doubles_in(*type.element) > 0)) return sum;  // 1: shared chunks
+  if (type.element != nullptr && doubles_in(*type.element) > 0) return sum;
   all_parts(type, value, value, [&](const Type& t, const void* part, const void*) {
-    if (type.look == nullptr || seen_.insert(part).second) sum += of(t, part);
+    sum += of(t, part);
     return true;
   });
+  return sum;
+}
+
+std::size_t Weight::of_shared(const Type& list, const void* value) {
+  const std::size_t count = list.count(value);
+  std::size_t sum = 0;
+  for (std::size_t k = 0; k < count; k += list.shared_by) {
+    sum += sizeof(std::shared_ptr<void>);
+    if (!seen_.insert(list.part(value, k)).second) continue;
+    const std::size_t end = std::min(count, k + list.shared_by);
+    for (std::size_t j = k; j < end; ++j) sum += list.weight + of(*list.element, list.part(value, j));
+  }
   return sum;
 }
 

@@ -51,6 +51,7 @@ class Weight {
   [[nodiscard]] std::size_t of(const Type& type, const void* value);
 
  private:
+  [[nodiscard]] std::size_t of_shared(const Type& list, const void* value);
   std::unordered_set<const void*> seen_;
 };
 

@@ -172,5 +172,9 @@ template <>
 const Type& type_of<SessionState>() {
   return make_type<SessionState>();
 }
+template <>
+const Type& type_of<StepRecord>() {
+  return make_type<StepRecord>();
+}
 
 }  // namespace knead

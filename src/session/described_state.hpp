@@ -11,6 +11,8 @@ template <>
 const Type& type_of<Scene>();
 template <>
 const Type& type_of<SessionState>();
+template <>
+const Type& type_of<StepRecord>();
 
 // Parts of it that are reported as well.
 void describe(ShellMaterial& m, Fields& fields);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "described_json.hpp"
+#include "described_state.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead {
@@ -11,8 +12,6 @@ namespace knead {
 struct SessionInfo;
 template <>
 const Type& type_of<SessionInfo>();
-template <>
-const Type& type_of<StepRecord>();
 
 // Parts of what is reported about a session that are asked for by themselves as well.
 

@@ -190,7 +190,8 @@ struct TypeMaker<SharedItems<E>> {
             .count = [](const void* v) { return as<Items>(v).size(); },
             .resize = [](void* v, std::size_t n) { as<Items>(v).resize(n); },
             .at = [](void* v, std::size_t k) -> void* { return &as<Items>(v)[k]; },
-            .weight = sizeof(std::shared_ptr<E>),
+            .weight = sizeof(E),
+            .shared_by = 1,
             .look = [](const void* v, std::size_t k) -> const void* { return &as<Items>(v)[k]; }};
   }
 };
@@ -208,7 +209,8 @@ struct TypeMaker<SharedList<E>> {
                   while (list.size() < n) list.push_back({});
                 },
             .at = [](void* v, std::size_t k) -> void* { return &as<List>(v).own(k); },
-            .weight = 1,
+            .weight = sizeof(E),
+            .shared_by = List::chunk,
             .look = [](const void* v, std::size_t k) -> const void* { return &as<List>(v)[k]; }};
   }
 };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "described_state.hpp"
 #include "knead/brep/assembly.hpp"
 #include "knead/scene/parted_edges.hpp"
 
@@ -111,11 +112,7 @@ std::vector<EdgesReport> report_edges(const SessionState& state) {
     if (!s.visible || s.visible->edges.empty() || !(moved || holds_trims(s.constraints))) continue;
     auto report = trim_report(s);
     if (!report) continue;
-    EdgesReport made{static_cast<int>(k), *std::move(report), {}};
-    for (const TrimReport::Edge& edge : made.trims.edges) {
-      made.angles.push_back(edge.follows ? angles_at(state, edge.held.id) : std::nullopt);
-    }
-    list.push_back(std::move(made));
+    list.push_back({static_cast<int>(k), *std::move(report)});
   }
   return list;
 }
@@ -133,8 +130,7 @@ std::optional<Parting> angles_at(const SessionState& state, const std::string& e
 }
 
 std::string_view name_of(SeamContinuity continuity) {
-  constexpr std::string_view names[] = {"none", "C0", "G1", "periodic"};
-  return names[static_cast<int>(continuity)];
+  return choices(continuity)[static_cast<std::size_t>(continuity)].name;
 }
 
 std::string name_of(const SessionState& state, const PatchEdge& edge) {

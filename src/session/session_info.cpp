@@ -189,10 +189,6 @@ static void describe(SessionInfo& s, Fields& fields) {
 }
 
 template <>
-const Type& type_of<StepRecord>() {
-  return make_type<StepRecord>();
-}
-template <>
 const Type& type_of<SessionInfo>() {
   return make_type<SessionInfo>();
 }

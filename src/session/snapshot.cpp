@@ -214,7 +214,7 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
   StateReader a(bytes.substr(sum_size), most_memory);
   SnapshotHead head;
   a.read(type_of<SnapshotHead>(), &head);
-  if (static_cast<std::size_t>(head.surfaces) != document.surfaces().size()) {
+  if (!a.bad() && static_cast<std::size_t>(head.surfaces) != document.surfaces().size()) {
     return damaged("the snapshot belongs to another document");
   }
   Session session(std::move(document));

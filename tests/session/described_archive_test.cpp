@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "session/commands/force.hpp"
 #include "session/described_state.hpp"
 
 namespace knead {
@@ -36,6 +37,8 @@ StepRecord step_of(double time, int iterations = 0) {
   step.iterations = iterations;
   return step;
 }
+
+const Type& steps_of_a_state() { return *type_of<SessionState>().find("steps")->type; }
 
 TEST(DescribedArchive, NumbersKeepTheirBits) {
   StepRecord step;
@@ -133,6 +136,35 @@ TEST(DescribedArchive, MemoryIsLimited) {
   steps.clear();
   EXPECT_FALSE(reads(bytes, steps));
   EXPECT_LE(steps.size() * sizeof(StepRecord), memory);
+  SharedList<StepRecord> shared;
+  StateReader reader(bytes, memory);
+  reader.read(steps_of_a_state(), &shared);
+  EXPECT_TRUE(reader.bad());
+  EXPECT_LE(shared.size() * sizeof(StepRecord), memory);
+}
+
+TEST(DescribedArchive, WhatCopiesShareWeighsOnceAndWhatTheyOwnEachTime) {
+  const Type& type = steps_of_a_state();
+  SharedList<StepRecord> steps;
+  for (int k = 0; k < 300; ++k) steps.push_back(step_of(k));
+  SharedList<StepRecord> copy = steps;
+  Weight weight;
+  EXPECT_GE(weight.of(type, &steps), 300 * sizeof(StepRecord));
+  EXPECT_LE(weight.of(type, &copy), 64U);
+  copy.own(5).time = -1;  // 128 of them are the copy's own now
+  const std::size_t own = weight.of(type, &copy);
+  EXPECT_GE(own, 128 * sizeof(StepRecord));
+  EXPECT_LT(own, 256 * sizeof(StepRecord));
+}
+
+TEST(DescribedArchive, ForcesAreCheckedWhereverTheyComeFrom) {
+  ForceCommand c{.kind = ForceKind::volcano, .at = std::vector{0.5, 0.5}, .to = {{0, 0, 1}}};
+  EXPECT_TRUE(force_of(c));
+  c.core = 0;
+  EXPECT_EQ(force_of(c).error().where, "core");
+  c.core = 1;
+  c.strength = -1e300;
+  EXPECT_EQ(force_of(c).error().where, "strength");
 }
 
 }  // namespace

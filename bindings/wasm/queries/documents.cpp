@@ -92,7 +92,9 @@ struct SnapshotQuery {
 void describe(SnapshotQuery& q, Fields& fields) {
   fields.name("snapshot", "All of the session as bytes.");
   fields.add("history_bytes", q.history_bytes,
-             {.help = "of shapes, as far as which the history goes back", .presence = Presence::required});
+             {.help = "of memory that states take, as far as which the history goes back",
+              .range = between(0, 1e9),
+              .presence = Presence::required});
 }
 
 Expected<std::string> ask(Session& session, const SnapshotQuery& q) {

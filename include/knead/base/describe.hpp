@@ -140,7 +140,8 @@ struct Type {
   int (*value)(const void*) = nullptr;           ///< of choices; of variants the index
   void (*assign)(void*, int) = nullptr;          ///< of choices; default-constructs alternative k of variants
 
-  std::size_t weight = 0;  ///< of lists: bytes that each element takes in a copy
+  std::size_t weight = 0;     ///< of lists: bytes that each element takes
+  std::size_t shared_by = 0;  ///< of lists whose copies share their elements: by so many, one beside the other
   /// Of lists whose copies share their elements: element k to be read, where `at` makes it this list's own.
   const void* (*look)(const void*, std::size_t) = nullptr;
   const void* (*shared)(const void*) = nullptr;  ///< of opaque pointers: the object that is shared

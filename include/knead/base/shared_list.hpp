@@ -16,6 +16,8 @@ namespace knead {
 template <class T>
 class SharedList {
  public:
+  static constexpr std::size_t chunk = 128;  ///< copies share as many items, one beside the other
+
   class Iterator {
    public:
     using iterator_category = std::random_access_iterator_tag;
@@ -89,8 +91,6 @@ class SharedList {
   }
 
  private:
-  static constexpr std::size_t chunk = 128;
-
   void own_chunk(std::size_t k) {
     if (chunks_[k].use_count() > 1) chunks_[k] = std::make_shared<std::vector<T>>(*chunks_[k]);
   }

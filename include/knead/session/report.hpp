@@ -43,18 +43,17 @@ struct Outcome {
 struct EdgesReport {
   int surface = 0;  ///< index
   TrimReport trims;
-  /// At each edge of `trims`: the angles between its tangent planes, where it follows and was smooth as opened.
-  std::vector<std::optional<Parting>> angles;
 };
 
 /// Of every surface with known edges that moved, or that holds them, in order. Surfaces whose edges cannot be measured
-/// are left out. Cost: that of `trim_report` and `parting`.
+/// are left out. Cost: that of `trim_report`.
 [[nodiscard]] std::vector<EdgesReport> report_edges(const SessionState& state);
 
 /// "follow", or what of an edge is held: "free", "position", "clamped", "curvature".
 [[nodiscard]] std::string_view hold_of(const TrimReport::Edge& edge);
 
-/// The angles at an edge that follows and was smooth as opened; none for other edges.
+/// The angles between the tangent planes at an edge that follows and was smooth as opened; none for other edges. Cost:
+/// that of `parting`.
 [[nodiscard]] std::optional<Parting> angles_at(const SessionState& state, const std::string& edge);
 
 /// "none", "C0", "G1", "periodic".

@@ -72,12 +72,11 @@ Expected<void> check_kind(const ForceCommand& f) {
   return {};
 }
 
-Expected<void> check_force(const ForceCommand& c) { return check_kind(c); }
-
 }  // namespace
 
 Expected<Force> force_of(const ForceCommand& c) {
-  if (auto valid = check_force(c); !valid) return std::unexpected(valid.error());
+  if (auto valid = check_kind(c); !valid) return std::unexpected(valid.error());
+  if (auto valid = check_ranges(type_of<ForceCommand>(), &c); !valid) return std::unexpected(valid.error());
   switch (c.kind) {
     case ForceKind::spring:
       return SpringForce{*c.at, *c.to, c.strength};

@@ -7,7 +7,7 @@ import type { SavedView } from './saved_views';
 const pause = 800; // milliseconds without a change after which the session is kept
 const mostUnkept = 1200; // milliseconds of computing after which it is kept in any case
 const mostPlayed = 4000; // milliseconds of playing after which it is kept, however little was computed
-const historyBytes = 48 * 2 ** 20; // of shapes that undo can go back to after a recovery
+const historyBytes = 48 * 2 ** 20; // of memory of states that undo can go back to after a recovery
 const mostSessions = 6;
 const retryTime = 20_000; // milliseconds after which it is tried again to keep what could not be kept
 

@@ -8,7 +8,7 @@ import { cadFormat, isCompressed, uncompressedName } from './formats';
 import type { Host } from './host';
 import { writeKnead } from './knead_file';
 
-const historyBytes = 16 * 2 ** 20; // of shapes, in a document
+const historyBytes = 16 * 2 ** 20; // of memory that states take, in a document
 const longSession = 2000; // milliseconds of steps from which a document includes its snapshot
 
 /** Saving: the downloads, in the formats of the menu. */

@@ -56,11 +56,11 @@ let computeTime = 0;
 let unkept = 0;
 let quietSteps = 0;
 let opened = 0; // commands that belong to the opened document
-const historyBytes = 48 * 2 ** 20; // of shapes that the session before keeps where another cannot be opened
+const historyBytes = 48 * 2 ** 20; // of memory of states that the session before keeps where another cannot be opened
 
 /** What can be handed over instead of copied. */
 const buffersOf = (answer: unknown): ArrayBuffer[] =>
-  (ArrayBuffer.isView(answer) ? [answer] : Object.values(answer ?? {})).filter(ArrayBuffer.isView).map((view) => view.buffer as ArrayBuffer);
+  (ArrayBuffer.isView(answer) ? [answer] : typeof answer === 'object' ? Object.values(answer ?? {}) : []).filter(ArrayBuffer.isView).map((view) => view.buffer as ArrayBuffer);
 
 const post = (reply: Reply, transfer: Transferable[] = []) => self.postMessage(reply, { transfer });
 
