@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "commands/material.hpp"
 
@@ -10,15 +9,6 @@
 namespace knead {
 namespace {
 
-Expected<void> set_at(double& to, const std::optional<double>& given, const char* field) {
-  if (!given) return {};
-  if (!(std::isfinite(*given) && *given >= 0)) {
-    return input_error(fmt::format("{} is not a {}", *given, field), field, "use a number >= 0");
-  }
-  to = *given;
-  return {};
-}
-
 template <int D>
 Expected<void> set_material(SceneShape<D>& s, const MaterialCommand& c) {
   MaterialOf<D> next;
@@ -26,9 +16,8 @@ Expected<void> set_material(SceneShape<D>& s, const MaterialCommand& c) {
     next.alpha[k] = std::get<double>(s.material.alpha[k]);
     next.beta[k] = std::get<double>(s.material.beta[k]);
   }
-  double mass = std::get<double>(s.material.mass), damping = std::get<double>(s.material.damping);
-  if (auto done = set_at(mass, c.mass, "mass"); !done) return done;
-  if (auto done = set_at(damping, c.damping, "damping"); !done) return done;
+  const double mass = c.mass.value_or(std::get<double>(s.material.mass));
+  const double damping = c.damping.value_or(std::get<double>(s.material.damping));
   const auto set = [](const std::optional<std::vector<double>>& given, auto& to, const char* field) -> Expected<void> {
     if (!given) return {};
     if (given->size() != to.size()) {
@@ -70,7 +59,7 @@ Expected<void> set_elasticity(const MaterialCommand& c, Elasticity<D>& elasticit
     if (w[0] != w[1] || w[1] != w[2]) {
       return input_error(fmt::format("a {} has one weight of each form", kind_of(D)), field, "give one number");
     }
-    if (auto done = set_at(*to, w[0], field); !done) return done;
+    *to = w[0];
   }
   elasticity = next;
   return {};

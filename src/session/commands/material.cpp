@@ -6,9 +6,16 @@
 #include "scene/formula_field.hpp"
 #include "scene/places.hpp"
 #include "session/acts/selection.hpp"
+#include "session/described_json.hpp"
 
 namespace knead {
 namespace {
+
+constexpr Choice coefficients[] = {{"alpha11", "stretch"},  {"alpha12", "stretch"},
+                                   {"alpha22", "stretch"},  {"beta11", "bend"},
+                                   {"beta12", "bend"},      {"beta22", "bend"},
+                                   {"mass", "per area"},    {"damping", "force per velocity and area"},
+                                   {"young", "of a shell"}, {"thickness", "of a shell"}};
 
 Coefficient<2>* coefficient_named(MaterialFieldOf<2>& material, const std::string& name) {
   static constexpr const char* suffixes[] = {"11", "12", "22"};
@@ -40,7 +47,7 @@ Expected<MaterialFieldOf<2>> varied(const MaterialCommand& c, const SceneSurface
   Coefficient<2>* const place = coefficient_named(next, *c.coefficient);
   if (place == nullptr) {
     return input_error(fmt::format("\"{}\" is not a coefficient", *c.coefficient), "coefficient",
-                       "use alpha11, alpha12, alpha22, beta11, beta12, beta22, mass, damping, young or thickness");
+                       fmt::format("use one of: {}", fmt::join(names_of(coefficients), ", ")));
   }
   auto field = field_of(c, s);
   if (!field) return std::unexpected(field.error());
@@ -269,12 +276,6 @@ std::optional<MaterialPreset> preset_of(const SceneSurface& s) {
   }
   return std::nullopt;
 }
-
-static constexpr Choice coefficients[] = {{"alpha11", "stretch"},  {"alpha12", "stretch"},
-                                          {"alpha22", "stretch"},  {"beta11", "bend"},
-                                          {"beta12", "bend"},      {"beta22", "bend"},
-                                          {"mass", "per area"},    {"damping", "force per velocity and area"},
-                                          {"young", "of a shell"}, {"thickness", "of a shell"}};
 
 void describe(MaterialCommand& c, Fields& fields) {
   fields.name("material", "resistance to stretching and bending, in the order 11, 12, 22; fields not given stay");

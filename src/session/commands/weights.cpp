@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "session/acts/refining.hpp"
 #include "session/acts/selection.hpp"
 
@@ -27,11 +25,6 @@ Expected<void> execute(const WeightsCommand& c, Act& act) {
   }
   const char* const where = c.weight ? "weight" : "by";
   const double value = c.weight ? *c.weight : *c.by;
-  const auto refused = [&](double number) {
-    return input_error(fmt::format("{} is not a {}", number, c.weight ? "weight" : "factor"), where,
-                       "use a finite number > 0");
-  };
-  if (!(std::isfinite(value) && value > 0)) return refused(value);
   std::vector<double> weights(s.current->weights().begin(), s.current->weights().end());
   weights.resize(static_cast<std::size_t>(s.current->size()), 1.0);
   for (int row : *named) {
