@@ -39,7 +39,7 @@ void describe(CheckedEdgeInfo& e, Fields& fields) {
   fields.add("unknown", e.unknown, {.help = "why nothing is known of it"});
 }
 
-std::string edges_json(const Session& session) {
+std::vector<EdgesInfo> edges_info(const Session& session) {
   std::vector<EdgesInfo> infos;
   DocumentRegions regions(session.document());
   for (std::size_t k = 0; k < session.state().surfaces.size(); ++k) {
@@ -66,7 +66,7 @@ std::string edges_json(const Session& session) {
       info.edges.push_back({edge.held.id, edge.neighbours, edge.deviation});
     }
   }
-  return json_of(infos);
+  return infos;
 }
 
 std::string room_json(const Session& session, std::size_t surface) {

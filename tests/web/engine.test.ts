@@ -48,7 +48,7 @@ describe('the session in WebAssembly', () => {
       expect(engine.query('state').surfaces[engine.query('state').selection[0]!]!.moved).toBeGreaterThan(0);
       // What is saved here is what is there.
       const saved = join(directory, 'wasm.step');
-      writeFileSync(saved, engine.query('save'));
+      writeFileSync(saved, engine.query('save').file);
       const info = (file: string) => execFileSync(native, ['info', file], { encoding: 'utf8' }).replaceAll(file, '');
       expect(info(saved)).toBe(info(out));
     } finally {
@@ -143,7 +143,7 @@ describe('the session in WebAssembly', () => {
     expect(engine.query('surface', { surface: 2 }).degree).toEqual([2, 3]);
     expect(() => engine.query('surface', { surface: 3 })).toThrow(/no such surface/);
     const back = await load();
-    back.query('open', { file: engine.query('save'), name: 'back.step' });
+    back.query('open', { file: engine.query('save').file, name: 'back.step' });
     expect(back.query('surface', { surface: 0 })).toEqual(engine.query('surface', { surface: 0 }));
   });
 
@@ -192,7 +192,7 @@ describe('the session in WebAssembly', () => {
       for (const command of script.commands) engine.execute(command);
       const [stl, saved, out] = [engine.query('mesh', { format: 'stl', detail: 96 }), join(directory, 'saved.step'), join(directory, 'native.stl')];
       expect(stl).not.toEqual(opened);
-      writeFileSync(saved, engine.query('save'));
+      writeFileSync(saved, engine.query('save').file);
       execFileSync(native, ['mesh', saved, '-o', out]);
       const other = readFileSync(out);
       expect(other.length).toBe(stl.length);
@@ -210,17 +210,17 @@ describe('the session in WebAssembly', () => {
     made.query('fresh', { name: 'curves' });
     made.execute({ do: 'new', shape: 'curve', form: 'circle', radius: 3 });
     made.execute({ do: 'new', shape: 'curve', size: 5, net: 8, name: 'rail' });
-    const bytes = made.query('save');
+    const bytes = made.query('save').file;
     const engine = await load();
     engine.query('open', { file: bytes, name: 'curves.step' });
     expect(engine.query('state').surfaces).toHaveLength(0);
     expect(engine.query('state').bodies.map((b) => [b.name, b.moved])).toEqual([['circle', 0], ['rail', 0]]);
-    expect(engine.query('save')).toEqual(bytes);
+    expect(engine.query('save').file).toEqual(bytes);
     expect(engine.query('body_picture', { body: 1 }).lines.length).toBeGreaterThan(6);
     engine.execute({ do: 'select', body: engine.query('state').bodies[1]!.id });
     engine.execute({ do: 'points', which: [3], by: [0, 0, 1] });
     const again = await load();
-    again.query('open', { file: engine.query('save'), name: 'curves.step' });
+    again.query('open', { file: engine.query('save').file, name: 'curves.step' });
     expect(Array.from(again.query('body_picture', { body: 1 }).net)).toEqual(Array.from(engine.query('body_picture', { body: 1 }).net));
     expect(() => engine.execute({ do: 'points', rows_u: [0], by: [0, 0, 1] })).toThrow(EngineError);
   });

@@ -25,9 +25,9 @@ describe('an IGES file', () => {
     const engine = await Engine.load(wasm);
     const { surfaces } = engine.query('open', { file: plateIges(), name: 'plate.igs' });
     expect(surfaces).toMatchObject([{ id: '#1', name: 'PLATE', net: [2, 2] }]);
-    expect(engine.query('save')).toEqual(plateIges());
+    expect(engine.query('save').file).toEqual(plateIges());
     engine.execute({ do: 'elevate', by: [1, 1] });
-    const text = new TextDecoder().decode(engine.query('save'));
+    const text = new TextDecoder().decode(engine.query('save').file);
     expect(text).toContain('128,2,2,2,2,0,0,1,0,0,');
     expect(text.split('\n').slice(0, -1).every((line) => line.length === 80)).toBe(true);
   });

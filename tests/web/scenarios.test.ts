@@ -89,7 +89,7 @@ describe('scenarios in WebAssembly', () => {
       let mine = engine;
       if (engine.query('state').bodies.length > 0) {
         mine = await Engine.load(wasm);
-        mine.query('open', { file: engine.query('save'), name: 'page.step' });
+        mine.query('open', { file: engine.query('save').file, name: 'page.step' });
       }
       const { surfaces } = mine.query('state');
       expect(there.query('state').surfaces.length).toBe(surfaces.length);

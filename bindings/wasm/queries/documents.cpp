@@ -101,7 +101,23 @@ Expected<std::string> ask(Session& session, const SnapshotQuery& q) {
   return session.snapshot(static_cast<std::size_t>(q.history_bytes));
 }
 
-Expected<std::string> save(Session& session) { return session.save(); }
+/// The file, and how it leaves the edges of its faces; one answer, so that both are of the same moment.
+struct SavedFile {
+  Bytes file;
+  std::vector<EdgesInfo> edges;
+};
+
+void describe(SavedFile& saved, Fields& fields) {
+  fields.name("saved file");
+  fields.add("file", saved.file);
+  fields.add("edges", saved.edges, {.help = "of the faces on every surface that has moved"});
+}
+
+Expected<SavedFile> save(Session& session) {
+  auto file = session.save();
+  if (!file) return std::unexpected(std::move(file.error()));
+  return SavedFile{{*std::move(file)}, edges_info(session)};
+}
 
 struct MeshQuery {
   using Answer = Bytes;
@@ -142,7 +158,7 @@ std::vector<Query> document_queries() {
           query<FreshQuery>(),
           query<RestoreQuery>(),
           query<SnapshotQuery>(),
-          query<Bytes, save>("save", "The file as it is now."),
+          query<SavedFile, save>("save", "The file as it is now."),
           query<MeshQuery>()};
 }
 

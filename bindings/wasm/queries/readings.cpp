@@ -6,8 +6,6 @@
 namespace knead::studio {
 namespace {
 
-Expected<std::string> edges(Session& session) { return edges_json(session); }
-
 Expected<std::string> checked_edges(Session& session, int number) {
   if (!has_surface(session, number)) return "[]";
   return checked_edges_json(session, static_cast<std::size_t>(number));
@@ -54,9 +52,7 @@ Expected<std::string> ask(Session& session, const FaceReadingQuery& q) {
 }  // namespace
 
 std::vector<Query> reading_queries() {
-  return {query<std::vector<EdgesInfo>, edges>("edges",
-                                               "The edges of the faces on every surface of a file that has moved."),
-          query<std::vector<CheckedEdgeInfo>, checked_edges>("checked_edges",
+  return {query<std::vector<CheckedEdgeInfo>, checked_edges>("checked_edges",
                                                              "How the faces on a surface meet their neighbours."),
           query<std::optional<double>, room>(
               "room",

@@ -17,10 +17,6 @@ class TypeScript;
 /// The steps from index `first` on, [{energy, stretch, …}, …].
 [[nodiscard]] std::string steps_json(const SessionState& state, std::size_t first);
 
-/// The edges of the faces on every surface of a STEP file that was moved, [{surface, tolerance, edges, unknown}, …]:
-/// how far the surface is along each from where it was. Measured as by `trim_report`.
-[[nodiscard]] std::string edges_json(const Session& session);
-
 /// How large a tool the visible part of a surface has room for: the distance of its visible middle from the nearest
 /// edge of a face, file units. "null" if no edges of faces are known. Cost: that of `visible_middle`.
 [[nodiscard]] std::string room_json(const Session& session, std::size_t surface);

@@ -54,7 +54,7 @@ export class Saving {
   /** The file as it is now, compressed as it came. */
   private async saved(): Promise<{ bytes: Uint8Array; edges: EdgesInfo[] }> {
     const { client } = this.host;
-    const [bytes, edges] = await Promise.all([client.query('save'), client.query('edges')]);
+    const { file: bytes, edges } = await client.query('save');
     const { file } = this.documents;
     if (file?.kind !== 'step' || !isCompressed(file.bytes)) return { bytes, edges };
     const { packedLike } = await import('./compressed');
