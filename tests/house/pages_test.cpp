@@ -43,8 +43,9 @@ class HouseThesisPage : public testing::Test {
 
   void row(const std::string& numbers, const std::string& code, const std::string& tests,
            const std::string& differs = "") {
-    write("docs/thesis.md", "# Thesis\n\n| thesis | what | here | tests | differs |\n|---|---|---|---|---|\n| " +
-                                numbers + " | energy | " + code + " | " + tests + " | " + differs + " |\n");
+    write("docs/thesis.md", "# Thesis\n\n| thesis | what | here | tests |\n|---|---|---|---|\n| " + numbers +
+                                " | energy | " + code + " | " + tests + " |\n\n" +
+                                (differs.empty() ? "" : "- **" + numbers + "**: " + differs + "\n"));
   }
 
   using Errors = std::vector<std::string>;
@@ -83,6 +84,17 @@ TEST_F(HouseThesisPage, WithANameThatHasNoFileOrARowThatSaysNothingIsFound) {
   EXPECT_EQ(thesis_page_errors(root_), Errors{});
   row("4.8", "", "", "Not implemented.");
   EXPECT_EQ(thesis_page_errors(root_), Errors{"docs/thesis.md:5: \"4.8\" is no number of the thesis"});
+}
+
+TEST_F(HouseThesisPage, WithMoreLinksThanARowShowsOrADifferenceOfNoRowIsFound) {
+  const std::string link = "`stretch` in [energy](../include/knead/energy/energy.hpp)";
+  row("Eq. 4.8", link + ", " + link, "");
+  EXPECT_EQ(thesis_page_errors(root_), Errors{});
+  row("Eq. 4.8", link + ", " + link + ", " + link, "");
+  EXPECT_EQ(thesis_page_errors(root_), Errors{"docs/thesis.md:5: a cell has 3 links: divide the row"});
+  write("docs/thesis.md", "| thesis | what | here | tests |\n|---|---|---|---|\n| Eq. 4.8 | energy | " + link +
+                              " | |\n\n- **Eq. 4.9**: Not so.\n");
+  EXPECT_EQ(thesis_page_errors(root_), Errors{"docs/thesis.md:5: \"Eq. 4.9\" is the first cell of no row"});
 }
 
 TEST_F(HouseThesisPage, IsWhatCitationsLeadTo) {
