@@ -6,6 +6,7 @@
 #include <iterator>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <utility>
 
 namespace knead::house {
@@ -237,6 +238,35 @@ std::vector<std::string> citation_errors(const fs::path& root) {
   return found;
 }
 
+namespace {
+
+/// The anchors of a page: its headings in small letters, without punctuation, spaces as hyphens; the second of a name
+/// ends in "-1".
+std::set<std::string> anchors_of(const std::string& page) {
+  static const std::regex heading(R"(^#+ (.*))");
+  static const std::regex link(R"(\[([^\]]*)\]\([^)]*\))");
+  std::set<std::string> anchors;
+  bool in_code = false;
+  std::istringstream in(page);
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (line.starts_with("```")) in_code = !in_code;
+    if (in_code || !std::regex_match(line, match, heading)) continue;
+    std::string anchor;
+    for (const char c : std::regex_replace(match[1].str(), link, "$1")) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (c == ' ') anchor += '-';
+      if (std::isalnum(byte) != 0 || byte >= 0x80 || c == '-' || c == '_')
+        anchor += static_cast<char>(std::tolower(byte));
+    }
+    std::string numbered = anchor;
+    for (int k = 1; !anchors.insert(numbered).second; ++k) numbered = anchor + "-" + std::to_string(k);
+  }
+  return anchors;
+}
+
+}  // namespace
+
 std::vector<std::string> dead_links(const fs::path& root) {
   std::vector<fs::path> pages;
   for (const auto& entry : fs::directory_iterator(root)) pages.push_back(entry.path());
@@ -245,15 +275,19 @@ std::vector<std::string> dead_links(const fs::path& root) {
     for (const auto& entry : fs::recursive_directory_iterator(root / part)) pages.push_back(entry.path());
   }
   std::ranges::sort(pages);
-  static const std::regex link(R"(\]\(([^)#: ]*[./][^)#: ]*)(#[^)]*)?\))");
+  static const std::regex link(R"(\]\(([^)#: ]*[./][^)#: ]*)?(?:#([^)]*))?\))");
   std::vector<std::string> dead;
   for (const fs::path& page : pages) {
     if (page.extension() != ".md") continue;
-    const std::string text = text_of(page);
+    const std::string text = text_of(page), name = fs::relative(page, root).generic_string();
     for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
-      const std::string target = (*it)[1];
-      if (fs::exists(page.parent_path() / target)) continue;
-      dead.push_back(fs::relative(page, root).generic_string() + ": " + target);
+      const std::string target = (*it)[1], anchor = (*it)[2];
+      const fs::path file = target.empty() ? page : page.parent_path() / target;
+      if (!fs::exists(file)) {
+        dead.push_back(name + ": " + target);
+      } else if (!anchor.empty() && file.extension() == ".md" && !anchors_of(text_of(file)).contains(anchor)) {
+        dead.push_back(name + ": " + target + "#" + anchor);
+      }
     }
   }
   return dead;

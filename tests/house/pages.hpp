@@ -21,8 +21,8 @@ namespace knead::house {
 /// subsections has.
 [[nodiscard]] std::vector<std::string> citation_errors(const std::filesystem::path& root);
 
-/// Links of the pages (README.md and the like, docs, examples) to files that are not there, "docs/step.md: x.md".
-/// Addresses in the web and places within a page are not looked at.
+/// Links of the pages (README.md and the like, docs, examples) to files or headings that are not there,
+/// "docs/step.md: x.md#y". Addresses in the web are not looked at.
 [[nodiscard]] std::vector<std::string> dead_links(const std::filesystem::path& root);
 
 }  // namespace knead::house

@@ -111,8 +111,9 @@ TEST_F(HouseThesisPage, IsWhatCitationsLeadTo) {
 
 TEST_F(HouseThesisPage, IsAPageWhoseDeadLinksAreFound) {
   write("README.md",
-        "[a](docs/thesis.md), [b](docs/thesis.md#rows), [c](https://no.where/x.md), `S[0](i)` [d](e.md).\n");
-  EXPECT_EQ(dead_links(root_), Errors{"README.md: e.md"});
+        "# Two words: `x`\n[a](docs/thesis.md), [b](docs/thesis.md#thesis), [c](https://no.where/x.md), `S[0](i)` "
+        "[d](e.md), [e](#two-words-x), [f](#two), [g](docs/thesis.md#rows).\n");
+  EXPECT_EQ(dead_links(root_), (Errors{"README.md: e.md", "README.md: #two", "README.md: docs/thesis.md#rows"}));
   fs::remove(root_ / "tests/energy/energy_test.cpp");
   write("README.md", "");
   EXPECT_EQ(dead_links(root_), Errors{"docs/thesis.md: ../tests/energy/energy_test.cpp"});
