@@ -52,6 +52,20 @@ void complete(Edge& edge) {
   }
 }
 
+Expected<Edge> sampled(const PatchEdge& id, const Surface& surface) {
+  Edge edge;
+  edge.id = id;
+  edge.surface = &surface;
+  edge.t = seams::edge_samples(surface.knots(edge_along(id.edge)));
+  auto points = seams::evaluate_edge(surface, id.edge, edge.t, 0);
+  if (!points) return std::unexpected(points.error());
+  edge.points = std::move(points->derivatives.front());
+  edge.lower = edge.points.colwise().minCoeff();
+  edge.upper = edge.points.colwise().maxCoeff();
+  complete(edge);
+  return edge;
+}
+
 /// The position of an edge relative to a curve: the nearest points of its samples.
 struct Beside {
   bool all = true;
@@ -69,9 +83,14 @@ double box_distance(const Point& lower, const Point& upper, const Point& x) {
   return (lower - x).cwiseMax(x - upper).cwiseMax(0).norm();
 }
 
-/// Distance of x from the edge's curve, as far as it is below `limit`: the nearest piece of the polyline, then
+/// The nearest point of a curve.
+struct Foot {
+  double distance = INFINITY, t = 0;
+};
+
+/// That of the edge's curve to x, where it is nearer than `limit`: on the nearest piece of the polyline, then by
 /// Gauss–Newton on |C(t) − x|² about it.
-std::optional<double> distance_to_edge(const Point& x, const Edge& edge, double limit) {
+std::optional<Foot> foot_on(const Point& x, const Edge& edge, double limit) {
   double nearest = limit + edge.longest, t = 0;
   std::size_t piece = edge.t.size();
   for (const Edge::Block& block : edge.blocks) {
@@ -88,33 +107,33 @@ std::optional<double> distance_to_edge(const Point& x, const Edge& edge, double 
   if (piece == edge.t.size() || nearest > limit + edge.stray[piece]) return std::nullopt;
   const double low = edge.t[piece > 0 ? piece - 1 : 0], high = edge.t[std::min(piece + 2, edge.t.size() - 1)];
   const double scale = edge.surface->knots(edge_along(edge.id.edge)).domain().length();
-  double best = INFINITY;
+  Foot best;
   for (int iteration = 0; iteration < 12; ++iteration) {
     const auto at = seams::evaluate_edge(*edge.surface, edge.id.edge, {&t, 1}, 1);
     if (!at) return std::nullopt;
     const Point offset = x - at->points().row(0).transpose();
     const Point tangent =
         scale * at->at(edge_along(edge.id.edge) == 0 ? MultiIndex<2>{1, 0} : MultiIndex<2>{0, 1}).row(0).transpose();
-    best = std::min(best, offset.norm());
+    if (offset.norm() < best.distance) best = {offset.norm(), t};
     if (tangent.squaredNorm() == 0) break;
     const double next = std::clamp(t + offset.dot(tangent) / tangent.squaredNorm(), low, high);
     if (std::abs(next - t) <= 1e-14) break;
     t = next;
   }
-  return best <= limit ? std::optional(best) : std::nullopt;
+  return best.distance <= limit ? std::optional(best) : std::nullopt;
 }
 
 Beside beside(const Edge& edge, const Edge& curve, double tolerance) {
   Beside result;
   bool before = false;
   for (Eigen::Index k = 0; k < edge.points.rows(); ++k) {
-    const auto distance = distance_to_edge(edge.points.row(k), curve, tolerance);
-    if (distance) {
-      result.gap = std::max(result.gap, *distance);
+    const auto foot = foot_on(edge.points.row(k), curve, tolerance);
+    if (foot) {
+      result.gap = std::max(result.gap, foot->distance);
       if (before) result.common += (edge.points.row(k) - edge.points.row(k - 1)).norm();
     }
-    result.all = result.all && distance;
-    before = distance.has_value();
+    result.all = result.all && foot;
+    before = foot.has_value();
   }
   return result;
 }
@@ -220,24 +239,15 @@ Expected<FoundSeams> find_seams(std::span<const Surface* const> patches, double 
   std::vector<Edge> edges;
   for (std::size_t patch = 0; patch < patches.size(); ++patch) {
     for (SurfaceEdge side : {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1}) {
-      Edge edge;
-      edge.id = {static_cast<int>(patch), side};
-      edge.surface = patches[patch];
-      edge.t = seams::edge_samples(edge.surface->knots(edge_along(side)));
-      auto points = seams::evaluate_edge(*edge.surface, side, edge.t, 0);
-      if (!points) {
-        found.unusable.emplace_back(edge.id, points.error());
-        continue;
+      const PatchEdge id{static_cast<int>(patch), side};
+      auto edge = sampled(id, *patches[patch]);
+      if (!edge) {
+        found.unusable.emplace_back(id, edge.error());
+      } else if (const double size = (edge->upper - edge->lower).norm(); size <= tolerance) {
+        found.collapsed.push_back({id, size});
+      } else {
+        edges.push_back(*std::move(edge));
       }
-      edge.points = std::move(points->derivatives.front());
-      edge.lower = edge.points.colwise().minCoeff();
-      edge.upper = edge.points.colwise().maxCoeff();
-      if ((edge.upper - edge.lower).norm() <= tolerance) {
-        found.collapsed.push_back({edge.id, (edge.upper - edge.lower).norm()});
-        continue;
-      }
-      complete(edge);
-      edges.push_back(std::move(edge));
     }
   }
 
@@ -265,6 +275,38 @@ Expected<FoundSeams> find_seams(std::span<const Surface* const> patches, double 
     return std::tuple(s.a.patch, static_cast<int>(s.a.edge), s.b.patch, static_cast<int>(s.b.edge));
   });
   return found;
+}
+
+Expected<double> moved_gap(const Seam& seam, std::span<const Surface* const> before,
+                           std::span<const Surface* const> now) {
+  const auto patch = [](std::span<const Surface* const> all, const PatchEdge& e) -> const Surface& {
+    return *all[static_cast<std::size_t>(e.patch)];
+  };
+  double gap = 0;
+  for (const auto& [of, on] : {std::pair{seam.a, seam.b}, std::pair{seam.b, seam.a}}) {
+    const auto edge = sampled(of, patch(before, of)), other = sampled(on, patch(before, on));
+    if (!edge) return std::unexpected(edge.error());
+    if (!other) return std::unexpected(other.error());
+    std::vector<double> here, there;  // parameters of points that were together
+    for (std::size_t k = 0; k < edge->t.size(); ++k) {
+      std::optional<double> t;
+      if (seam.kind == SeamKind::whole) {
+        t = seam.reversed ? 1 - edge->t[k] : edge->t[k];
+      } else if (const auto foot = foot_on(edge->points.row(static_cast<Eigen::Index>(k)), *other, seam.gap)) {
+        t = foot->t;
+      }
+      if (!t) continue;
+      here.push_back(edge->t[k]);
+      there.push_back(*t);
+    }
+    if (here.empty()) continue;
+    const auto a = seams::evaluate_edge(patch(now, of), of.edge, here, 0);
+    if (!a) return std::unexpected(a.error());
+    const auto b = seams::evaluate_edge(patch(now, on), on.edge, there, 0);
+    if (!b) return std::unexpected(b.error());
+    gap = std::max(gap, (a->points() - b->points()).rowwise().norm().maxCoeff());
+  }
+  return gap;
 }
 
 double suggested_seam_tolerance(std::span<const Surface* const> patches) {

@@ -30,6 +30,12 @@ Command selected(const std::string& surface) { return with(&SelectCommand::surfa
 Command selected_together(const std::vector<std::string>& ids) { return with(&SelectCommand::surfaces, ids); }
 Command converted(const std::vector<std::string>& surfaces) { return with(&ConvertCommand::surfaces, surfaces); }
 
+Command without_seams() {
+  SeamsCommand command;
+  command.seams.couple = false;
+  return make_command(command);
+}
+
 Command with_smooth_seams() {
   SeamsCommand command;
   command.seams.smooth = true;
@@ -49,6 +55,8 @@ std::vector<Fix> fixes_at_edges(ErrorCode code, const DiagnosticValues& v) {
       return {{FixCode::let_follow, follow}};
     case ErrorCode::edge_left_open:
       return {{FixCode::let_open, {selected(v.surface.value_or("")), held_by(HoldMode::free)}}};
+    case ErrorCode::seam_would_open:
+      return {{FixCode::let_part, {without_seams()}}};
     case ErrorCode::edges_unknown:
       return {{FixCode::hold_rows, {make_command(HoldCommand{})}}, {FixCode::let_open, {held_by(HoldMode::free)}}};
     case ErrorCode::edge_face_not_spline:
@@ -100,6 +108,7 @@ std::vector<Fix> fixes_for(const Diagnostic& diagnostic) {
       if (v.permission != "never") return {};
       return {{FixCode::permit_refining, {permitting(RefinePermission::trims)}}};
     case ErrorCode::point_frozen:
+    case ErrorCode::region_frozen:
       return {{FixCode::thaw, {released("freeze")}}};
     case ErrorCode::pins_by_number:
       return {{FixCode::release_pins, {released("pins")}}};

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "acts/following.hpp"
-#include "acts/holding.hpp"
+#include "acts/placing.hpp"
 #include "acts/selection.hpp"
 #include "commands.hpp"
 #include "gestures/brushing.hpp"
@@ -49,7 +49,7 @@ bool only_looks(const Command& command) {
   return fields_of<ModesCommand>(command) != nullptr || fields_of<BucklingCommand>(command) != nullptr;
 }
 
-/// Whether surfaces move only as a model lets them, which holds the edges of faces: nothing need be measured.
+/// Whether surfaces move only as a model lets them, which keeps what holds them: nothing need be measured.
 bool moves_a_model(const Command& command) {
   const auto any_of = [&]<class... C>(std::type_identity<C>...) { return ((fields_of<C>(command) != nullptr) || ...); };
   return any_of(std::type_identity<StepCommand>(), std::type_identity<EvolveCommand>(),
@@ -108,7 +108,7 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   if (auto met = act.meeting.at_end(act, state()); !met) return met;
   if (auto closed = check_followed(*next, state()); !closed) return closed;
   if (!moves_a_model(meant)) {
-    if (auto closed = check_held_edges(act, state()); !closed) return closed;
+    if (auto held = check_placed(act, state(), meant.name()); !held) return held;
   }
   if (act.meeting.stopped()) meant = that_stops(meant);
   if (act.steps_kept) {

@@ -81,7 +81,7 @@ TEST(PointsCommand, FrozenRegionsSymmetriesAndLimitsStand) {
   Session session = on_sheet({R"({"do":"freeze","region":[[0.4,0.6],[0.4,0.6]]})"});
   const Error frozen = refusal(session, R"({"do":"points","which":[1,44],"by":[0,0,1]})");
   EXPECT_NE(frozen.message().find("44 (4, 4) is frozen"), std::string::npos) << frozen.message();
-  EXPECT_EQ(frozen.where, "which");
+  EXPECT_EQ(frozen.where, "points");
   run(session, {R"({"do":"points","which":[1],"by":[0,0,1]})"});
 
   Session mirrored = on_sheet({R"({"do":"symmetry","mirror":"u"})"});
@@ -94,7 +94,7 @@ TEST(PointsCommand, FrozenRegionsSymmetriesAndLimitsStand) {
 
   Session limited = on_sheet({R"({"do":"limit","distance":0.5})"});
   const Error far = refusal(limited, R"({"do":"points","which":[44],"by":[0,0,5]})");
-  EXPECT_EQ(far.where, "by");
+  EXPECT_EQ(far.where, "points");
   EXPECT_NE(far.message().find("0.5 is the limit"), std::string::npos) << far.message();
   run(limited, {R"({"do":"points","which":[44],"by":[0,0,1]})"});
   EXPECT_LE(limited.largest_displacement(0), 0.5);

@@ -209,7 +209,7 @@ TEST(PartedEdges, BothSidesOfASeamCount) {
       ++seams;
       const int d = brep::closed_directions(*s.opened)[0] ? 0 : 1;
       const int row = last ? s.opened->net()[static_cast<std::size_t>(d)] - 1 : 0;
-      const auto done = run_on(session, fmt::format(R"({{"do":"select","surface":"{}"}},
+      const auto done = run_on(session, fmt::format(R"({{"do":"select","surface":"{}"}},{{"do":"seams","couple":false}},
           {{"do":"points","rows_{}":[{}],"by":[0,0.1,0]}})",
                                                     s.id, d == 0 ? 'u' : 'v', row));
       ASSERT_TRUE(done) << done.error().message();

@@ -16,6 +16,7 @@ enum class ErrorCode : unsigned short {
   nothing_free_at_edges,   ///< held edges of faces do: tool, surface, permission
   nothing_free_at_brush,   ///< all that a brush would move is held or masked
   point_frozen,            ///< a control point that would be moved: point
+  region_frozen,           ///< a region that would be moved: surface, distance
   pins_by_number,          ///< pinned control points, whose numbers a change of the net would change: surface
   constraint_contradicts,  ///< what else is held
 
@@ -34,6 +35,7 @@ enum class ErrorCode : unsigned short {
   edge_would_turn,         ///< the tangent planes along a held one: edge, surface, angle, edges
   edge_would_part,         ///< one that follows: edge
   edge_left_open,          ///< in what would be saved: edge, surface, faces, distance
+  seam_would_open,         ///< between surfaces that are coupled: first, second, distance
   edges_unknown,           ///< of the faces on a surface: surface
 
   beyond_limit,              ///< a surface would be farther from where it was opened: distance, limit

@@ -68,6 +68,12 @@ struct FoundSeams {
 /// not meet. Errors: the tolerance is not a positive number (input).
 [[nodiscard]] Expected<FoundSeams> find_seams(std::span<const Surface* const> patches, double tolerance);
 
+/// The gap of a seam of `before` in the same patches as they are `now`, on whatever basis: the largest distance between
+/// points that were together, at the samples of `find_seams`. Of part of an edge those within the gap of the seam
+/// count. Errors: those of evaluation.
+[[nodiscard]] Expected<double> moved_gap(const Seam& seam, std::span<const Surface* const> before,
+                                         std::span<const Surface* const> now);
+
 /// 1 or −1 for each of so many patches: times these, the normals S_u × S_v of all patches that seams connect with
 /// `first` lie on the side of its own, whatever the angle between them. 1 for the others.
 /// Seams that are `reparametrised` count for nothing; where some contradict each other (a Möbius strip), the first one

@@ -24,6 +24,7 @@ enum class FixCode {
   let_follow,
   let_go,
   let_open,
+  let_part,
   convert_and_follow,
   select_and_follow,
   select,

@@ -7,6 +7,8 @@
 
 #include "knead/scene/lattice.hpp"
 #include "session/acts/limits.hpp"
+#include "session/acts/placing.hpp"
+#include "session/acts/refining.hpp"
 #include "session/acts/selection.hpp"
 #include "session/acts/stepping.hpp"
 
@@ -95,6 +97,10 @@ Expected<void> execute(const LatticeCommand& c, Act& act) {
     return input_error("the surfaces are not as a block of this kind has left them", "again",
                        "leave it out: a block is put round them as they are");
   }
+  // Two edges with the same knots are deformed alike.
+  if (on == nullptr && act.state.permission != RefinePermission::never) {
+    if (auto united = refine_seams(act, false); !united) return united;
+  }
   PulledLattice pulled{c.net, c.degree, c.margin, {}, act.state.selection(), {}, {}};
   for (std::size_t k = 0; k < pulled.surfaces.size(); ++k) {
     pulled.before.push_back(on ? on->before[k]
@@ -111,7 +117,9 @@ Expected<void> execute(const LatticeCommand& c, Act& act) {
     auto moved = pulled.before[k]->with_control_points(*points);
     if (!moved) return std::unexpected(moved.error());
     SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])];
-    s.current = s.rest = std::make_shared<const Surface>(std::move(*moved));  // the block carries the energy, not they
+    auto current = std::make_shared<const Surface>(std::move(*moved));
+    if (auto done = put<2>(s, current); !done) return done;
+    s.rest = std::move(current);  // the block carries the energy, not they
     s.velocity.resize(0, 3);
     pulled.after.push_back(s.current);
   }

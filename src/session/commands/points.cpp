@@ -2,69 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 
-#include "knead/base/error_code.hpp"
-#include "knead/spline/extremum.hpp"
-#include "scene/places.hpp"
+#include "session/acts/placing.hpp"
 #include "session/acts/selection.hpp"
 
 namespace knead {
-namespace {
-
-constexpr double symmetry_tolerance = 1e-9;  // of the largest move
-constexpr double limit_tolerance = 1e-6;     // relative, as for steps
-
-bool same_bits(const Points& a, const Points& b, Eigen::Index row) {
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    if (std::bit_cast<std::uint64_t>(a(row, k)) != std::bit_cast<std::uint64_t>(b(row, k))) return false;
-  }
-  return true;
-}
-
-/// Appends a symmetry; ignores other constraints.
-Expected<void> append_symmetry(const Surface& reference, const Constraint& constraint, ConstraintList& list) {
-  if (const auto* edge = std::get_if<EdgeSymmetry>(&constraint)) return symmetry_constraints(reference, *edge, list);
-  if (const auto* mirror = std::get_if<MirrorSymmetry>(&constraint)) {
-    return symmetry_constraints(reference, *mirror, list);
-  }
-  return {};
-}
-
-/// Refuses what must not be moved by hand: frozen regions, and halves of a symmetry without their images.
-Expected<void> allowed(const SceneSurface& s, const std::vector<int>& named, const Points& motion) {
-  const int n = s.current->net()[1];
-  for (const KeptConstraint& kept : s.constraints) {
-    ConstraintList list(s.current->size());
-    if (const auto* freeze = std::get_if<Freeze>(&kept.constraint)) {
-      const auto region = region_at(*s.rest, freeze->region);
-      if (!region) return std::unexpected(region.error());
-      const auto frozen = freeze_region(*s.rest, (*region)[0], (*region)[1], list);
-      if (!frozen) return std::unexpected(frozen.error());
-      for (int k : named) {
-        if (!list.held[static_cast<std::size_t>(k)] || motion.row(k).isZero(0)) continue;
-        return input_error(fmt::format("control point {} ({}, {}) is frozen", k, k / n, k % n), "which",
-                           "leave it out, or release it first",
-                           {ErrorCode::point_frozen, {{"point", static_cast<double>(k)}}});
-      }
-    } else {
-      if (auto done = append_symmetry(*s.reference, kept.constraint, list); !done) return done;
-      const double largest = motion.cwiseAbs().maxCoeff();
-      for (const LinearConstraint& c : list.constraints) {
-        Point sum = Point::Zero();
-        for (const auto& [row, coefficient] : c.terms) sum += coefficient * motion.row(row).transpose();
-        const double off = c.normal ? std::abs(c.normal->normalized().dot(sum)) : sum.norm();
-        if (off <= symmetry_tolerance * largest) continue;
-        return input_error("the kept symmetry would be lost", "which",
-                           "move the mirror images too, each mirrored, or release the symmetry first");
-      }
-    }
-  }
-  return {};
-}
-
-}  // namespace
 
 void describe(PointsCommand& c, Fields& fields) {
   fields.name("points", "move control points of the selected surface by hand, permanently");
@@ -131,57 +74,12 @@ Expected<Points> points_after(Act& act, const PointsCommand& c, const std::vecto
   return after;
 }
 
-/// Whether a limit allows a surface to become this one.
-Expected<void> within_limit(const Act& act, const SceneSurface& s, const Surface& current, const char* field) {
-  const std::optional<double>& limit = act.state.limit;
-  if (!limit) return {};
-  const double was = largest_distance(*s.current, *s.opened), is = largest_distance(current, *s.opened);
-  if (is <= *limit * (1 + limit_tolerance) || is <= was) return {};
-  return input_error(
-      fmt::format("the surface would be {:.6g} from where it was opened, and {:.6g} is the limit", is, *limit), field,
-      R"(move it less, or end the limit: {"do":"limit"})",
-      {ErrorCode::beyond_limit, {{"distance", is}, {"limit", *limit}}});
-}
-
-/// Clay: the reference shapes and held positions move along. Places that coincided still do, to the bit.
-template <int D>
-Expected<void> move_all(SceneShape<D>& s, const std::vector<int>& named, std::shared_ptr<const Spline<D>> current) {
-  const Points &before = s.current->control_points(), &after = current->control_points();
-  const auto along = [&](std::shared_ptr<const Spline<D>>& shape) -> Expected<void> {
-    if (shape == s.current) {
-      shape = current;
-      return {};
-    }
-    Points points = shape->control_points();
-    for (int row : named) {
-      if (same_bits(points, before, row)) {
-        points.row(row) = after.row(row);
-      } else {
-        points.row(row) += after.row(row) - before.row(row);
-      }
-    }
-    auto made = shape->with_control_points(std::move(points));
-    if (!made) return std::unexpected(made.error());
-    shape = std::make_shared<const Spline<D>>(*std::move(made));
-    return {};
-  };
-  if (auto done = along(s.rest); !done) return done;
-  for (KeptConstraintOf<D>& kept : s.constraints) {
-    if (auto done = along(kept.where); !done) return done;
-  }
-  s.current = std::move(current);
-  return {};
-}
-
 template <int D>
 Expected<void> move_by_hand(Act& act, SceneShape<D>& s, const PointsCommand& c) {
   const auto named = named_of<D>(act, c.points, *s.current);
   if (!named) return std::unexpected(named.error());
   const auto after = points_after(act, c, *named, s.current->control_points());
   if (!after) return std::unexpected(after.error());
-  if constexpr (D == 2) {
-    if (auto may = allowed(s, *named, *after - s.current->control_points()); !may) return may;
-  }
   const char* const field = c.by ? "by" : "to";
   auto moved = s.current->with_control_points(*after);
   if (!moved) {
@@ -191,10 +89,10 @@ Expected<void> move_by_hand(Act& act, SceneShape<D>& s, const PointsCommand& c) 
     return std::unexpected(std::move(error));
   }
   auto current = std::make_shared<const Spline<D>>(*std::move(moved));
-  if constexpr (D == 2) {
-    if (auto within = within_limit(act, s, *current, field); !within) return within;
-  }
-  return move_all<D>(s, *named, std::move(current));
+  auto rest = moved_along<D>(s.rest, *s.current, current);
+  if (!rest) return std::unexpected(rest.error());
+  s.rest = *std::move(rest);
+  return put<D>(s, std::move(current));
 }
 
 }  // namespace

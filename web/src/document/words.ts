@@ -31,6 +31,7 @@ const words: Partial<Record<Code, Words>> = {
   }),
   nothing_free_at_brush: () => ({ remedy: 'Brush elsewhere, or release what is held or masked.' }),
   point_frozen: () => ({ text: 'A control point there is frozen.' }),
+  region_frozen: ({ surface, distance }) => ({ text: `A frozen region of ${surface} would move by ${short(distance)}.` }),
   pins_by_number: () => ({ text: 'Pinned control points would not be the same on another net.' }),
   constraint_contradicts: () => ({ text: 'That contradicts what is held already.' }),
   step_folds: (_, undone) => ({
@@ -61,6 +62,10 @@ const words: Partial<Record<Code, Words>> = {
     text: `Nothing was saved: the edge ${v.edge} would be left ${short(v.distance)} from ${faces(v.faces)}.`,
     remedy: 'Undo what moved them, and hold the edge or let it follow; or let it open.',
   }),
+  seam_would_open: ({ first, second, distance }, undone) => ({
+    text: `The seam between ${first} and ${second} would open by ${short(distance)}${undone}.`,
+    remedy: 'Move less of the surfaces, or let them part.',
+  }),
   edges_unknown: () => ({ remedy: 'Hold something else: the outer rows of control points, or nothing.' }),
   beyond_limit: ({ distance, limit }) => ({ text: `That would move the surface by ${short(distance, 6)}; the limit is ${short(limit, 6)}.` }),
   limit_keeps_basis: () => ({ text: 'While a limit is set, knots and weights stay as they are.' }),
@@ -80,7 +85,7 @@ const words: Partial<Record<Code, Words>> = {
 const labels: Partial<Record<Fix['code'], string>> = {
   hold_edges: 'Hold the edges', hold_rows: 'Hold the outer rows', hold_nothing: 'Hold nothing', release_all: 'Release all',
   release_pins: 'Free the pins', thaw: 'Thaw all', refine: 'Refine', permit_refining: 'Refine where needed', let_follow: 'Let the edge follow',
-  let_go: 'Let the edge go', let_open: 'Let it open', convert_and_follow: 'Convert and follow', select_and_follow: 'Select both and follow',
+  let_go: 'Let the edge go', let_open: 'Let it open', let_part: 'Let them part', convert_and_follow: 'Convert and follow', select_and_follow: 'Select both and follow',
   end_limit: 'End the limit', normalise: 'Use the usual scaling', keep_smooth: 'Keep it smooth',
 };
 
