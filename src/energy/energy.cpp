@@ -24,6 +24,14 @@ Energy<D> stretch_and_bend(const MaterialOf<D>& material) {
         ++second[static_cast<std::size_t>(j)];
         bend.push_back({i == j ? beta : 2 * beta, second, second});
       }
+      if (i == j || material.poisson == 0) continue;
+      const double ii = material.beta[MaterialOf<D>::place(i, i)], jj = material.beta[MaterialOf<D>::place(j, j)];
+      if (const double coupled = material.poisson * std::sqrt(ii * jj); coupled != 0) {
+        MultiIndex<D> in_i{}, in_j{};
+        in_i[static_cast<std::size_t>(i)] = in_j[static_cast<std::size_t>(j)] = 2;
+        bend.push_back({coupled, in_i, in_j});
+        bend.push_back({coupled, in_j, in_i});
+      }
     }
   }
   stretch.insert(stretch.end(), bend.begin(), bend.end());

@@ -14,6 +14,10 @@ std::string name_of(const char* letter, int i, int j) {
 
 }  // namespace
 
+Material thin_plate(double rigidity, double poisson) {
+  return {{0, 0, 0}, {rigidity, (1 - poisson) * rigidity, rigidity}, poisson};
+}
+
 template <int D>
 Expected<MaterialOf<D>> validated(const MaterialOf<D>& material) {
   constexpr auto place = MaterialOf<D>::place;
@@ -57,6 +61,12 @@ Expected<MaterialOf<D>> validated(const MaterialOf<D>& material) {
       return input_error("the matrix of the alpha is not positive semidefinite, so the energy has no minimum", "alpha",
                          "reduce alpha12, alpha13 and alpha23");
     }
+  }
+  // The matrix with 1 on its diagonal and ν elsewhere has the eigenvalues 1 − ν and 1 + (D − 1) ν.
+  const double least = D == 1 ? 0 : -1.0 / (D - 1), most = D == 1 ? 0 : 1;
+  if (!(material.poisson >= least && material.poisson <= most)) {
+    return input_error(fmt::format("the energy has no minimum with a Poisson's ratio of {}", material.poisson),
+                       "poisson", fmt::format("use a number from {} to {}", least, most));
   }
   return material;
 }

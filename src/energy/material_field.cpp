@@ -98,6 +98,22 @@ Expected<void> check_alpha_matrix(const MaterialFieldOf<D>& material) {
   return {};
 }
 
+template <int D>
+const Coefficient<D>& beta_ii(const MaterialFieldOf<D>& material, int i) {
+  return material.beta[MaterialOf<D>::place(i, i)];
+}
+
+/// Whether the coefficients of S_ii·S_jj are known: no bend varies, or all vary alike.
+template <int D>
+bool couples_bends(const MaterialFieldOf<D>& material) {
+  bool varying = false, alike = true;
+  for (int i = 0; i < D; ++i) {
+    varying = varying || varies<D>(beta_ii(material, i));
+    alike = alike && beta_ii(material, i) == beta_ii(material, 0);
+  }
+  return material.poisson == 0 || !varying || alike;
+}
+
 }  // namespace
 
 template <int D>
@@ -109,6 +125,13 @@ Expected<void> validated(const MaterialFieldOf<D>& material) {
       if (auto ok = check_positive<D>(material.alpha[k], "alpha" + indices, i == j); !ok) return ok;
       if (auto ok = check_positive<D>(material.beta[k], "beta" + indices, true); !ok) return ok;
     }
+  }
+  MaterialOf<D> coupled;
+  coupled.poisson = material.poisson;
+  if (auto ok = validated<D>(coupled); !ok) return std::unexpected(ok.error());
+  if (!couples_bends(material)) {
+    return input_error("bends that vary differently in different directions have no Poisson's ratio", "poisson",
+                       "let all beta11, beta22 … be the same, or use 0");
   }
   if (auto ok = check_positive<D>(material.mass, "mass", true); !ok) return ok;
   if (auto ok = check_positive<D>(material.damping, "damping", true); !ok) return ok;
@@ -155,6 +178,17 @@ FieldEnergy<D> bend_energy(const MaterialFieldOf<D>& material) {
       MultiIndex<D> second = unit<D>(i);
       ++second[static_cast<std::size_t>(j)];
       result.push_back({i == j ? 1.0 : 2.0, beta, second, second});
+    }
+  }
+  for (int i = 0; i < D && material.poisson != 0; ++i) {
+    for (int j = i + 1; j < D; ++j) {
+      const Coefficient<D>&ii = beta_ii(material, i), &jj = beta_ii(material, j);
+      if (is_zero<D>(ii) || is_zero<D>(jj)) continue;
+      MultiIndex<D> in_i{}, in_j{};
+      in_i[static_cast<std::size_t>(i)] = in_j[static_cast<std::size_t>(j)] = 2;
+      const Coefficient<D> coupled = varies<D>(ii) ? ii : std::sqrt(std::get<double>(ii) * std::get<double>(jj));
+      result.push_back({material.poisson, coupled, in_i, in_j});
+      result.push_back({material.poisson, coupled, in_j, in_i});
     }
   }
   return result;

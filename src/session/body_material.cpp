@@ -37,8 +37,9 @@ Expected<void> set_material(SceneShape<D>& s, const MaterialCommand& c) {
 /// What resists in the body after the command.
 template <int D>
 Expected<void> set_elasticity(const MaterialCommand& c, Elasticity<D>& elasticity) {
-  if (c.model == MaterialModel::shell) {
-    return input_error(fmt::format("a {} is no shell", kind_of(D)), "model", R"(use "linear" or "fundamental")");
+  if (c.model == MaterialModel::shell || c.model == MaterialModel::plate) {
+    return input_error(fmt::format("a {} is no {}", kind_of(D), c.model == MaterialModel::shell ? "shell" : "plate"),
+                       "model", R"(use "linear" or "fundamental")");
   }
   const bool keeps = c.model ? *c.model == MaterialModel::fundamental : is_nonlinear(elasticity);
   if (!keeps) {

@@ -50,8 +50,9 @@ void describe(SceneShape<D>& s, Fields& fields) {
   fields.name(kind_of(D), "");
   fields.add_all("id", s.id, "name", s.name, "unit", s.unit, "velocity", s.velocity, "mode", s.mode, "hold_rows",
                  s.hold_rows, "opened", s.opened, "reference", s.reference, "rest", s.rest, "current", s.current,
-                 "alpha", s.material.alpha, "beta", s.material.beta, "mass", s.material.mass, "damping",
-                 s.material.damping, "elasticity", s.elasticity, "pins", s.pins, "constraints", s.constraints);
+                 "alpha", s.material.alpha, "beta", s.material.beta, "poisson", s.material.poisson, "mass",
+                 s.material.mass, "damping", s.material.damping, "elasticity", s.elasticity, "pins", s.pins,
+                 "constraints", s.constraints);
   if constexpr (D == 2) describe_own(s, fields);
 }
 

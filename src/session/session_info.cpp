@@ -21,6 +21,7 @@ struct SurfaceInfo {
   bool rational = false;
   Vector3 lower = {0, 0, 0}, upper = {0, 0, 0};
   std::array<std::optional<double>, 3> alpha, beta;
+  double poisson = 0;
   std::optional<double> mass, damping;
   std::optional<MaterialPreset> preset;
   std::optional<ShellMaterial> shell;
@@ -47,6 +48,7 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("upper", s.upper, {.help = "the opposite corner", .unit = Unit::length});
   fields.add("alpha", s.alpha, {.help = "coefficients 11, 12, 22; null where one varies over the surface"});
   fields.add("beta", s.beta, {.help = "likewise"});
+  fields.add("poisson", s.poisson, {.help = "of bending; that of a shell stands with it"});
   fields.add("mass", s.mass, {.help = "null where it varies"});
   fields.add("damping", s.damping, {.help = "null where it varies"});
   fields.add("preset", s.preset, {.help = "its named material, if it has one"});
@@ -214,6 +216,7 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
   info.upper = array_of(points.colwise().maxCoeff().transpose());
   std::ranges::transform(s.material.alpha, info.alpha.begin(), constant);
   std::ranges::transform(s.material.beta, info.beta.begin(), constant);
+  info.poisson = s.material.poisson;
   info.mass = constant(s.material.mass);
   info.damping = constant(s.material.damping);
   info.preset = preset_of(s);

@@ -135,7 +135,7 @@ KnotVector field_knots(int q) { return testing::clamped_knots(q, {0, 0.7, 1.5, 2
 
 TEST(FieldAssembler, WithConstantsIsStiffnessToTheLastBit) {
   const Surface s = testing::relief(short_knots(3), testing::uniform_unclamped(2, 4), 1);
-  const Material m = {{1, 0.3, 0.5}, {0.1, 0.2, 0.05}};
+  const Material m = {{1, 0.3, 0.5}, {0.1, 0.2, 0.05}, 0.3};
   FieldEnergy<2> energy = stretch_energy<2>(MaterialFieldOf<2>(m));
   for (const auto& term : bend_energy<2>(MaterialFieldOf<2>(m))) energy.push_back(term);
   const SparseMatrix expected =
@@ -176,6 +176,25 @@ TEST(FieldAssembler, WithFieldsThatAreConstantIsStiffnessToRounding) {
                      {field_knots(1), testing::clamped_knots(4, {0, 2, 3})});
   constant_fields<3>({short_knots(2), testing::uniform_clamped(1, 2), testing::uniform_clamped(3, 2)},
                      {field_knots(1), testing::uniform_clamped(2, 2), testing::clamped_knots(1, {0, 0.5, 2})});
+}
+
+TEST(FieldAssembler, OfAPlateThatVariesIsItsIntegral) {
+  const std::array<KnotVector, 2> field = {field_knots(2), field_knots(1)};
+  const Surface s = make_spline<2>({short_knots(3), short_knots(2)});
+  MaterialFieldOf<2> plate(thin_plate(1, 0.3));
+  const SplineField<2> rigidity = random_field<2>(field, 7, 0.5, 2);
+  plate.beta = {rigidity, 0.0, rigidity};
+  ASSERT_TRUE(validated<2>(plate));
+  FieldEnergy<2> expected = {{1, rigidity, {2, 0}, {2, 0}},
+                             {1, rigidity, {0, 2}, {0, 2}},
+                             {0.3, rigidity, {2, 0}, {0, 2}},
+                             {0.3, rigidity, {0, 2}, {2, 0}}};
+  expect_equal<2>(assemble<2>(s, bend_energy<2>(plate)), reference<2>(s, expected, 8).sparseView(), 1e-12, "plate");
+  // What is not the same in all directions has no such coefficient.
+  plate.beta[2] = random_field<2>(field, 8, 0.5, 2);
+  const auto refused = validated<2>(plate);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().where, "poisson");
 }
 
 TEST(FieldAssembler, IsTheIntegralForFieldsOfOtherDegreesAndKnots) {

@@ -40,6 +40,21 @@ TEST(ModesCommand, OfAFreeSquarePlateAreThoseOfLeissa) {
   for (const ModeRecord& mode : modes) EXPECT_LT(mode.residual, 1e-4);
 }
 
+TEST(ModesCommand, OfALinearPlateAreThoseOfLeissaInEachCoordinate) {
+  // The active model with the energy of a thin plate, twice its strain energy as μ X² is twice its kinetic one.
+  Session session = fresh();
+  run(session, {square, R"({"do":"material","model":"plate","rigidity":3,"poisson":0.3,"mass":2})",
+                R"({"do":"modes","count":24})"});
+  const auto found = values(session.state().modes);
+  ASSERT_EQ(found.size(), 24U);
+  const double unit = std::sqrt(3.0 / 2) / (2 * pi);
+  for (std::size_t k = 0; k < 9; ++k) EXPECT_LT(std::abs(found[k]), 1e-3 * 13.468 * unit) << k;
+  const std::vector<double> liew = {13.468, 19.596, 24.270, 34.801, 34.801};
+  for (std::size_t k = 0; k < liew.size(); ++k) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[9 + 3 * k + c] / unit, liew[k], 1e-4 * liew[k]) << k;
+  }
+}
+
 TEST(ModesCommand, OfACantileveredPanelAreThoseMeasured) {
   // A fan blade: 304.8 mm long and along the arc, radius 609.6, thickness 3.048; measured by M. D. Olson and
   // G. M. Lindberg, J. Sound Vib. 19 (1971), to a few percent. N, mm, t: an arc of 1/2 radian, clamped at v = 0.

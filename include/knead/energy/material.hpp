@@ -9,9 +9,11 @@ namespace knead {
 /// The constants of the stretch and bend energy of a D-variate spline. The upper triangle of a symmetric D × D matrix,
 /// row by row: 11 for curves, 11, 12, 22 for surfaces, 11, 12, 13, 22, 23, 33 for volumes.
 ///
-///   E(S) = ∫ Σ_i α_ii |S_i|² + 2 Σ_{i<j} α_ij S_i·S_j + Σ_i β_ii |S_ii|² + 2 Σ_{i<j} β_ij |S_ij|² du,
+///   E(S) = ∫ Σ_i α_ii |S_i|² + 2 Σ_{i<j} α_ij S_i·S_j + Σ_i β_ii |S_ii|² + 2 Σ_{i<j} β_ij |S_ij|²
+///            + 2 ν Σ_{i<j} √(β_ii β_jj) S_ii·S_jj du,
 ///
-/// which is thesis Eq. 4.8 at D = 2 and, with equal constants, Eq. 5.43 at D = 3. α resists stretch, β resists bending.
+/// which with ν = 0 is thesis Eq. 4.8 at D = 2 and, with equal constants, Eq. 5.43 at D = 3. α resists stretch, β
+/// resists bending, and ν, Poisson's ratio, couples bending in one direction with that in others (`thin_plate`).
 /// Units: those of the equation; see `DomainScaling` for the normalised ones.
 template <int D>
 struct MaterialOf {
@@ -21,6 +23,7 @@ struct MaterialOf {
 
   std::array<double, count> alpha = filled(1, 0);
   std::array<double, count> beta = filled(0.01, 0.01);
+  double poisson = 0;  ///< ν
 
   friend bool operator==(const MaterialOf&, const MaterialOf&) = default;
 
@@ -36,8 +39,17 @@ struct MaterialOf {
 
 using Material = MaterialOf<2>;
 
-/// Accepts exactly the materials with a convex energy: all finite, the matrix α positive semidefinite, every β >= 0.
-/// The error names the coefficient.
+/// Bending alone, as of a Kirchhoff plate of this rigidity D and Poisson's ratio ν (S. Timoshenko, S.
+/// Woinowsky-Krieger, *Theory of Plates and Shells*, 1959, Eq. 41), of which the energy is twice the strain energy
+/// where the parameters measure lengths:
+///
+///   E(S) = D ∫ |S_uu|² + |S_vv|² + 2 ν S_uu·S_vv + 2 (1 − ν) |S_uv|² du dv.
+///
+/// ν changes what free edges do: with position and tangent held all round E does not depend on it.
+[[nodiscard]] Material thin_plate(double rigidity, double poisson);
+
+/// Accepts exactly the materials with a convex energy: all finite, the matrix α positive semidefinite, every β >= 0,
+/// and −1/(D − 1) <= ν <= 1, 0 at D = 1. The error names the coefficient.
 template <int D>
 [[nodiscard]] Expected<MaterialOf<D>> validated(const MaterialOf<D>& material);
 

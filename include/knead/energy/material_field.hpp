@@ -7,13 +7,14 @@ namespace knead {
 
 /// A material whose coefficients vary over the shape: those of `MaterialOf`, in the same order, plus mass μ and damping
 /// γ, each a constant or a spline over the parameter domain (thesis § 5.5, Eqs. 5.41, 5.42). Units as in `MaterialOf`;
-/// μ and γ per measure of the (scaled) parameter domain.
+/// μ and γ per measure of the (scaled) parameter domain. ν is a constant.
 template <int D>
 struct MaterialFieldOf {
   static constexpr std::size_t count = MaterialOf<D>::count;
 
   std::array<Coefficient<D>, count> alpha = as_coefficients(MaterialOf<D>{}.alpha);
   std::array<Coefficient<D>, count> beta = as_coefficients(MaterialOf<D>{}.beta);
+  double poisson = 0;
   Coefficient<D> mass = 1.0;
   Coefficient<D> damping = 0.5;
 
@@ -22,6 +23,7 @@ struct MaterialFieldOf {
   explicit MaterialFieldOf(const MaterialOf<D>& material, double mass_constant = 1, double damping_constant = 0.5)
       : alpha(as_coefficients(material.alpha)),
         beta(as_coefficients(material.beta)),
+        poisson(material.poisson),
         mass(mass_constant),
         damping(damping_constant) {}
 
@@ -37,7 +39,8 @@ struct MaterialFieldOf {
 
 /// Accepts materials with a convex energy, coefficient by coefficient; the error names the coefficient.
 ///
-/// Checks: all numbers finite; every coefficient of the β_ij, α_ii, μ and γ >= 0; and, where an α varies, the
+/// Checks: all numbers finite; every coefficient of the β_ij, α_ii, μ and γ >= 0; ν as of `MaterialOf`, and where it is
+/// not 0 and a β_ii varies all β_ii are the same; and, where an α varies, the
 /// matrix of the k-th coefficients of the α on `common_knots` positive semidefinite for every k. As basis functions are
 /// non-negative and sum to one, the matrix α(u) is then a convex combination of such matrices and the energy is convex.
 /// The check is sufficient, not necessary: a field with positive values but a coefficient that is not positive is

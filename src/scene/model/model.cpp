@@ -54,6 +54,7 @@ void set_material(const std::vector<ShapeInput<D>>& shapes, ActiveSettings<D>& s
     settings.material.alpha[k] = std::get<double>(material.alpha[k]);
     settings.material.beta[k] = std::get<double>(material.beta[k]);
   }
+  settings.material.poisson = material.poisson;
   settings.mass = std::get<double>(material.mass);
   settings.damping = std::get<double>(material.damping);
 }

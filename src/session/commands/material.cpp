@@ -58,6 +58,13 @@ Expected<MaterialFieldOf<2>> varied(const MaterialCommand& c, const SceneSurface
 /// The constants that are named, everywhere.
 MaterialFieldOf<2> everywhere(const MaterialCommand& c, const SceneSurface& s) {
   MaterialFieldOf<2> next = s.material;
+  if (c.model == MaterialModel::plate) {
+    next = MaterialFieldOf<2>(thin_plate(c.rigidity, c.poisson.value_or(0)));
+    next.mass = s.material.mass;
+    next.damping = s.material.damping;
+  } else if (c.beta || c.model) {
+    next.poisson = 0;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     if (c.alpha) next.alpha[i] = (*c.alpha)[i];
     if (c.beta) next.beta[i] = (*c.beta)[i];
@@ -117,7 +124,7 @@ std::vector<double> list_of(const std::array<double, 3>& numbers) { return {numb
 bool varies_shell(const MaterialCommand& c) { return c.coefficient == "young" || c.coefficient == "thickness"; }
 
 bool names_shell(const MaterialCommand& c) {
-  return c.young || c.poisson || c.thickness || c.density || varies_shell(c);
+  return c.young || (c.poisson && c.model != MaterialModel::plate) || c.thickness || c.density || varies_shell(c);
 }
 
 bool names_something(const MaterialCommand& c) {
@@ -172,8 +179,9 @@ Expected<FundamentalMaterial> fundamental_of(const MaterialCommand& c, const Sce
 Expected<Elasticity<2>> elasticity_of(const MaterialCommand& c, const SceneSurface& s) {
   const MaterialModel model = model_of(c, s);
   if (model != MaterialModel::shell && names_shell(c)) {
-    return input_error("only shells have a Young's modulus, Poisson's ratio, thickness or density", "model",
-                       R"(add "model":"shell", or use alpha, beta and mass)");
+    return input_error(
+        "only shells have a Young's modulus, a thickness or a density, and with plates a Poisson's ratio", "model",
+        R"(add "model":"shell", or use alpha, beta and mass)");
   }
   if (model == MaterialModel::shell) {
     auto shell = shell_of(c, s);
@@ -202,6 +210,10 @@ Expected<void> check_fields(const MaterialCommand& c) {
   }
   if (c.tolerance && !c.formula) {
     return input_error("a tolerance is given without a formula", "tolerance", "leave it out");
+  }
+  if (c.model == MaterialModel::plate && (c.alpha || c.beta || c.preset || c.region || c.coefficient)) {
+    return input_error("the coefficients of a plate are those of its rigidity and Poisson's ratio", "model",
+                       "give rigidity and poisson alone, or afterwards, in a command without model, what differs");
   }
   if (c.preset && (c.region || c.coefficient)) {
     return input_error("a preset is for whole surfaces", "preset", "leave out region and coefficient");
@@ -243,7 +255,10 @@ std::span<const Choice> choices(MaterialModel) {
   static constexpr Choice list[] = {
       {"linear", MaterialModel::linear, "the active model"},
       {"shell", MaterialModel::shell, "Koiter's shell ([shell.md](shell.md))"},
-      {"fundamental", MaterialModel::fundamental, "keeps both fundamental forms (thesis Eq. 3.42)"}};
+      {"fundamental", MaterialModel::fundamental, "keeps both fundamental forms (thesis Eq. 3.42)"},
+      {"plate", MaterialModel::plate,
+       "a thin plate: a linear model that bends with Poisson's ratio and does not stretch, β11 = β22 = `rigidity`, "
+       "β12 = (1 − `poisson`) `rigidity`, α = 0"}};
   return list;
 }
 
@@ -276,6 +291,8 @@ std::optional<MaterialPreset> preset_of(const SceneSurface& s) {
   }
   return std::nullopt;
 }
+
+static constexpr std::string_view of_plate[] = {"plate"};
 
 void describe(MaterialCommand& c, Fields& fields) {
   fields.name("material", "resistance to stretching and bending, in the order 11, 12, 22; fields not given stay");
@@ -329,7 +346,7 @@ void describe(MaterialCommand& c, Fields& fields) {
   fields.add("young", c.young,
              {.help = "of a shell: Young's modulus, force per area; all in units of the file", .range = above(0)});
   fields.add("poisson", c.poisson,
-             {.help = "of a shell: Poisson's ratio",
+             {.help = "of a shell or a plate: Poisson's ratio",
               .range = {.least = -1, .most = 0.5, .open_below = true},
               .fallback = "as it was, at first 0"});
   fields.add("thickness", c.thickness, {.help = "of a shell", .unit = Unit::length, .range = above(0)});
@@ -337,6 +354,8 @@ void describe(MaterialCommand& c, Fields& fields) {
              {.help = "of a shell: mass per volume, for `load` gravity",
               .range = at_least(0),
               .fallback = "as it was, at first 0"});
+  fields.add("rigidity", c.rigidity,
+             {.help = "of a plate, in the units of `beta`", .range = above(0), .only = {"model", of_plate}});
   fields.add(
       "w1", c.w1,
       {.help = "of `fundamental`: weights of the first form, 11, 12, 22, or one number for all; per du dv of the "

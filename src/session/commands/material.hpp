@@ -7,8 +7,9 @@ namespace knead {
 /// Materials that there are by name.
 enum class MaterialPreset { clay, wax, rubber, sheet_metal, cloth, membrane };
 
-/// What resists: the linear active model, a shell, or the fundamental forms of a surface.
-enum class MaterialModel { linear, shell, fundamental };
+/// What resists: the linear active model, a shell, or the fundamental forms of a surface; a plate is a linear model
+/// with the coefficients of `thin_plate`.
+enum class MaterialModel { linear, shell, fundamental, plate };
 
 /// What lengths of a material are counted in.
 enum class LengthUnit { radii, file };
@@ -48,7 +49,8 @@ struct MaterialCommand {
   std::optional<double> plasticity, yield, locality;
   std::optional<LengthUnit> lengths;  ///< default: radii
   std::optional<MaterialModel> model;
-  std::optional<double> young, poisson, thickness, density;  ///< of a shell, in units of the file
+  std::optional<double> young, poisson, thickness, density;  ///< of a shell, in units of the file; poisson of a plate
+  double rigidity = 0.01;                                    ///< of a plate, in units of beta
   std::optional<std::array<double, 3>> w1, w2;               ///< of the fundamental forms, in the order 11, 12, 22
   bool reset = false;                                        ///< first, all is as of a new surface
 };
