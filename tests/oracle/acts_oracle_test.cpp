@@ -1,6 +1,6 @@
 // Six presses, two strokes and a brush, all by defaults, on faces of every STEP, IGES and .brep file, one and several
 // of them selected: no edge opens, nothing goes further than asked, or the act is refused with a reason. Open CASCADE
-// measures the edges. The rows of the table in docs/trims.md, "Acts by defaults".
+// measures the edges. The rows of the table in docs/evidence/trims.md, "Acts by defaults".
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -23,7 +23,7 @@ constexpr double resolution = 2e-9;   // mm: its search ends at 1e-9
 constexpr double confusion = 1e-7;    // mm: within which it takes points for the same
 constexpr double same_normal = 1e-4;  // degrees, from feet that are only as exact as the search
 
-/// A row of the table in docs/trims.md, where its file is named.
+/// A row of the table in docs/evidence/trims.md, where its file is named.
 void write_row(const std::string& row) {
   std::cout << row << "\n";
   if (const char* path = std::getenv("KNEAD_CONVERT_TABLE")) std::ofstream(path, std::ios::app) << row << "\n";

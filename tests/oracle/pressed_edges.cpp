@@ -130,7 +130,7 @@ std::vector<Pair> spread(const std::vector<Pair>& all, std::size_t most) {
   return result;
 }
 
-/// A row of the table in docs/trims.md, where its file is named.
+/// A row of the table in docs/evidence/trims.md, where its file is named.
 void write_row(const std::string& row) {
   std::cout << row << "\n";
   if (const char* path = std::getenv("KNEAD_FOLLOW_TABLE")) std::ofstream(path, std::ios::app) << row << "\n";

@@ -70,7 +70,7 @@ std::vector<std::string> lost_records(const std::string& before, const std::stri
   return lost;
 }
 
-/// A row of the table in docs/trims.md, where its file is named.
+/// A row of the table in docs/evidence/trims.md, where its file is named.
 void write_row(const std::string& row) {
   std::cout << row << "\n";
   if (const char* path = std::getenv("KNEAD_TRIMS_TABLE")) std::ofstream(path, std::ios::app) << row << "\n";
