@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "cli.hpp"
-#include "knead/brep/face_conversion.hpp"
-#include "knead/brep/face_edges.hpp"
 #include "knead/session/report.hpp"
 #include "say.hpp"
 
@@ -18,26 +15,20 @@ namespace {
 
 double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
-void print_region(const brep::SplineSurface& s, const VisibleRegion& region) {
-  const auto [lower, upper] = region.extent();
-  say("           visible from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) of the domain", lower.x(), lower.y(), upper.x(),
-      upper.y());
-  Eigen::AlignedBox3d box;
-  for (const TrimEdge& edge : region.edges) {
-    for (const Point& p : edge.points) box.extend(p);
+void print_visible(const FileVisible& v) {
+  const auto& [lower, upper] = v.extent;
+  const auto& [from, to] = v.box;
+  say("           visible from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) of the domain", lower[0], lower[1], upper[0],
+      upper[1]);
+  say(", its edges from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", from[0], from[1], from[2], to[0],
+      to[1], to[2]);
+  if (v.middle) {
+    say("           middle [{:.4f}, {:.4f}], {:.6g} from the nearest edge\n", (*v.middle)[0], (*v.middle)[1],
+        v.distance);
   }
-  say(", its edges from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.min().x(), box.min().y(),
-      box.min().z(), box.max().x(), box.max().y(), box.max().z());
-  if (const auto middle = visible_middle(s.surface, region)) {
-    say("           middle [{:.4f}, {:.4f}], {:.6g} from the nearest edge\n", middle->at.x(), middle->at.y(),
-        middle->distance);
-  }
-  for (const TrimEdge& edge : region.edges) {
-    std::string faces;
-    for (const std::string& face : edge.neighbours) faces += (faces.empty() ? "" : ", ") + face;
-    const auto &a = edge.course.front(), &b = edge.course.back();
-    say("           edge {:<8} ({:.4f}, {:.4f}) to ({:.4f}, {:.4f}), {}{}\n", edge.id, a.x(), a.y(), b.x(), b.y(),
-        faces.find(',') == std::string::npos ? "face " : "faces ", faces + (edge.seam ? ", a seam" : ""));
+  for (const FileVisibleEdge& e : v.edges) {
+    say("           edge {:<8} ({:.4f}, {:.4f}) to ({:.4f}, {:.4f}), {} {}{}\n", e.id, e.from[0], e.from[1], e.to[0],
+        e.to[1], e.faces.size() > 1 ? "faces" : "face", fmt::join(e.faces, ", "), e.seam ? ", a seam" : "");
   }
 }
 
@@ -91,26 +82,25 @@ std::string edges_json(const SessionState& state) {
   return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void print_faces(const std::shared_ptr<const brep::Model>& held) {
-  const brep::Model& model = *held;
-  const VisibleRegions regions(held);
-  for (const brep::SplineSurface& s : model.surfaces) {
-    const auto region = regions.of(s.id);
-    if (!region) {
-      say("  {:<8} its edges cannot be followed: {}\n", s.id, region.error().message());
-    } else if (!region->edges.empty()) {
-      say("  {:<8} {} edge{}{}\n", s.id, region->edges.size(), region->edges.size() == 1 ? "" : "s",
-          region->in_shell ? ", in a shell" : "");
-      print_region(s, *region);
+void print_faces(const FileInfo& info) {
+  for (const FileVisible& v : info.visible) {
+    if (!v.reason.empty()) {
+      say("  {:<8} its edges cannot be followed: {}\n", v.surface, v.reason);
+      continue;
     }
+    say("  {:<8} {}{}\n", v.surface, counted(v.edges.size(), "edge", "edges"), v.in_shell ? ", in a shell" : "");
+    print_visible(v);
   }
-  const auto splines = brep::exact_splines(model);
-  for (std::size_t k = 0; const brep::OtherSurface& s : brep::other_surfaces(model)) {
-    const auto& made = splines[k++];
-    const std::string net = made ? fmt::format("can be converted, degree {} x {}, net {} x {}", made->knots(0).degree(),
-                                               made->knots(1).degree(), made->net()[0], made->net()[1])
-                                 : "cannot be converted: " + made.error().what;
-    say("  {:<8} {}, {} {}: {}\n", s.id, s.form, s.faces.size() == 1 ? "face" : "faces", fmt::join(s.faces, ", "), net);
+  for (const FileOtherSurface& s : info.other_surfaces) {
+    std::string spline;
+    if (s.spline) {
+      const auto& [degree, net] = *s.spline;
+      spline = fmt::format("can be converted, degree {} x {}, net {} x {}", degree[0], degree[1], net[0], net[1]);
+    } else {
+      spline = "cannot be converted: " + s.spline.error().what;
+    }
+    say("  {:<8} {}, {} {}: {}\n", s.id, s.form, s.faces.size() == 1 ? "face" : "faces", fmt::join(s.faces, ", "),
+        spline);
   }
 }
 

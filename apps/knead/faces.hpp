@@ -1,8 +1,6 @@
 #pragma once
 
-#include <string>
-
-#include "knead/brep/model.hpp"
+#include "knead/exchange/file_info.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead::cli {
@@ -16,6 +14,6 @@ void print_edges(const SessionState& state);
 
 /// For every surface on which faces lie: its visible part, its middle, and the edges with their neighbours; then the
 /// surfaces of other forms, their faces, and whether they can be converted.
-void print_faces(const std::shared_ptr<const brep::Model>& held);
+void print_faces(const FileInfo& info);
 
 }  // namespace knead::cli

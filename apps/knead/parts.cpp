@@ -7,7 +7,6 @@
 
 #include "cli.hpp"
 #include "knead/base/printable.hpp"
-#include "knead/brep/assembly.hpp"
 #include "say.hpp"
 
 namespace knead::cli {
@@ -16,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr std::size_t most_listed = 6;
 
-std::string title(const brep::Part& part) {
+std::string title(const FilePart& part) {
   return part.name.empty() ? "without a name" : "\"" + printable(part.name) + "\"";
 }
 
@@ -27,11 +26,11 @@ std::string first_of(const std::vector<std::string>& ids) {
   return ids.empty() ? "none" : result;
 }
 
-void print_part(const brep::Part& part) {
+void print_part(const FilePart& part) {
   say("    {}: {}, B-spline surfaces: {}{}\n", title(part), counted(part.faces.size(), "face", "faces"),
       first_of(part.surfaces), part.curves.empty() ? "" : ", curves: " + first_of(part.curves));
   std::map<std::string, int> paths;
-  for (const brep::PartPlace& place : part.places) ++paths[place.path];
+  for (const FilePlace& place : part.places) ++paths[place.path];
   std::size_t listed = 0;
   for (const auto& [path, count] : paths) {
     if (listed++ == most_listed) break;
@@ -42,44 +41,20 @@ void print_part(const brep::Part& part) {
 
 }  // namespace
 
-void print_parts(const brep::Model& model) {
-  if (model.instances.empty()) return;
-  const auto& assembly = model.assembly;
-  if (!assembly) {
-    say("  the assembly cannot be followed: {}\n", assembly.error().message());
+void print_parts(const FileInfo& info) {
+  if (info.instances.empty()) return;
+  const FileAssembly& assembly = *info.assembly;
+  if (!assembly.reason.empty()) {
+    say("  the assembly cannot be followed: {}\n", assembly.reason);
     return;
   }
   std::size_t places = 0;
-  for (const brep::Part& part : assembly->parts) places += part.places.size();
+  for (const FilePart& part : *assembly.parts) places += part.places.size();
   say("  assembly, in {}: {} with geometry in {} (--json lists their placements); the file has each part once,\n"
       "  so that a change shows in all its places\n",
-      assembly->unit, counted(assembly->parts.size(), "part", "parts"), counted(places, "place", "places"));
-  for (const brep::Part& part : assembly->parts) print_part(part);
-  for (const std::string& warning : assembly->warnings) say("  warning: {}\n", warning);
-}
-
-Json parts_json(const brep::Model& model) {
-  const auto& assembly = model.assembly;
-  if (!assembly) return {{"reason", assembly.error().message()}};
-  Json parts = Json::array();
-  for (const brep::Part& part : assembly->parts) {
-    Json places = Json::array();
-    for (const brep::PartPlace& place : part.places) {
-      Json rows = Json::array();
-      for (int k = 0; k < 3; ++k) {
-        const auto row = place.to_model.matrix().row(k);
-        rows.push_back({row[0], row[1], row[2], row[3]});
-      }
-      places.push_back({{"path", place.path}, {"matrix", std::move(rows)}});
-    }
-    parts.push_back({{"name", part.name},
-                     {"unit", part.unit},
-                     {"surfaces", part.surfaces},
-                     {"faces", part.faces},
-                     {"curves", part.curves},
-                     {"places", std::move(places)}});
-  }
-  return {{"unit", assembly->unit}, {"parts", std::move(parts)}, {"warnings", assembly->warnings}};
+      assembly.unit, counted(assembly.parts->size(), "part", "parts"), counted(places, "place", "places"));
+  for (const FilePart& part : *assembly.parts) print_part(part);
+  for (const std::string& warning : *assembly.warnings) say("  warning: {}\n", warning);
 }
 
 void print_places(std::span<const RepeatedSurface> surfaces) {

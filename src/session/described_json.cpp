@@ -199,7 +199,7 @@ const void* one_for_all(const Type& type, const void* value) {
 
 class JsonWriter {
  public:
-  explicit JsonWriter(Absent absent) : absent_(absent) {}
+  JsonWriter(Absent absent, JsonNumber number) : absent_(absent), number_(number) {}
 
   void value(const Type& type, const void* v, double factor = 1) {
     switch (type.kind) {
@@ -210,7 +210,7 @@ class JsonWriter {
         text += fmt::format("{}", *static_cast<const int*>(v));
         break;
       case Kind::number:
-        text += json_number(factor * *static_cast<const double*>(v));
+        text += number_(factor * *static_cast<const double*>(v));
         break;
       case Kind::text:
         text += json_text(*static_cast<const std::string*>(v));
@@ -272,7 +272,8 @@ class JsonWriter {
         variant(*field.type, member);
         continue;
       }
-      if (absent_ == Absent::left_out && field.type->kind == Kind::optional && field.type->count(member) == 0) continue;
+      const bool omitted = field.omit_empty || (absent_ == Absent::left_out && field.type->kind == Kind::optional);
+      if (omitted && is_empty(*field.type, member)) continue;
       name(field.name);
       const void* const one = field.uniform ? one_for_all(*field.type, member) : nullptr;
       if (one != nullptr) {
@@ -282,7 +283,11 @@ class JsonWriter {
       }
     }
   }
+  static bool is_empty(const Type& type, const void* v) {
+    return type.kind == Kind::text ? static_cast<const std::string*>(v)->empty() : type.count(v) == 0;
+  }
   Absent absent_;
+  JsonNumber number_;
 };
 
 void collect(const Type& type, std::vector<std::string_view>& names) {
@@ -332,8 +337,8 @@ Expected<void> read_variant(const Json& json, const Type& type, void* variant, s
   return read_record(json, *type.variants[static_cast<std::size_t>(k)], type.at(variant, 0), type.name);
 }
 
-std::string to_json(const Type& type, const void* value, Absent absent) {
-  JsonWriter writer(absent);
+std::string to_json(const Type& type, const void* value, Absent absent, JsonNumber number) {
+  JsonWriter writer(absent, number);
   writer.value(type, value);
   return std::move(writer.text);
 }

@@ -33,7 +33,8 @@ enum class Absent { left_out, null };
 
 /// The JSON form of a value. Records are objects with their fields in order, variants have their tag first; opaque
 /// parts are left out.
-[[nodiscard]] std::string to_json(const Type& type, const void* value, Absent absent = Absent::left_out);
+[[nodiscard]] std::string to_json(const Type& type, const void* value, Absent absent = Absent::left_out,
+                                  JsonNumber number = json_number);
 
 /// Names separated by commas.
 [[nodiscard]] std::string joined(const std::vector<std::string_view>& names);

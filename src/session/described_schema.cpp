@@ -139,7 +139,7 @@ class Schema {
       members.seen.push_back(field.name);
       members.properties +=
           fmt::format("{}\n  \"{}\":{}", members.properties.empty() ? "" : ",", field.name, member(field, type));
-      const bool required = field.presence == Presence::required || (absent_ == Absent::null && !field.flat);
+      const bool required = field.presence == Presence::required || (absent_ == Absent::null && !field.flat && !field.omit_empty);
       if (always && required) members.require(field.name);
       if (!field.only.field.empty()) {
         members.dependent +=

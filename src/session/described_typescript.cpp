@@ -90,9 +90,9 @@ void TypeScript::record(const Type& type, const std::string& name, std::string_v
     if (!field.flat) {
       // A record of a variant omits what is absent, whatever contains it.
       const bool null = absent == Absent::null;
-      const bool there =
-          null ? tag.empty() || field.type->kind != Kind::optional : field.presence == Presence::required;
-      body += member(type, field, there, suffix, tag.empty() ? absent : Absent::left_out);
+      const bool there = !field.omit_empty && (null ? tag.empty() || field.type->kind != Kind::optional
+                                                    : field.presence == Presence::required);
+      body += member(type, field, there, suffix, tag.empty() && !field.omit_empty ? absent : Absent::left_out);
       continue;
     }
     std::string names;

@@ -218,4 +218,8 @@ std::string json_number(double value) {
   return fmt::format("{:.17g}", value);
 }
 
+std::string shortest_json_number(double value) { return Library(value).dump(); }
+
+std::string indented_json(std::string_view json) { return nlohmann::ordered_json::parse(json, nullptr, false).dump(1); }
+
 }  // namespace knead

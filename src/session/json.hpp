@@ -35,5 +35,11 @@ struct Json {
 
 /// 17 significant digits, which read back to the same bits; null if not finite.
 [[nodiscard]] std::string json_number(double value);
+/// The fewest digits that read back to the same bits, with a point: "1.0"; null if not finite.
+[[nodiscard]] std::string shortest_json_number(double value);
+using JsonNumber = std::string (*)(double);
+
+/// The same value over several lines, indented by one blank a level.
+[[nodiscard]] std::string indented_json(std::string_view json);
 
 }  // namespace knead

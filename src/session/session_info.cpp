@@ -298,6 +298,10 @@ std::string steps_json(const SessionState& state, std::size_t first) {
       state.steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, state.steps.size())), state.steps.end()));
 }
 
+std::string file_json(const FileInfo& info) {
+  return indented_json(to_json(type_of<FileInfo>(), &info, Absent::null, shortest_json_number));
+}
+
 std::string session_typescript(void (*more)(TypeScript&)) {
   TypeScript types;
   types.declare(type_of<CommandVariant>(), "AnyCommand", "Command");

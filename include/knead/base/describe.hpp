@@ -105,6 +105,8 @@ struct About {
   std::span<const Choice> choices = {};
   /// With other values of that field, which is described before this one, it is refused.
   OnlyWith only = {};
+  /// It is not written where it is empty: without a value, a text or entries.
+  bool omit_empty = false;
 };
 
 struct Type;

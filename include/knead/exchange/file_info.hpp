@@ -1,0 +1,143 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "knead/base/describe.hpp"
+#include "knead/exchange/source.hpp"
+
+namespace knead {
+
+// What is in a CAD file, as plain values with descriptions: what programs list of it.
+
+using Corner = std::array<double, 3>;
+
+/// A B-spline surface of a file. Coordinates are in the surface's own frame and units.
+struct FileSurface {
+  std::string id, name;
+  std::array<int, 2> degree = {0, 0}, net = {0, 0};
+  bool rational = false;
+  std::optional<std::array<double, 2>> weights = {};  ///< the least and the largest; none of a polynomial one
+  std::array<bool, 2> clamped = {}, closed = {};
+  std::array<std::vector<double>, 2> knots = {};
+  std::array<int, 2> max_interior_multiplicity = {0, 0};
+  std::optional<int> faces = {};  ///< on it; none where the format has none
+  bool trimmed = false;
+  std::array<Corner, 2> bounding_box = {};  ///< of the whole surface, untrimmed
+};
+
+/// A surface of another form, on which faces lie.
+struct FileOtherSurface {
+  std::string id, form;
+  std::vector<std::string> faces;
+  bool convertible = false;  ///< into a B-spline surface of the file
+  std::string reason = {};   ///< why not
+  /// Its exact B-spline form, of any format: degree and net, or why it has none.
+  Expected<std::array<std::array<int, 2>, 2>> spline = {};
+};
+
+struct FileCurve {
+  std::string id, name;
+  int degree = 0, control_points = 0;
+  bool rational = false, clamped = false;
+  std::vector<double> knots = {};
+};
+
+struct FileUnreadable {
+  std::string id, reason;
+};
+
+struct FileTessellation {
+  std::string id, name, unit;
+  int triangles = 0;
+};
+
+struct FilePlacement {
+  Corner origin = {}, axis = {}, ref_direction = {};
+};
+
+/// A placement of a component in an assembly.
+struct FileInstance {
+  std::string id, name, parent, child;
+  std::optional<FilePlacement> placement = {}, frame = {};
+};
+
+struct FilePlace {
+  std::string path;
+  std::array<std::array<double, 4>, 3> matrix = {};  ///< rows; from the part's coordinates to the model's
+};
+
+struct FilePart {
+  std::string name, unit;
+  std::vector<std::string> surfaces, faces, curves;
+  std::vector<FilePlace> places;
+};
+
+/// The parts of the file and where they stand; or only the reason why that is not known.
+struct FileAssembly {
+  std::string reason = {};
+  std::string unit = {};
+  std::optional<std::vector<FilePart>> parts = {};
+  std::optional<std::vector<std::string>> warnings = {};
+};
+
+struct FileLeftOut {
+  std::string what;
+  int count = 0;
+  std::string reason;
+  std::optional<std::string> remedy;
+  std::vector<std::string> ids;
+  std::string sentence;  ///< all that in words
+};
+
+/// An edge of the visible part of a surface, in fractions of its domain.
+struct FileVisibleEdge {
+  std::string id;
+  std::array<double, 2> from = {0, 0}, to = {0, 0};
+  std::vector<std::string> faces;
+  bool seam = false;
+};
+
+/// What faces show of a surface; or only the reason why that is not known.
+struct FileVisible {
+  std::string surface, reason = {};
+  bool in_shell = false;
+  std::array<std::array<double, 2>, 2> extent = {};  ///< fractions of the domain
+  std::array<Corner, 2> box = {};                    ///< of the edges
+  std::optional<std::array<double, 2>> middle = {};  ///< `visible_middle`, in fractions
+  double distance = 0;                               ///< of the middle from the nearest edge
+  std::vector<FileVisibleEdge> edges = {};
+};
+
+struct FileInfo {
+  std::string file, format, schema, units;
+  std::vector<FileSurface> surfaces;
+  std::vector<FileUnreadable> unreadable_surfaces;
+  std::vector<FileOtherSurface> other_surfaces;
+  std::vector<FileCurve> curves;
+  std::vector<FileTessellation> tessellated_items;
+  std::vector<FileInstance> instances;
+  std::optional<FileAssembly> assembly;  ///< none where the format has none
+  std::vector<FileLeftOut> left_out;
+  std::vector<std::string> remarks;
+  std::vector<FileVisible> visible;  ///< of surfaces with edges of faces, if asked for
+};
+
+void describe(FileInfo& f, Fields& fields);
+
+/// What `file_info` computes besides reading.
+struct FileInfoOptions {
+  bool conversions = false;  ///< whether other surfaces can be converted
+  bool faces = false;        ///< what faces show of the surfaces
+  /// Called with the number of surfaces listed, and of all.
+  std::function<void(std::size_t, std::size_t)> progress = {};
+};
+
+/// Cost: a bounding box of every surface and `left_out_of_list`; conversions: `brep::exact_splines`; faces:
+/// `VisibleRegions` and `left_out_of_faces`.
+[[nodiscard]] FileInfo file_info(const Source& source, const FileInfoOptions& options = {});
+
+}  // namespace knead
