@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli.hpp"
 #include "knead/exchange/file_io.hpp"
@@ -20,36 +19,6 @@ struct AnalyseArguments {
   UnpackOption unpack;
   int samples = 41;
 };
-
-std::string joined(const std::vector<double>& values) {
-  std::string text;
-  for (const double x : values) text += (text.empty() ? "" : ",") + json_number(x);
-  return "[" + text + "]";
-}
-
-Expected<std::string> results_json(const SessionState& state, std::span<const FieldGrid> grids) {
-  std::string text = "{\"surfaces\":[";
-  for (const FieldGrid& grid : grids) {
-    text += fmt::format("{}\n {{\"id\":{},\"counts\":[{},{}],\n  \"points\":{}", &grid == grids.data() ? "" : ",",
-                        nlohmann::json(grid.name).dump(), grid.counts[0], grid.counts[1],
-                        joined({grid.points.data(), grid.points.data() + grid.points.size()}));
-    for (const GridField& field : grid.fields) text += fmt::format(",\n  \"{}\":{}", field.name, joined(field.values));
-    text += "}";
-  }
-  text += "]";
-  const SceneSurface& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
-  if (is_nonlinear(s.elasticity)) {
-    const auto reactions = hold_reactions(state);
-    if (!reactions) return std::unexpected(reactions.error());
-    text += ",\n\"reactions\":[";
-    for (const HoldReaction& r : *reactions) {
-      text += fmt::format("{}\n {{\"hold\":{},\"force\":{}}}", &r == reactions->data() ? "" : ",",
-                          nlohmann::json(r.hold).dump(), joined({r.force[0], r.force[1], r.force[2]}));
-    }
-    text += "]";
-  }
-  return text + modes_json(state) + "}\n";
-}
 
 void print_summary(const AnalyseArguments& options, const SessionState& state, std::span<const FieldGrid> grids) {
   for (const FieldGrid& grid : grids) {
@@ -83,7 +52,7 @@ Expected<void> run(const AnalyseArguments& options) {
   if (!session.state().selected) return input_error("no surface is selected", options.script, "select one");
   const auto grids = result_grids(session.state(), options.samples);
   if (!grids) return std::unexpected(grids.error());
-  const auto json = results_json(session.state(), *grids);
+  const auto json = analysis_json(session.state(), *grids);
   if (!json) return std::unexpected(json.error());
   print_summary(options, session.state(), *grids);
   if (!options.vtu.empty()) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "cli.hpp"
@@ -53,33 +52,6 @@ void print_edges(const SessionState& state) {
     say("  edge {} follows smoothly, with at most {:.2g} degrees between its tangent planes, {:.2g} as opened\n",
         edge.id, in_degrees(angles->angle), in_degrees(angles->angle_before));
   }
-}
-
-std::string edges_json(const SessionState& state) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const auto& [index, report] : report_edges(state)) {
-    nlohmann::ordered_json edges = nlohmann::ordered_json::array();
-    for (const TrimReport::Edge& edge : report.edges) {
-      edges.push_back({{"id", edge.held.id},
-                       {"hold", hold_of(edge)},
-                       {"along_lines", edge.held.along_lines},
-                       {"control_points", edge.held.points},
-                       {"deviation", edge.deviation},
-                       {"faces", edge.neighbours}});
-      const auto angles = edge.follows ? angles_at(state, edge.held.id) : std::nullopt;
-      if (!angles) continue;
-      edges.back()["angle"] = in_degrees(angles->angle);
-      edges.back()["angle_before"] = in_degrees(angles->angle_before);
-    }
-    list.push_back({{"surface", state.surfaces[static_cast<std::size_t>(index)].id},
-                    {"net", report.net},
-                    {"free", report.free},
-                    {"visible", report.visible},
-                    {"largest_gap", report.largest},
-                    {"samples", report.samples},
-                    {"edges", std::move(edges)}});
-  }
-  return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void print_faces(const FileInfo& info) {

@@ -9,9 +9,6 @@ namespace knead::cli {
 /// them, and what is free.
 void print_edges(const SessionState& state);
 
-/// The same with every edge, as a JSON list.
-[[nodiscard]] std::string edges_json(const SessionState& state);
-
 /// For every surface on which faces lie: its visible part, its middle, and the edges with their neighbours; then the
 /// surfaces of other forms, their faces, and whether they can be converted.
 void print_faces(const FileInfo& info);

@@ -12,7 +12,6 @@
 namespace knead::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr std::size_t most_listed = 6;
 
 std::string title(const FilePart& part) {
@@ -55,21 +54,6 @@ void print_parts(const FileInfo& info) {
       assembly.unit, counted(assembly.parts->size(), "part", "parts"), counted(places, "place", "places"));
   for (const FilePart& part : *assembly.parts) print_part(part);
   for (const std::string& warning : *assembly.warnings) say("  warning: {}\n", warning);
-}
-
-void print_places(std::span<const RepeatedSurface> surfaces) {
-  for (const RepeatedSurface& r : surfaces) {
-    say("  {}: its part \"{}\" stands in {} places of the assembly, and has changed in all of them\n", r.surface,
-        printable(r.part), r.places);
-  }
-}
-
-Json places_json(std::span<const RepeatedSurface> surfaces) {
-  Json result = Json::array();
-  for (const RepeatedSurface& r : surfaces) {
-    result.push_back({{"surface", r.surface}, {"part", r.part}, {"places", r.places}});
-  }
-  return result;
 }
 
 }  // namespace knead::cli

@@ -71,20 +71,4 @@ Expected<Execution> execute(Session& session, const Script& script, bool stops) 
   return execution;
 }
 
-std::string modes_json(const SessionState& state) {
-  std::string text;
-  const auto list = [&](const char* name, const char* value, const std::vector<ModeRecord>& modes) {
-    if (modes.empty()) return;
-    text += fmt::format(",\n\"{}\":[", name);
-    for (std::size_t k = 0; k < modes.size(); ++k) {
-      text += fmt::format("{}\n {{\"{}\":{},\"residual\":{}}}", k == 0 ? "" : ",", value, json_number(modes[k].value),
-                          json_number(modes[k].residual));
-    }
-    text += "]";
-  };
-  list("modes", "frequency", state.modes);
-  list("buckling", "load_factor", state.buckling);
-  return text;
-}
-
 }  // namespace knead::cli

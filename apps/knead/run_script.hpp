@@ -33,7 +33,4 @@ struct Execution {
 /// names the script, the command, and the CAD file where it is about an entity of that.
 [[nodiscard]] Expected<Execution> execute(Session& session, const Script& script, bool stops = false);
 
-/// The lists `modes` and `buckling` of reports, each after a comma; nothing where there are none.
-[[nodiscard]] std::string modes_json(const SessionState& state);
-
 }  // namespace knead::cli

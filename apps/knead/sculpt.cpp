@@ -16,14 +16,14 @@
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/save_faces.hpp"
 #include "knead/session/command_json.hpp"
+#include "knead/session/report.hpp"
 #include "knead/session/session.hpp"
 #include "knead/tool/describe_shape.hpp"
 #include "outputs.hpp"
-#include "parts.hpp"
+#include "picture.hpp"
 #include "progress.hpp"
 #include "run_script.hpp"
 #include "say.hpp"
-#include "sculpt_report.hpp"
 
 namespace knead::cli {
 namespace {
@@ -90,7 +90,10 @@ void print_summary(const SculptArguments& options, const Session& session, const
   }
   for (const std::string& note : o.notes) say("  {}\n", printable(note, 2000));
   print_edges(state);
-  print_places(o.places);
+  for (const RepeatedSurface& r : o.places) {
+    say("  {}: its part \"{}\" stands in {} places of the assembly, and has changed in all of them\n", r.surface,
+        printable(r.part), r.places);
+  }
   for (const SeamReport& s : state.seam_reports) {
     say("  seam {} - {}: {}{}{}\n", name_of(state, s.seam.a), name_of(state, s.seam.b), name_of(s.continuity),
         s.reason.empty() ? "" : ", ", s.reason);
@@ -139,6 +142,12 @@ class Besides {
   Expected<void> first;  ///< error
 };
 
+Expected<std::string> picture_of(const SessionState& state) {
+  if (!state.selected) return input_error("no surface is selected, so there is nothing to draw", {}, "select one");
+  const SceneSurface& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
+  return displacement_picture(*s.opened, *s.current, "Displacement of " + (s.name.empty() ? s.id : s.name), s.unit);
+}
+
 /// The CAD file comes last, after what is asked for besides.
 Expected<void> write_results(const SculptArguments& options, const Session& session, const Outcome& o) {
   const Format* other = other_format(options, session.document());
@@ -158,7 +167,7 @@ Expected<void> write_results(const SculptArguments& options, const Session& sess
     say("lengths are written as millimetres: {} does not say what they are\n", options.file);
   }
   Besides besides;
-  if (!options.report.empty()) besides.write(options.report, "--report", report_of(session.state(), o));
+  if (!options.report.empty()) besides.write(options.report, "--report", report_json(session.state(), o));
   if (!options.picture.empty()) besides.write(options.picture, "--picture", picture_of(session.state()));
   if (auto done = write_output(options.output, *bytes); !done) return done;
   say("wrote {} ({} surface{}{} changed)\n", options.output, o.surfaces, o.surfaces == 1 ? "" : "s",

@@ -99,25 +99,33 @@ static void describe(PulledLattice& l, Fields& fields) {
 
 // --- the record ------------------------------------------------------------------------------------------------------
 
+void describe_figures(StepRecord& s, Fields& fields) {
+  fields.add("time", s.time, {.help = "seconds"});
+  fields.add("energy", s.energy, {.help = "stretch + bend, in normalised units"});
+  fields.add("residual", s.residual, {.help = "relative imbalance of forces"});
+  fields.add("largest_displacement", s.largest_displacement,
+             {.help = "from the surface as opened", .unit = Unit::length});
+  fields.add_all("stretch", s.stretch, "bend", s.bend, "kinetic", s.kinetic, "contact", s.contact);
+  fields.add("gap", s.gap, {.help = "deepest entry into a tool, in sizes of that tool"});
+  fields.add("constraint_violation", s.violation, {.unit = Unit::length});
+  fields.add("converged", s.converged);
+  fields.add("limited", s.limited, {.help = "the limit restricts the displacement"});
+  fields.add("load_factor", s.load_factor,
+             {.help = "of a shell: the share of the load that is balanced", .omit_empty = true});
+  fields.add("increments", s.increments,
+             {.help = "of a shell: Newton iterations of each part of the load", .omit_empty = true});
+  fields.add(
+      "energy_error", s.energy_error,
+      {.help = "of rational shapes: the largest error of an entry of the energy's matrix, relative to its diagonal",
+       .omit_empty = true});
+  fields.add("note", s.note, {.help = "what went wrong, and the remedy", .omit_empty = true});
+}
+
 void describe(StepRecord& s, Fields& fields) {
   fields.name("step info", "What one step did.");
   fields.add("surface", s.surface, {.help = "number of the first one selected; -1: of a body"});
-  fields.add("time", s.time, {.help = "seconds"});
-  fields.add("energy", s.energy, {.help = "stretch + bend, in normalised units"});
-  fields.add_all("stretch", s.stretch, "bend", s.bend, "kinetic", s.kinetic, "contact", s.contact);
-  fields.add("residual", s.residual, {.help = "relative imbalance of forces"});
-  fields.add("displacement", s.largest_displacement,
-             {.help = "the largest, from the surface as opened", .unit = Unit::length});
-  fields.add("gap", s.gap, {.help = "deepest entry into a tool, in sizes of that tool"});
-  fields.add("violation", s.violation, {.help = "of constraints", .unit = Unit::length});
-  fields.add_all("iterations", s.iterations, "converged", s.converged);
-  fields.add("limited", s.limited, {.help = "the limit restricts the displacement"});
-  fields.add("note", s.note, {.help = "what went wrong, and the remedy"});
-  fields.add("load_factor", s.load_factor, {.help = "of a shell: the share of the load that is balanced"});
-  fields.add("increments", s.increments, {.help = "of a shell: Newton iterations of each part of the load"});
-  fields.add(
-      "energy_error", s.energy_error,
-      {.help = "of rational shapes: the largest error of an entry of the energy's matrix, relative to its diagonal"});
+  describe_figures(s, fields);
+  fields.add("iterations", s.iterations);
 }
 
 static void describe(ModeRecord& m, Fields& fields) {

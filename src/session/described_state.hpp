@@ -18,6 +18,8 @@ const Type& type_of<StepRecord>();
 void describe(ShellMaterial& m, Fields& fields);
 void describe(FundamentalMaterial& m, Fields& fields);
 void describe(StepRecord& s, Fields& fields);
+/// What reports say of a step: all but the surface and the iterations.
+void describe_figures(StepRecord& s, Fields& fields);
 std::span<const Choice> choices(SeamContinuity);
 
 }  // namespace knead

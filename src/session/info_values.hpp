@@ -58,6 +58,26 @@ struct ReadingInfo {
   std::optional<double> bending_strain;
 };
 void describe(ReadingInfo& r, Fields& fields);
+/// All but the name and the surface.
+void describe_measures(ReadingInfo& r, Fields& fields);
+
+struct VibrationInfo {
+  double frequency = 0, residual = 0;
+};
+void describe(VibrationInfo& m, Fields& fields);
+
+struct BucklingInfo {
+  double load_factor = 0, residual = 0;
+};
+void describe(BucklingInfo& m, Fields& fields);
+
+/// `VibrationInfo` or `BucklingInfo` of modes.
+template <class Info>
+std::vector<Info> infos_of(const std::vector<ModeRecord>& modes) {
+  std::vector<Info> list;
+  for (const ModeRecord& mode : modes) list.push_back({mode.value, mode.residual});
+  return list;
+}
 
 enum class BodyKind { curve, volume };
 std::span<const Choice> choices(BodyKind);
@@ -81,6 +101,9 @@ void describe(BodyInfo& b, Fields& fields);
 
 /// Of the scene's curves and volumes.
 [[nodiscard]] std::vector<BodyInfo> bodies_of(const Scene& scene);
+
+/// Errors: those of `read_probe` and `read_shell`.
+[[nodiscard]] Expected<ReadingInfo> reading_of(const Scene& scene, const Probe& probe);
 
 /// Of the scene's measurements; those that cannot be read are left out.
 [[nodiscard]] std::vector<ReadingInfo> readings_of(const Scene& scene);

@@ -7,22 +7,27 @@
 
 namespace knead {
 
-void describe(ReadingInfo& r, Fields& fields) {
-  fields.name("reading info", "What is measured at a point of a surface.");
-  fields.add("name", r.name);
-  fields.add("surface", r.surface, {.help = "its number; -1 of a face on no surface of the session"});
+void describe_measures(ReadingInfo& r, Fields& fields) {
   fields.add("at", r.at, {.unit = Unit::fraction});
   fields.add("point", r.point, {.unit = Unit::length});
   fields.add("displacement", r.displacement, {.help = "from the surface as opened", .unit = Unit::length});
   fields.add("normal", r.normal, {.help = "of length 1; zero where there is none"});
   fields.add("curvature", r.curvature, {.help = "the principal ones, the larger first; null where there is no normal"});
-  fields.add("von_mises", r.von_mises, {.help = "of shells: on the face that the normal leaves, and on the other"});
-  fields.add("membrane", r.membrane, {.help = "of shells: principal forces per length, the larger first"});
-  fields.add("moment", r.moment, {.help = "of shells: principal bending moments per length"});
-  fields.add("bending_strain", r.bending_strain, {.help = "of shells: the largest strain that bending adds"});
+  fields.add("von_mises", r.von_mises,
+             {.help = "of shells: on the face that the normal leaves, and on the other", .omit_empty = true});
+  fields.add("membrane", r.membrane,
+             {.help = "of shells: principal forces per length, the larger first", .omit_empty = true});
+  fields.add("moment", r.moment, {.help = "of shells: principal bending moments per length", .omit_empty = true});
+  fields.add("bending_strain", r.bending_strain,
+             {.help = "of shells: the largest strain that bending adds", .omit_empty = true});
 }
 
-namespace {
+void describe(ReadingInfo& r, Fields& fields) {
+  fields.name("reading info", "What is measured at a point of a surface.");
+  fields.add("name", r.name);
+  fields.add("surface", r.surface, {.help = "its number; -1 of a face on no surface of the session"});
+  describe_measures(r, fields);
+}
 
 Expected<ReadingInfo> reading_of(const Scene& scene, const Probe& probe) {
   const auto reading = read_probe(scene, probe);
@@ -45,8 +50,6 @@ Expected<ReadingInfo> reading_of(const Scene& scene, const Probe& probe) {
   }
   return info;
 }
-
-}  // namespace
 
 std::vector<ReadingInfo> readings_of(const Scene& scene) {
   std::vector<ReadingInfo> result;

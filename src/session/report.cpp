@@ -42,7 +42,7 @@ std::vector<RepeatedSurface> repeated_surfaces(const Session& session) {
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const brep::Part* part = model->assembly->part_of(surfaces[k].id);
     if (part == nullptr || part->places.size() < 2 || session.moved_control_points(static_cast<int>(k)) == 0) continue;
-    result.push_back({surfaces[k].id, part->name, part->places.size()});
+    result.push_back({surfaces[k].id, part->name, static_cast<int>(part->places.size())});
   }
   return result;
 }
@@ -135,19 +135,6 @@ std::string_view name_of(SeamContinuity continuity) {
 
 std::string name_of(const SessionState& state, const PatchEdge& edge) {
   return fmt::format("{} {}", state.surfaces[static_cast<std::size_t>(edge.patch)].id, edge_name(edge.edge));
-}
-
-Expected<std::vector<ProbeReport>> report_probes(const SessionState& state) {
-  std::vector<ProbeReport> list;
-  for (const Probe& probe : state.probes) {
-    auto reading = read_probe(state, probe);
-    if (!reading) return std::unexpected(reading.error());
-    auto shell = read_shell(state, probe.surface, probe.at);
-    if (!shell) return std::unexpected(shell.error());
-    list.push_back(
-        {probe, state.surfaces[static_cast<std::size_t>(probe.surface)].id, *std::move(reading), *std::move(shell)});
-  }
-  return list;
 }
 
 Expected<std::vector<FieldGrid>> result_grids(const SessionState& state, int samples) {

@@ -114,21 +114,13 @@ static void describe(SeamInfo& s, Fields& fields) {
   fields.add("reason", s.reason, {.help = "why the continuity is not higher"});
 }
 
-struct VibrationInfo {
-  double frequency = 0, residual = 0;
-};
-
-static void describe(VibrationInfo& m, Fields& fields) {
+void describe(VibrationInfo& m, Fields& fields) {
   fields.name("vibration info", "A free vibration of the structure.");
   fields.add("frequency", m.frequency, {.help = "per unit of time; below 0 the structure is unstable"});
   fields.add("residual", m.residual, {.help = "relative"});
 }
 
-struct BucklingInfo {
-  double load_factor = 0, residual = 0;
-};
-
-static void describe(BucklingInfo& m, Fields& fields) {
+void describe(BucklingInfo& m, Fields& fields) {
   fields.name("buckling info", "A load at which a shell buckles.");
   fields.add("load_factor", m.load_factor, {.help = "by which the present loads are multiplied"});
   fields.add("residual", m.residual, {.help = "relative"});
@@ -286,8 +278,8 @@ std::string session_json(const Session& session) {
   for (const Note& note : state.notes) info.notes.push_back(info_of(note));
   info.steps = static_cast<int>(state.steps.size());
   if (!state.steps.empty()) info.last = state.steps.back();
-  for (const ModeRecord& mode : state.modes) info.modes.push_back({mode.value, mode.residual});
-  for (const ModeRecord& mode : state.buckling) info.buckling.push_back({mode.value, mode.residual});
+  info.modes = infos_of<VibrationInfo>(state.modes);
+  info.buckling = infos_of<BucklingInfo>(state.buckling);
   info.undo = session.can_undo();
   info.redo = session.can_redo();
   return json_of(info);
@@ -296,10 +288,6 @@ std::string session_json(const Session& session) {
 std::string steps_json(const SessionState& state, std::size_t first) {
   return json_of(std::vector<StepRecord>(
       state.steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, state.steps.size())), state.steps.end()));
-}
-
-std::string file_json(const FileInfo& info) {
-  return indented_json(to_json(type_of<FileInfo>(), &info, Absent::null, shortest_json_number));
 }
 
 std::string session_typescript(void (*more)(TypeScript&)) {

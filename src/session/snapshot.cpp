@@ -22,7 +22,7 @@ static void describe(SnapshotHead& h, Fields& fields) {
 namespace {
 
 /// With the version of the form, in a hexadecimal digit; no other is read.
-constexpr std::string_view any_magic = "Knead snapshot ", magic = "Knead snapshot d\n";
+constexpr std::string_view any_magic = "Knead snapshot ", magic = "Knead snapshot e\n";
 constexpr std::size_t sum_size = sizeof(std::uint64_t);
 
 /// What the states of a snapshot may need.

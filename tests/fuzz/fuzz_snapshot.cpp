@@ -22,7 +22,7 @@ std::uint64_t checksum(std::string_view bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view content = fuzz::text_of(data, size);
-  std::string bytes = "Knead snapshot d\n";
+  std::string bytes = "Knead snapshot e\n";
   const std::uint64_t sum = checksum(content);
   bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
   bytes += content;

@@ -2,8 +2,10 @@
 #include "knead/session/report.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "knead/session/script_error.hpp"
+#include "knead/session/session_info.hpp"
 #include "support.hpp"
 
 namespace knead::testing {
@@ -42,17 +44,34 @@ TEST(Outcome, AddsUpTheStepsAndWhatTheyMoved) {
   EXPECT_GT(o.energy_after, o.energy_before);
 }
 
-TEST(ReportProbes, GivesTheReadingOfEach) {
+TEST(Report, GivesTheReadingOfEachProbeInItsList) {
   Session session(Document::fresh("sheet"));
   run(session, {sheet, R"({"do":"measure","name":"a","at":[0.5,0.25]})", R"({"do":"measure","name":"b","at":[1,1]})"});
-  const auto probes = report_probes(session.state());
-  ASSERT_TRUE(probes);
-  ASSERT_EQ(probes->size(), 2u);
-  EXPECT_EQ(probes->front().probe.name, "a");
-  EXPECT_EQ(probes->front().surface, "#1");
-  EXPECT_LT((probes->front().reading.point - Point(100, 25, 0)).norm(), 1e-11);
-  EXPECT_LT((probes->back().reading.point - Point(200, 100, 0)).norm(), 1e-11);
-  EXPECT_FALSE(probes->front().shell) << "a linear sheet has no stresses";
+  const auto text = report_json(session.state(), outcome_of(session, 0));
+  ASSERT_TRUE(text);
+  const auto probes = nlohmann::json::parse(*text).at("measurements");
+  ASSERT_EQ(probes.size(), 2u);
+  EXPECT_EQ(probes[0].at("name"), "a");
+  EXPECT_EQ(probes[0].at("surface"), "#1");
+  EXPECT_NEAR(probes[0].at("point")[0].get<double>(), 100, 1e-11);
+  EXPECT_NEAR(probes[0].at("point")[1].get<double>(), 25, 1e-11);
+  EXPECT_NEAR(probes[1].at("point")[0].get<double>(), 200, 1e-11);
+  EXPECT_FALSE(probes[0].contains("von_mises")) << "a linear sheet has no stresses";
+}
+
+TEST(Report, HasEveryFigureThatTheDescriptionOfAStepHas) {
+  Session session(Document::fresh("sheet"));
+  run(session, {sheet, R"({"do":"step"})"});
+  const auto text = report_json(session.state(), outcome_of(session, 0));
+  ASSERT_TRUE(text);
+  const auto step = nlohmann::json::parse(*text).at("steps").at(0);
+  const auto page = nlohmann::json::parse(steps_json(session.state(), 0)).at(0);
+  for (const auto& [name, value] : page.items()) {
+    if (name != "surface" && name != "iterations") {
+      EXPECT_EQ(step.at(name), value) << name;
+    }
+  }
+  EXPECT_EQ(step.size() + 2, page.size());
 }
 
 TEST(ReportEdges, SaysHowTheEdgesOfFacesAreHeld) {

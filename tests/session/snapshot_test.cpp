@@ -134,7 +134,7 @@ TEST(Snapshot, SharesAgainWhatStatesShared) {
   EXPECT_EQ(restored.snapshot(), session.snapshot());
 }
 
-constexpr std::size_t head = std::string_view("Knead snapshot d\n").size();
+constexpr std::size_t head = std::string_view("Knead snapshot e\n").size();
 
 /// The bytes of a snapshot after its head with the version and the checksum that they have there.
 std::string sealed(std::string snapshot, char version) {
@@ -153,7 +153,7 @@ std::string sealed(std::string snapshot, char version) {
 
 TEST(Snapshot, ThatOfAnotherVersionIsRefusedWithWhatToDo) {
   const Session session = on_sheet();
-  for (const char version : {'1', '9', 'a', 'b', 'c', 'e'}) {
+  for (const char version : {'1', '9', 'a', 'b', 'c', 'd', 'f'}) {
     const auto restored = Session::restore(Document::fresh("test"), sealed(session.snapshot(), version));
     ASSERT_FALSE(restored) << version;
     EXPECT_EQ(restored.error().message().find('\n'), std::string::npos);

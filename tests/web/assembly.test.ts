@@ -121,8 +121,7 @@ describe('parts of an assembly', () => {
   });
 
   it('are measured in the model: distances between places, radii in its unit', () => {
-    const reading = (p: [number, number, number]): MeasuredPoint => ({ surface: 0, at: [0.5, 0.5], point: p, displacement: [0, 0, 0], normal: [0, 0, 1], curvature: [0.5, 0],
-      von_mises: null, membrane: null, moment: null, bending_strain: null });
+    const reading = (p: [number, number, number]): MeasuredPoint => ({ surface: 0, at: [0.5, 0.5], point: p, displacement: [0, 0, 0], normal: [0, 0, 1], curvature: [0.5, 0] });
     const [upright, turned] = placing.of(plate);
     const a = inModel(reading([0, 0, 0]), upright!, engine.query('origin')), b = inModel(reading([0, 0, 0]), turned!, engine.query('origin'));
     expect(Math.hypot(...a.point.map((x, d) => x - b.point[d]!))).toBeCloseTo(Math.hypot(20, 30), 12);

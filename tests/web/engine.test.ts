@@ -122,7 +122,7 @@ describe('the session in WebAssembly', () => {
       expect(Math.hypot(...picture.normals.subarray(k, k + 3))).toBeCloseTo(1, 5);
     }
     const deepest = Math.max(...picture.values.map(Math.abs));
-    expect(deepest).toBeCloseTo(engine.query('state').last!.displacement, 1);
+    expect(deepest).toBeCloseTo(engine.query('state').last!.largest_displacement, 1);
     expect(picture.positions.every(Number.isFinite)).toBe(true);
     expect([...picture.held].filter((h) => h === 1).length).toBe(144 - 64);
     const flat = (await sheet()).query('picture', { surface: 0, detail: 60, display: 'gaussian' });

@@ -64,7 +64,7 @@ function check(engine: Engine, step: Step): void {
   } else {
     const { expect: pointer, is, min, max } = step;
     const value = at(engine.query('state'), pointer);
-    if (is !== undefined) expect(value, pointer).toEqual(is);
+    if (is !== undefined) expect(value ?? null, pointer).toEqual(is);
     else {
       expect(value, pointer).toBeGreaterThanOrEqual(min!);
       expect(value, pointer).toBeLessThanOrEqual(max!);

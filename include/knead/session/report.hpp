@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +20,7 @@ namespace knead {
 /// A changed surface whose part stands in several places of an assembly: the change shows in all of them.
 struct RepeatedSurface {
   std::string surface, part;
-  std::size_t places = 0;
+  int places = 0;
 };
 
 /// What a script has made of a session. Times in seconds, lengths in units of the file.
@@ -61,19 +62,17 @@ struct EdgesReport {
 /// "#12 u0": a side of a surface.
 [[nodiscard]] std::string name_of(const SessionState& state, const PatchEdge& edge);
 
-/// A probe of the scene with its reading, and that of the shell there.
-struct ProbeReport {
-  Probe probe;
-  std::string surface;  ///< id
-  ProbeReading reading;
-  std::optional<ShellPointResults> shell;
-};
-
-/// In the order of the scene. Errors: those of `read_probe` and `read_shell`. Cost: one evaluation for each.
-[[nodiscard]] Expected<std::vector<ProbeReport>> report_probes(const SessionState& state);
+/// What a script has made, as `knead sculpt --report` writes it (docs/command-line.md): every figure of every step, the
+/// outcome, edges, places, seams, notes, modes, and the readings of the scene's probes in the lists that they name.
+/// Errors: those of `read_probe` and `read_shell`. Cost: one evaluation for each probe, and `report_edges`.
+[[nodiscard]] Expected<std::string> report_json(const SessionState& state, const Outcome& outcome);
 
 /// The results of an analysis: `result_grid` of each selected surface, with the shapes `mode_1`, …, `buckling_1`, … of
 /// its modes and buckling modes. Errors: those of `result_grid`, at the id of the surface.
 [[nodiscard]] Expected<std::vector<FieldGrid>> result_grids(const SessionState& state, int samples);
+
+/// The same as `knead analyse --results` writes them: with the reactions of a shell and the modes. Errors: those of
+/// `hold_reactions`.
+[[nodiscard]] Expected<std::string> analysis_json(const SessionState& state, std::span<const FieldGrid> grids);
 
 }  // namespace knead

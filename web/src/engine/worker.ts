@@ -148,7 +148,7 @@ function begin(engine: Engine, next: typeof source, act: () => void): void {
 
 /** As `Frame.moved`. */
 function movedBy(engine: Engine, { selection, surfaces, tools, last }: SessionInfo): number {
-  if (playing !== 'no' || tools.some((tool) => tool.name === 'brush')) return last?.displacement ?? 0;
+  if (playing !== 'no' || tools.some((tool) => tool.name === 'brush')) return last?.largest_displacement ?? 0;
   const moved = selection.filter((k) => surfaces[k]!.moved > 0);
   return moved.flatMap((k) => [...engine.query('picture', { surface: k, detail: settings.detail, display: 'deviation' }).values])
     .reduce((most, x) => Math.max(most, Math.abs(x)), 0);
