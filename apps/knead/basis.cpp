@@ -40,31 +40,24 @@ Expected<void> check(const BasisArguments& options, int count) {
   return {};
 }
 
-/// What the derivative of order p + 1 has at a knot: the weights of δ, δ′, … up to the last that is not 0. They are the
-/// jumps of orders p, p − 1, ….
-std::string impulses_json(const KnotJumps& at, int p) {
-  std::string text, rest;
-  for (int order = p; order >= 0; --order) {
-    const double jump = at.of_order(order, p);
-    rest += (text.empty() && rest.empty() ? "" : ",") + json_number(jump);
-    if (jump == 0) continue;
-    text += rest;
-    rest.clear();
-  }
-  return text;
-}
-
 /// The jumps at knots of N^(order), or for order p + 1 its impulses.
 std::string jumps_json(const KnotVector& knots, int index, int order) {
-  const int p = knots.degree();
-  const bool impulses = order == p + 1;
+  const bool impulses = order == knots.degree() + 1;
   std::string text;
-  for (const KnotJumps& k : derivative_jumps(knots, index)) {
-    const double jump = k.of_order(impulses ? p : order, p);
-    const std::string all = impulses ? impulses_json(k, p) : std::string();
-    if (impulses ? all.empty() : jump == 0) continue;
-    text += fmt::format("{}{{\"knot\":{},\"{}\":{}{}}}", text.empty() ? "" : ",", json_number(k.knot),
-                        impulses ? "weight" : "jump", json_number(jump), impulses ? ",\"weights\":[" + all + "]" : "");
+  const auto add = [&text](const KnotJumps& at, const char* what, double value, const std::string& more) {
+    text += fmt::format("{}{{\"knot\":{},\"{}\":{}{}}}", text.empty() ? "" : ",", json_number(at.knot), what,
+                        json_number(value), more);
+  };
+  for (const KnotJumps& at : derivative_jumps(knots, index)) {
+    const double jump = at.of_order(order, knots.degree());
+    const std::vector<double> weights = impulses ? at.impulses() : std::vector<double>();
+    if (!weights.empty()) {
+      std::string all;
+      for (const double weight : weights) all += (all.empty() ? "" : ",") + json_number(weight);
+      add(at, "weight", weights.front(), ",\"weights\":[" + all + "]");
+    } else if (jump != 0) {
+      add(at, "jump", jump, "");
+    }
   }
   return fmt::format("\"{}\":[{}],", impulses ? "diracs" : "jumps", text);
 }

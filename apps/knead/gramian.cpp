@@ -28,16 +28,6 @@ struct NamedGramian {
   BandMatrix matrix;
 };
 
-bool all_finite(const BandMatrix& matrix) {
-  for (int i = 0; i < matrix.size(); ++i) {
-    for (int j = std::max(0, i - matrix.half_bandwidth());
-         j <= std::min(matrix.size() - 1, i + matrix.half_bandwidth()); ++j) {
-      if (!std::isfinite(matrix(i, j))) return false;
-    }
-  }
-  return true;
-}
-
 struct Result {
   std::string method;
   std::vector<NamedGramian> gramians;
@@ -47,25 +37,13 @@ struct Result {
 
 constexpr double few_digits = 8;
 
-/// Decimal digits of the largest entry in which two matrices agree, at most 17; below 0 where they differ by more.
-double common_digits(const BandMatrix& a, const BandMatrix& b) {
-  double largest = 0, difference = 0;
-  for (int i = 0; i < a.size(); ++i) {
-    for (int j = std::max(0, i - a.half_bandwidth()); j <= std::min(a.size() - 1, i + a.half_bandwidth()); ++j) {
-      largest = std::max(largest, std::abs(b(i, j)));
-      difference = std::max(difference, std::abs(a(i, j) - b(i, j)));
-    }
-  }
-  return difference == 0 ? 17 : std::min(17.0, -std::log10(difference / largest));
-}
-
 /// The analytic method cancels where knots are close; the recurrence, which loses no digits, says how much.
 Expected<void> estimate_digits(const KnotVector& knots, const std::vector<std::array<int, 2>>& orders, Result& result) {
   if (result.method != name(GramianMethod::analytic)) return {};
   for (std::size_t k = 0; k < orders.size(); ++k) {
-    const auto exact = gramian(knots, orders[k][0], orders[k][1], GramianMethod::recurrence);
-    if (!exact) return std::unexpected(exact.error());
-    result.digits = std::min(result.digits.value_or(17), common_digits(result.gramians[k].matrix, *exact));
+    const auto digits = digits_left(knots, orders[k][0], orders[k][1], result.gramians[k].matrix);
+    if (!digits) return std::unexpected(digits.error());
+    result.digits = std::min(result.digits.value_or(17), *digits);
   }
   if (*result.digits < few_digits) {
     say(stderr, "knead: warning: the method analytic has {} left on these knots; --method recurrence loses none\n",
@@ -172,7 +150,7 @@ Expected<void> run(const GramianArguments& options) {
   auto result = options.weights.empty() ? compute(options, *knots) : compute_rational(options, *knots);
   if (!result) return std::unexpected(result.error());
   for (const NamedGramian& g : result->gramians) {
-    if (all_finite(g.matrix)) continue;
+    if (g.matrix.all_finite()) continue;
     return numerical_error(fmt::format("entries leave the range of double precision (method {})", result->method),
                            "Gramian " + g.term, "scale the knots nearer to 1");
   }

@@ -38,8 +38,6 @@ struct MatricesArguments {
   RationalOption rational;
 };
 
-constexpr std::array<const char*, 3> indices = {"11", "12", "22"};
-
 template <std::size_t N>
 Expected<std::array<double, N>> list(const std::string& text, const std::string& option) {
   const auto numbers = parse_numbers(text, option);
@@ -187,29 +185,6 @@ Expected<void> Writer::write(const fs::path& directory) const {
   return done;
 }
 
-Expected<void> write_operator(const FreeSystem& system, const std::string& name, const std::string& formula,
-                              const Energy<2>& energy, Writer& writer) {
-  const auto made = system.of(energy);
-  if (!made) return std::unexpected(made.error());
-  return writer.matrix(name, formula, made->matrix, made->error_bound);
-}
-
-Expected<void> write_stiffness(const FreeSystem& system, const Material& material, Writer& writer) {
-  auto done = write_operator(system, "K", "the sum of the terms below, each times its coefficient",
-                             stretch_and_bend(material), writer);
-  constexpr std::array<const char*, 6> formulas = {"int R_i,s R_j,s",     "int R_i,s R_j,t + R_i,t R_j,s",
-                                                   "int R_i,t R_j,t",     "int R_i,ss R_j,ss",
-                                                   "2 int R_i,st R_j,st", "int R_i,tt R_j,tt"};
-  for (std::size_t k = 0; done && k < 6; ++k) {
-    Material one;
-    one.alpha = one.beta = {0, 0, 0};
-    (k < 3 ? one.alpha : one.beta)[k % 3] = 1;
-    done = write_operator(system, fmt::format("K_{}{}", k < 3 ? "alpha" : "beta", indices[k % 3]), formulas[k],
-                          stretch_and_bend(one), writer);
-  }
-  return done;
-}
-
 Expected<void> run(const MatricesArguments& options) {
   if (options.file.empty() == !options.knots.given()) {
     return usage_error("neither a file nor knots, or both, are given", "FILE",
@@ -240,11 +215,10 @@ Expected<void> run(const MatricesArguments& options) {
   }
   const FreeSystem system(*std::move(shape), *free, scaling, *settings);
   Writer writer;
-  if (auto done = write_stiffness(system, *material, writer); !done) return done;
-  if (auto done = write_operator(system, "M", "mass int R_i R_j", mass_energy<2>(options.mass), writer); !done)
-    return done;
-  if (auto done = write_operator(system, "D", "damping int R_i R_j", mass_energy<2>(options.damping), writer); !done) {
-    return done;
+  for (const NamedEnergy& named : system_energies(*material, options.mass, options.damping)) {
+    const auto made = system.of(named.energy);
+    if (!made) return std::unexpected(made.error());
+    if (auto done = writer.matrix(named.name, named.formula, made->matrix, made->error_bound); !done) return done;
   }
   const auto forces = system.forces({(*load)[0], (*load)[1], (*load)[2]});
   if (!forces) return std::unexpected(forces.error());

@@ -23,22 +23,6 @@
 namespace knead::cli {
 namespace {
 
-/// Without a script: an ellipse as large as the image nearly, drawn together by the region term.
-SnakeScript default_script(const Image& image) {
-  SnakeScript script;
-  script.settings.units = 400;
-  script.settings.alpha = 1;
-  script.settings.beta = 300;
-  script.settings.gamma = 0.1;
-  script.settings.refine = 0.5;
-  script.settings.motion = 0.02;
-  SnakeStart start;
-  start.centre = {(image.width - 1) / 2.0, (image.height - 1) / 2.0};
-  start.radii = {0.45 * image.width, 0.45 * image.height};
-  script.snakes.push_back(start);
-  return script;
-}
-
 Expected<SnakeScript> script_in(const SnakeArguments& options) {
   const auto text = read_file(options.script);
   if (!text) return std::unexpected(text.error());
@@ -81,7 +65,7 @@ Expected<void> run_image_snake(const SnakeArguments& options, std::string_view b
   if (!script) return std::unexpected(script.error());
   const auto image = image_in(bytes, options.image, script->channel);
   if (!image) return std::unexpected(image.error());
-  if (options.script.empty()) script = default_script(*image);
+  if (options.script.empty()) script = default_snake_script(*image);
   std::optional<Image> mask;
   if (!script->mask.empty()) {
     auto read = read_image(beside(options.script, script->mask));
@@ -92,18 +76,7 @@ Expected<void> run_image_snake(const SnakeArguments& options, std::string_view b
   const auto potential = ImagePotential::create(*image, script->image, mask);
   if (!potential) return std::unexpected(of_script(potential.error(), options));
   const std::clock_t made = std::clock();
-  std::vector<Curve> starts;
-  std::vector<SnakeSettings> settings;
-  const auto places = starts_of(*script, *image);
-  if (!places) return std::unexpected(of_script(places.error(), options));
-  for (std::size_t k = 0; k < places->size(); ++k) {
-    settings.push_back(settings_of(*script, (*places)[k]));
-    const auto points = points_of((*places)[k]);
-    auto curve = points ? curve_through(*points, settings.back()) : std::unexpected(points.error());
-    if (!curve) return std::unexpected(of_script(curve.error().within(fmt::format("snakes[{}]", k)), options));
-    starts.push_back(std::move(*curve));
-  }
-  const auto snakes = run_snakes(*potential, std::move(starts), settings);
+  const auto snakes = run_image_snakes(*potential, *script, *image);
   if (!snakes) return std::unexpected(of_script(snakes.error(), options));
   const auto seconds = [](std::clock_t ticks) { return double(ticks) / CLOCKS_PER_SEC; };
   say("{:.4f} s for the energy of the image, {:.4f} s for the contours\n", seconds(made - begin),
@@ -111,8 +84,9 @@ Expected<void> run_image_snake(const SnakeArguments& options, std::string_view b
   for (std::size_t k = 0; k < snakes->size(); ++k) {
     const SnakeResult& s = (*snakes)[k];
     const int crossed = crossings(s);
-    say("snake {}: {} control points, {} iterations, {}{}\n", k, s.curve.size() - (s.closed ? settings[k].degree : 0),
-        s.iterations, s.converged ? "at rest" : "not at rest",
+    say("snake {}: {} control points, {} iterations, {}{}\n", k,
+        s.curve.size() - (s.closed ? s.curve.knots()[0].degree() : 0), s.iterations,
+        s.converged ? "at rest" : "not at rest",
         crossed > 0
             ? fmt::format(", crosses itself at {}", counted(static_cast<std::size_t>(crossed), "place", "places"))
             : "");

@@ -61,4 +61,24 @@ Expected<Points> FreeSystem::forces(const Point& load) const {
   return result;
 }
 
+std::vector<NamedEnergy> system_energies(const Material& material, double mass, double damping) {
+  constexpr std::array<std::array<const char*, 2>, 6> terms = {{{"K_alpha11", "int R_i,s R_j,s"},
+                                                                {"K_alpha12", "int R_i,s R_j,t + R_i,t R_j,s"},
+                                                                {"K_alpha22", "int R_i,t R_j,t"},
+                                                                {"K_beta11", "int R_i,ss R_j,ss"},
+                                                                {"K_beta12", "2 int R_i,st R_j,st"},
+                                                                {"K_beta22", "int R_i,tt R_j,tt"}}};
+  std::vector<NamedEnergy> list = {
+      {"K", "the sum of the terms below, each times its coefficient", stretch_and_bend(material)}};
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    Material one;
+    one.alpha = one.beta = {0, 0, 0};
+    (k < 3 ? one.alpha : one.beta)[k % 3] = 1;
+    list.push_back({terms[k][0], terms[k][1], stretch_and_bend(one)});
+  }
+  list.push_back({"M", "mass int R_i R_j", mass_energy<2>(mass)});
+  list.push_back({"D", "damping int R_i R_j", mass_energy<2>(damping)});
+  return list;
+}
+
 }  // namespace knead

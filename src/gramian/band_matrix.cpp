@@ -22,6 +22,13 @@ BandMatrix::BandMatrix(int size, int half_bandwidth, BandSymmetry symmetry)
   data_.assign(static_cast<std::size_t>(stored) * stride_, 0.0);
 }
 
+bool BandMatrix::all_finite() const {
+  for (int s = symmetry_ == BandSymmetry::symmetric ? 0 : -half_bandwidth_; s <= half_bandwidth_; ++s) {
+    if (!std::ranges::all_of(diagonal(s), [](double x) { return std::isfinite(x); })) return false;
+  }
+  return true;
+}
+
 BandMatrix BandMatrix::transposed() const {
   BandMatrix result(size_, half_bandwidth_, symmetry_);
   const int lowest = symmetry_ == BandSymmetry::symmetric ? 0 : -half_bandwidth_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "methods.hpp"
@@ -72,6 +74,20 @@ Expected<BandMatrix> gramian(const KnotVector& knots, int a, int b, GramianMetho
       return by_kernel(knots, a, b, method);
   }
   return {};
+}
+
+Expected<double> digits_left(const KnotVector& knots, int a, int b, const BandMatrix& computed) {
+  const auto exact = gramian(knots, a, b, GramianMethod::recurrence);
+  if (!exact) return std::unexpected(exact.error());
+  double largest = 0, difference = 0;
+  for (int i = 0; i < exact->size(); ++i) {
+    const int p = knots.degree();
+    for (int j = std::max(0, i - p); j <= std::min(exact->size() - 1, i + p); ++j) {
+      largest = std::max(largest, std::abs((*exact)(i, j)));
+      difference = std::max(difference, std::abs(computed(i, j) - (*exact)(i, j)));
+    }
+  }
+  return difference == 0 ? 17 : std::min(17.0, -std::log10(difference / largest));
 }
 
 Expected<GramianSet> gramians(const KnotVector& knots, GramianMethod method) {

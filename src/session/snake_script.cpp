@@ -181,4 +181,35 @@ Expected<std::vector<std::array<double, 2>>> points_of(const SnakeStart& start) 
   return points;
 }
 
+SnakeScript default_snake_script(const Image& image) {
+  SnakeScript script;
+  script.settings.units = 400;
+  script.settings.alpha = 1;
+  script.settings.beta = 300;
+  script.settings.gamma = 0.1;
+  script.settings.refine = 0.5;
+  script.settings.motion = 0.02;
+  SnakeStart start;
+  start.centre = {(image.width - 1) / 2.0, (image.height - 1) / 2.0};
+  start.radii = {0.45 * image.width, 0.45 * image.height};
+  script.snakes.push_back(start);
+  return script;
+}
+
+Expected<std::vector<SnakeResult>> run_image_snakes(const ImagePotential& potential, const SnakeScript& script,
+                                                    const Image& image) {
+  const auto starts = starts_of(script, image);
+  if (!starts) return std::unexpected(starts.error());
+  std::vector<Curve> curves;
+  std::vector<SnakeSettings> settings;
+  for (std::size_t k = 0; k < starts->size(); ++k) {
+    settings.push_back(settings_of(script, (*starts)[k]));
+    const auto points = points_of((*starts)[k]);
+    auto curve = points ? curve_through(*points, settings.back()) : std::unexpected(points.error());
+    if (!curve) return std::unexpected(curve.error().within(fmt::format("snakes[{}]", k)));
+    curves.push_back(std::move(*curve));
+  }
+  return run_snakes(potential, curves, settings);
+}
+
 }  // namespace knead

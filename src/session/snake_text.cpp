@@ -5,12 +5,44 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <vector>
 
-#include "json.hpp"
+#include "described_json.hpp"
+#include "knead/session/volume_snake_script.hpp"
 
 namespace knead {
+
+struct SnakeInfo {
+  bool closed = true;
+  int degree = 0, iterations = 0;
+  bool converged = false;
+  int crossings = 0;
+  double area = 0;
+  std::vector<double> knots;
+  std::vector<std::array<double, 2>> control_points;
+};
+static void describe(SnakeInfo& s, Fields& fields) {
+  fields.add_all("closed", s.closed, "degree", s.degree, "iterations", s.iterations, "converged", s.converged,
+                 "crossings", s.crossings, "area", s.area, "knots", s.knots, "control_points", s.control_points);
+}
+
+struct SurfaceSnakeInfo {
+  SurfaceForm form = SurfaceForm::sphere;
+  std::array<int, 2> degree = {0, 0};
+  int iterations = 0;
+  bool converged = false;
+  int crossings = 0;
+  double area = 0, volume = 0;
+  std::array<std::vector<double>, 2> knots;
+  std::array<int, 2> net = {0, 0};
+  std::vector<std::array<double, 3>> control_points;
+};
+static void describe(SurfaceSnakeInfo& s, Fields& fields) {
+  fields.add_all("form", s.form, "degree", s.degree, "iterations", s.iterations, "converged", s.converged, "crossings",
+                 s.crossings, "area", s.area, "volume", s.volume, "knots", s.knots, "net", s.net, "control_points",
+                 s.control_points);
+}
+
 namespace {
 
 double area_inside(const std::vector<std::array<double, 2>>& line) {
@@ -22,29 +54,68 @@ double area_inside(const std::vector<std::array<double, 2>>& line) {
   return std::abs(twice) / 2;
 }
 
+std::vector<double> values_of(const KnotVector& knots) { return {knots.knots().begin(), knots.knots().end()}; }
+
+template <std::size_t N, class Result>
+std::vector<std::array<double, N>> control_points(const Result& shape) {
+  std::vector<std::array<double, N>> list(static_cast<std::size_t>(shape.size()));
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (std::size_t d = 0; d < N; ++d) {
+      list[i][d] = shape.control_points()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(d));
+    }
+  }
+  return list;
+}
+
+/// Each in a line.
+template <class Info>
+std::string list_json(const std::vector<Info>& infos) {
+  std::string text;
+  for (const Info& info : infos) text += (text.empty() ? "\n" : ",\n") + to_json(type_of<Info>(), &info);
+  return "[" + text + "]}\n";
+}
+
 }  // namespace
 
 std::string snakes_json(std::span<const SnakeResult> snakes, std::string_view name, int width, int height) {
-  const std::string named = nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  std::string text = fmt::format("{{\"image\":{},\"width\":{},\"height\":{},\"snakes\":[", named, width, height);
-  for (std::size_t k = 0; k < snakes.size(); ++k) {
-    const SnakeResult& s = snakes[k];
+  std::vector<SnakeInfo> infos;
+  for (const SnakeResult& s : snakes) {
     const KnotVector& knots = s.curve.knots()[0];
-    text += fmt::format(
-        "{}\n{{\"closed\":{},\"degree\":{},\"iterations\":{},\"converged\":{},\"crossings\":{},\"area\":{},",
-        k > 0 ? "," : "", s.closed, knots.degree(), s.iterations, s.converged, crossings(s),
-        json_number(s.closed ? area_inside(polyline(s)) : 0));
-    std::string list;
-    for (const double x : knots.knots()) list += (list.empty() ? "" : ",") + json_number(x);
-    text += "\"knots\":[" + list + "],\"control_points\":[";
-    list.clear();
-    for (Eigen::Index i = 0; i < s.curve.size(); ++i) {
-      list += fmt::format("{}[{},{}]", list.empty() ? "" : ",", json_number(s.curve.control_points()(i, 0)),
-                          json_number(s.curve.control_points()(i, 1)));
-    }
-    text += list + "]}";
+    infos.push_back({s.closed, knots.degree(), s.iterations, s.converged, crossings(s),
+                     s.closed ? area_inside(polyline(s)) : 0, values_of(knots), control_points<2>(s.curve)});
   }
-  return text + "]}\n";
+  return fmt::format("{{\"image\":{},\"width\":{},\"height\":{},\"snakes\":", json_text(name), width, height) +
+         list_json(infos);
+}
+
+std::string volume_snakes_json(std::span<const SurfaceSnakeResult> snakes, std::string_view name) {
+  std::vector<SurfaceSnakeInfo> infos;
+  for (const SurfaceSnakeResult& s : snakes) {
+    const Surface& surface = s.snake.surface;
+    const KnotVector &u = surface.knots(0), &v = surface.knots(1);
+    const SurfaceMeasure measured = measure(s.snake);
+    infos.push_back({s.snake.form,
+                     {u.degree(), v.degree()},
+                     s.iterations,
+                     s.converged,
+                     crossings(closed_mesh(s.snake)),
+                     measured.area,
+                     measured.volume,
+                     {values_of(u), values_of(v)},
+                     surface.net(),
+                     control_points<3>(surface)});
+  }
+  return fmt::format("{{\"volume\":{},\"snakes\":", json_text(name)) + list_json(infos);
+}
+
+VolumeImage volume_snakes_mask(std::span<const SurfaceSnakeResult> snakes, const VolumeImage& volume) {
+  VolumeImage all{volume.size, std::vector<double>(volume.values.size(), 0), volume.frame};
+  for (const SurfaceSnakeResult& s : snakes) {
+    const VolumeImage one = mask_of(closed_mesh(s.snake), all.size, all.frame);
+    std::ranges::transform(all.values, one.values, all.values.begin(),
+                           [](double a, double b) { return std::max(a, b); });
+  }
+  return all;
 }
 
 std::string snakes_csv(std::span<const SnakeResult> snakes) {

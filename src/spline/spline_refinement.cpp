@@ -140,4 +140,41 @@ KNEAD_INSTANTIATE(2)
 KNEAD_INSTANTIATE(3)
 #undef KNEAD_INSTANTIATE
 
+Expected<Surface> with_clamped_ends(const Surface& surface) {
+  std::array<std::vector<double>, 2> ends;
+  for (std::size_t d = 0; d < 2; ++d) {
+    const KnotVector& knots = surface.knots()[d];
+    if (knots.clamped()) continue;
+    for (const double end : {knots.domain().lower, knots.domain().upper}) {
+      ends[d].insert(ends[d].end(), static_cast<std::size_t>(knots.degree() + 1 - knots.multiplicity(end)), end);
+    }
+  }
+  const auto inserted = insert_knots<2>(surface, ends);
+  if (!inserted) return std::unexpected(inserted.error());
+  // What lies outside of the domain has no support in it.
+  std::array<KnotVector, 2> knots = inserted->knots();
+  std::array<int, 2> first = {0, 0};
+  for (std::size_t d = 0; d < 2; ++d) {
+    const auto all = inserted->knots()[d].knots();
+    const Interval domain = surface.knots()[d].domain();
+    std::vector<double> inside;
+    std::ranges::copy_if(all, std::back_inserter(inside), [&](double x) { return domain.contains(x); });
+    first[d] = static_cast<int>(std::ranges::lower_bound(all, domain.lower) - all.begin());
+    auto made = KnotVector::create(knots[d].degree(), std::move(inside));
+    if (!made) return std::unexpected(made.error());
+    knots[d] = std::move(*made);
+  }
+  const int rows = knots[0].count(), columns = knots[1].count();
+  Points points(rows * columns, 3);
+  std::vector<double> weights;
+  for (int i = 0; i < rows; ++i) {
+    const int from = (i + first[0]) * inserted->net()[1] + first[1];
+    points.middleRows(i * columns, columns) = inserted->control_points().middleRows(from, columns);
+    if (!surface.rational()) continue;
+    const auto row = inserted->weights().subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(columns));
+    weights.insert(weights.end(), row.begin(), row.end());
+  }
+  return Surface::create(std::move(knots), std::move(points), std::move(weights));
+}
+
 }  // namespace knead

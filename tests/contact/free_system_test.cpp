@@ -51,6 +51,19 @@ TEST(FreeSystem, HasTheRowsAndColumnsOfTheWholeSystemThatAreFree) {
   }
 }
 
+TEST(FreeSystem, HasAStiffnessThatIsTheSumOfItsTerms) {
+  const FreeSystem system(bent(), *free_unknowns({5, 6}, 0));
+  const auto energies = system_energies(material(), 2, 3);
+  const std::array<double, 6> coefficients = {1, 0.3, 2, 0.5, 0.25, 1};
+  ASSERT_EQ(energies.size(), 9u);
+  const auto matrix = [&](std::size_t k) { return Eigen::MatrixXd(system.of(energies[k].energy)->matrix); };
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(30, 30);
+  for (std::size_t k = 0; k < 6; ++k) sum += coefficients[k] * matrix(k + 1);
+  EXPECT_LE((matrix(0) - sum).norm(), 1e-14 * sum.norm());  // sums of 6 terms
+  EXPECT_LE((matrix(8) * 2 - matrix(7) * 3).norm(), 1e-15 * matrix(8).norm()) << "both are of the same integrals";
+  EXPECT_EQ(energies[4].name, "K_beta11");
+}
+
 // A shape that moves as a whole has no energy; mass and load add up to those of the domain, here the unit square.
 TEST(FreeSystem, KnowsRigidMotionMassAndLoad) {
   for (const bool rational : {false, true}) {

@@ -163,5 +163,17 @@ TEST_P(OfLowDegree, analytic_is_right_on_ordinary_knots_of_every_multiplicity) {
   }
 }
 
+TEST(DigitsLeft, TellsWhereTheAnalyticMethodCancels) {
+  const auto uniform = *KnotVector::clamped_uniform(3, 8);
+  const auto close = *KnotVector::create(3, {0, 0, 0, 0, 0.5, 0.5 + 1e-8, 0.5 + 2e-8, 1, 1, 1, 1});
+  for (const auto& [knots, least, most] : {std::tuple{uniform, 10.0, 17.0}, {close, -100.0, 8.0}}) {
+    const auto digits = digits_left(knots, 0, 0, *gramian(knots, 0, 0, GramianMethod::analytic));
+    ASSERT_TRUE(digits);
+    EXPECT_GE(*digits, least);
+    EXPECT_LE(*digits, most);
+  }
+  EXPECT_EQ(*digits_left(uniform, 1, 1, *gramian(uniform, 1, 1)), 17);
+}
+
 }  // namespace
 }  // namespace knead

@@ -70,6 +70,12 @@ TEST(DerivativeJumps, stand_at_the_distinct_knots_of_the_support_and_use_them_al
   }
 }
 
+TEST(DerivativeJumps, weigh_the_impulses_and_their_derivatives_up_to_the_last) {
+  EXPECT_EQ((KnotJumps{0, 3, {4, 0, 2}}.impulses()), (std::vector<double>{2, 0, 4}));
+  EXPECT_EQ((KnotJumps{0, 3, {0, 4, 0}}.impulses()), (std::vector<double>{0, 4}));
+  EXPECT_TRUE((KnotJumps{0, 1, {0}}.impulses().empty()));
+}
+
 TEST(DerivativeJumps, of_the_highest_order_sum_to_zero) {
   for (const int p : {2, 3, 5}) {
     const KnotVector knots = testing::thesis_knots(p, 1);

@@ -57,6 +57,19 @@ TEST(Refine, InsertionLeavesTheShapeOfEverySurface) {
   });
 }
 
+TEST(Refine, ClampedEndsLeaveTheShapeOfEverySurfaceOnItsDomain) {
+  for_each_surface([](const Surface& s, const std::string& name) {
+    const auto clamped = with_clamped_ends(s);
+    ASSERT_TRUE(clamped) << name << ": " << clamped.error().message();
+    for (int d = 0; d < 2; ++d) {
+      EXPECT_TRUE(clamped->knots(d).clamped()) << name;
+      EXPECT_EQ(clamped->knots(d).domain().lower, s.knots(d).domain().lower) << name;
+      EXPECT_EQ(clamped->knots(d).domain().upper, s.knots(d).domain().upper) << name;
+    }
+    EXPECT_LE(moved(s, *clamped), bound(s.knots(0).degree())) << name;
+  });
+}
+
 TEST(Refine, ElevationLeavesTheShapeOfEverySurface) {
   for_each_surface([](const Surface& s, const std::string& name) {
     for (const int direction : {0, 1}) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "knead/energy/domain_scaling.hpp"
@@ -50,5 +51,14 @@ class FreeSystem {
   DomainScaling<2> scaling_;
   StiffnessOptions options_;
 };
+
+/// An energy of the system, with what files call its matrix.
+struct NamedEnergy {
+  std::string name, formula;  ///< "K_alpha11", "int R_i,s R_j,s"
+  Energy<2> energy;
+};
+
+/// Those of K, of each of its six terms alone, of M and of D. Requires: a valid material.
+[[nodiscard]] std::vector<NamedEnergy> system_energies(const Material& material, double mass, double damping);
 
 }  // namespace knead

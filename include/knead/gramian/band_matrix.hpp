@@ -61,6 +61,7 @@ class BandMatrix {
   /// Never a power of two, which would map all diagonals to the same cache sets.
   [[nodiscard]] std::size_t stride() const { return stride_; }
 
+  [[nodiscard]] bool all_finite() const;
   /// Aᵀ.
   [[nodiscard]] BandMatrix transposed() const;
   /// A X for an n × m matrix X. Cost: (2p + 1) n m multiply-adds.

@@ -59,6 +59,9 @@ void describe(SnakeScript& s, Fields& fields);
 /// version other than 2; no snakes.
 [[nodiscard]] Expected<SnakeScript> parse_snake_script(std::string_view json);
 
+/// Without a script: an ellipse as large as the image nearly, drawn together by the region term.
+[[nodiscard]] SnakeScript default_snake_script(const Image& image);
+
 /// Its snakes, and then those of the blobs in the image, from circles moved into the image where they are beyond.
 /// Errors (input): those of `find_blobs`; there are none.
 [[nodiscard]] Expected<std::vector<SnakeStart>> starts_of(const SnakeScript& script, const Image& image);
@@ -67,5 +70,10 @@ void describe(SnakeScript& s, Fields& fields);
 /// radii, too few points.
 [[nodiscard]] SnakeSettings settings_of(const SnakeScript& script, const SnakeStart& start);
 [[nodiscard]] Expected<std::vector<std::array<double, 2>>> points_of(const SnakeStart& start);
+
+/// `run_snakes` of a script from its starts. Errors: those of `starts_of`, `points_of` and `curve_through`, which name
+/// the snake, and of `run_snakes`.
+[[nodiscard]] Expected<std::vector<SnakeResult>> run_image_snakes(const ImagePotential& potential,
+                                                                  const SnakeScript& script, const Image& image);
 
 }  // namespace knead

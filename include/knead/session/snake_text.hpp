@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "knead/image/snake.hpp"
+#include "knead/image/surface_snake.hpp"
 
 namespace knead {
 
@@ -23,5 +24,12 @@ namespace knead {
 
 /// 1 at pixels that are inside of any of the closed contours (`mask_of`), else 0.
 [[nodiscard]] Image snakes_mask(std::span<const SnakeResult> snakes, int width, int height);
+
+/// JSON of surfaces in a volume: the volume's name and per snake form, degree, iterations, whether it came to rest, how
+/// many pairs of its triangles cross, area and volume inside, knots, net and control points.
+[[nodiscard]] std::string volume_snakes_json(std::span<const SurfaceSnakeResult> snakes, std::string_view name);
+
+/// 1 at voxels that are inside of any of the surfaces, else 0, on the grid of `volume`.
+[[nodiscard]] VolumeImage volume_snakes_mask(std::span<const SurfaceSnakeResult> snakes, const VolumeImage& volume);
 
 }  // namespace knead

@@ -20,6 +20,12 @@ struct KnotJumps {
     const int lowest = degree - multiplicity + 1;
     return order < lowest || order > degree ? 0 : jumps[static_cast<std::size_t>(order - lowest)];
   }
+  /// What N_i^(p+1) has at the knot: the weights of δ, δ', … up to the last that is not 0.
+  [[nodiscard]] std::vector<double> impulses() const {
+    std::vector<double> weights(jumps.rbegin(), jumps.rend());
+    while (!weights.empty() && weights.back() == 0) weights.pop_back();
+    return weights;
+  }
 };
 
 /// The jumps of every derivative of N_i at every knot of its support, ascending, with N_i on the whole line.

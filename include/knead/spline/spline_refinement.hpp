@@ -40,4 +40,8 @@ template <int D>
 template <int D>
 [[nodiscard]] Expected<Spline<D>> bezier_pieces(const Spline<D>& spline);
 
+/// The same function on its domain with clamped ends, which every program reads: the ends of the domain become knots of
+/// multiplicity p + 1, and what lies outside is left out. Errors: those of `insert_knots`.
+[[nodiscard]] Expected<Surface> with_clamped_ends(const Surface& surface);
+
 }  // namespace knead
