@@ -18,8 +18,9 @@ const Type& type_of<CommandVariant>() {
 
 namespace {
 
-/// The same with the fields that its texts stand for (`text_forms`), unless those are given themselves.
-Json spelled_out(Json json) {
+/// The same with the fields that its texts stand for (`text_forms`). Error (input): such a field is given beside the
+/// text.
+Expected<Json> spelled_out(Json json) {
   const Type& commands = type_of<CommandVariant>();
   const Json* const name = json.find(commands.name);
   const int k = name != nullptr ? commands.variant(name->text) : -1;
@@ -32,14 +33,11 @@ Json spelled_out(Json json) {
     const std::string& text = at->second.text;
     if (form.begins ? !text.starts_with(form.text) : text != form.text) continue;
     if (json.find(form.stands_for) != nullptr) {
-      json.members.erase(at);
-      continue;
+      return input_error(fmt::format("\"{}\": {} says it already", form.field, shown(at->second)), form.stands_for,
+                         "leave one of them out");
     }
     at->first = form.stands_for;
-    if (form.begins) continue;
-    at->second = {};
-    at->second.kind = Json::Kind::boolean;
-    at->second.boolean = true;
+    if (!form.begins) at->second = {.kind = Json::Kind::boolean, .boolean = true};
   }
   return json;
 }
@@ -95,9 +93,10 @@ std::string list_json(std::span<const Command> commands) {
 }  // namespace
 
 Expected<Command> read_command(const Json& given) {
-  const Json json = spelled_out(given);
+  const auto json = spelled_out(given);
+  if (!json) return std::unexpected(json.error());
   AnyCommand any;
-  if (auto done = read_variant(json, type_of<CommandVariant>(), &any.fields, "command"); !done) {
+  if (auto done = read_variant(*json, type_of<CommandVariant>(), &any.fields, "command"); !done) {
     return std::unexpected(done.error());
   }
   return Command(std::move(any));

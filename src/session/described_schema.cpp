@@ -129,6 +129,9 @@ class Schema {
   struct Members {
     std::string properties, required, dependent;
     std::vector<std::string_view> seen;
+    void depends(std::string_view name, const std::string& schema) {
+      dependent += fmt::format("{}\n  \"{}\":{}", dependent.empty() ? "" : ",", name, schema);
+    }
     void require(std::string_view name) { required += fmt::format("{}\"{}\"", required.empty() ? "" : ",", name); }
   };
 
@@ -139,11 +142,15 @@ class Schema {
       members.seen.push_back(field.name);
       members.properties +=
           fmt::format("{}\n  \"{}\":{}", members.properties.empty() ? "" : ",", field.name, member(field, type));
-      const bool required = field.presence == Presence::required || (absent_ == Absent::null && !field.flat && !field.omit_empty);
+      const bool required =
+          field.presence == Presence::required || (absent_ == Absent::null && !field.flat && !field.omit_empty);
       if (always && required) members.require(field.name);
       if (!field.only.field.empty()) {
-        members.dependent +=
-            fmt::format("{}\n  \"{}\":{}", members.dependent.empty() ? "" : ",", field.name, requirement(field, type));
+        members.depends(field.name, requirement(field, type));
+      }
+      if (const TextForm* form = text_form(type, field); form != nullptr && absent_ == Absent::left_out) {
+        members.depends(form->stands_for,
+                        fmt::format(R"({{"properties":{{"{}":{}}}}})", field.name, value(*field.type, &field)));
       }
       if (!field.flat) continue;
       for (const Type* held : field.type->variants) add_members(*held, members, false);

@@ -183,6 +183,18 @@ TEST(CommandJson, AnUnknownFieldListsTheKnownOnes) {
   EXPECT_NE(e.remedy.find("count, lambda, weight"), std::string::npos);
 }
 
+TEST(CommandJson, ATextIsNotGivenBesideTheFieldThatItStandsFor) {
+  for (const auto& [json, field] : {std::pair(R"({"do":"measure","name":"a","at":"middle","middle":false})", "middle"),
+                                    {R"({"do":"measure","name":"a","at":"middle","middle":true})", "middle"},
+                                    {R"({"do":"edge","which":"#1","edge":"#2"})", "edge"}}) {
+    const auto command = parse_command(json);
+    ASSERT_FALSE(command) << json;
+    EXPECT_EQ(command.error().where, field) << command.error().message();
+    EXPECT_EQ(command.error().remedy, "leave one of them out");
+  }
+  EXPECT_EQ(parsed<EdgeCommand>(R"({"do":"edge","which":"#1"})").edge, "#1");
+}
+
 TEST(CommandJson, WrongValuesAreNamed) {
   EXPECT_EQ(error_of(R"({"do":"step","count":2.5})").where, "count");
   EXPECT_EQ(error_of(R"({"do":"step","count":1e30})").where, "count");
