@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knead/base/error_code.hpp"
+
 namespace knead {
 namespace {
 
@@ -17,8 +19,9 @@ std::optional<Error> wrong_number(const Field* field, const Type& type, const vo
       const double x = type.kind == Kind::integer ? *static_cast<const int*>(value)
                                                   : field->factor * *static_cast<const double*>(value);
       if (field->range.holds(x)) return std::nullopt;
-      return Error{ErrorKind::input, fmt::format("{} is out of range", x), std::string(field->name),
-                   "use numbers " + in_words(field->range)};
+      return Error(ErrorKind::input, fmt::format("{} is out of range", x), std::string(field->name),
+                   "use numbers " + in_words(field->range))
+          .with({ErrorCode::out_of_range});
     }
     case Kind::optional:
     case Kind::list:

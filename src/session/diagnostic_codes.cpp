@@ -59,6 +59,7 @@ std::span<const Choice> choices(ErrorCode) {
       {"stopped_at_face", ErrorCode::stopped_at_face,
        "note: a surface was stopped before it came through another face"},
       {"through_face", ErrorCode::through_face, "note: a surface came through another face"},
+      {"out_of_range", ErrorCode::out_of_range, "a number is out of the range of its field, which `where` names"},
   };
   return list;
 }

@@ -29,7 +29,8 @@ void describe(ErrorInfo& e, Fields& fields) {
   fields.add("kind", e.kind, {.help = "usage, input or numerical"});
   fields.add("what", e.what);
   fields.add("where", e.where);
-  fields.add("place", e.place, {.help = "`where`, unless that names a field of a command"});
+  fields.add("place", e.place,
+             {.help = "`where`, unless that names a field of a command and what is wrong with it is said without"});
   fields.add("remedy", e.remedy);
   fields.add("message", e.message, {.help = "all of it as one line"});
   fields.add("code", e.code);
@@ -105,10 +106,10 @@ std::string error_json(const Error& error) {
   info.kind = error.kind == ErrorKind::numerical ? "numerical" : error.kind == ErrorKind::usage ? "usage" : "input";
   info.what = error.what;
   info.where = error.where;
-  info.place = names_field(error.where) ? "" : error.where;
   info.remedy = error.remedy;
   info.message = error.message();
   add(info, error.diagnostic.get());
+  info.place = info.code != ErrorCode::out_of_range && names_field(error.where) ? "" : error.where;
   return "{\"error\":" + json_of(info) + "}";
 }
 

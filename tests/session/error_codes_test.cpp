@@ -48,6 +48,7 @@ TEST_P(RefusedSheet, HasACodeAndWhatHelpsCanBeDone) {
 INSTANTIATE_TEST_SUITE_P(
     ErrorCodes, RefusedSheet,
     ::testing::Values(
+        Refused{ErrorCode::out_of_range, {}, R"({"do":"step","count":-1})"},
         Refused{ErrorCode::nothing_held, {}, R"({"do":"evolve","mode":"static"})"},
         Refused{ErrorCode::nothing_free, {soft, R"({"do":"freeze","region":[[0,1],[0,1]]})", small_ball}, stroke},
         Refused{ErrorCode::nothing_free_in_rows, {soft, R"({"do":"hold","rows":5})", small_ball}, stroke},
@@ -113,7 +114,7 @@ TEST(ErrorCodes, HaveNamesInTheirOrder) {
       EXPECT_FALSE(type->choices[k].help.empty()) << type->choices[k].name;
     }
   }
-  EXPECT_EQ(type_of<ErrorCode>().choices.back().value, static_cast<int>(ErrorCode::through_face));
+  EXPECT_EQ(type_of<ErrorCode>().choices.back().value, static_cast<int>(ErrorCode::out_of_range));
   EXPECT_EQ(type_of<FixCode>().choices.back().value, static_cast<int>(FixCode::keep_smooth));
 }
 

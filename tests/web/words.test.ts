@@ -40,7 +40,7 @@ describe('what the engine refuses', () => {
     ['points beyond the limit', [{ do: 'limit', distance: 1 }, { do: 'points', which: [60], by: [0, 0, 9] }], /limit is 1/, 'End the limit'],
     ['frozen points', [{ do: 'freeze', region: [[0, 1], [0, 1]] }, { do: 'points', which: [60], by: [0, 0, 9] }], /frozen/, 'Thaw all'],
     ['a ball of a micrometre', [{ do: 'hold', rows: 2 }, { ...ball, radius: 1e-3, position: [50, 50, 0] }, { do: 'step' }], /is too small for this surface/, null],
-    ['a step parameter', [{ do: 'evolve', mode: 'acm', lambda: -1 }], /^-1 is out of range$/, null],
+    ['a step parameter', [{ do: 'evolve', mode: 'acm', lambda: -1 }], /^Lambda: -1 is out of range$/, null],
   ];
   it.each(cases)('%s is told in words, with what helps', async (_, commands, text, label) => {
     const { engine, info } = await refused(...commands);

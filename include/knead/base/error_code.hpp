@@ -57,6 +57,8 @@ enum class ErrorCode : unsigned short {
   surface_loose,    ///< note: nothing holds what is pressed: surfaces
   stopped_at_face,  ///< note: before a surface came through another face: surface, other, x, y, z, depth
   through_face,     ///< note: likewise, and it went on
+
+  out_of_range,  ///< a number of a field
 };
 
 }  // namespace knead
