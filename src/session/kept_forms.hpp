@@ -133,6 +133,7 @@ struct As {
     T& value = *static_cast<T*>(v);
     Form& form = *static_cast<Form*>(f);
     if (finite && !all_finite(type_of<Form>(), f)) return false;
+    if (!check_ranges(type_of<Form>(), f)) return false;
     if constexpr (requires { take(value, form); }) return take(value, form);
     if constexpr (!requires { take(value, form); }) {
       auto& [only] = form;

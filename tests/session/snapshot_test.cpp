@@ -188,6 +188,39 @@ TEST(Snapshot, RefusesAShapeWithAnotherDomainThanTheSurfaceAsOpened) {
   EXPECT_TRUE(Session::restore(Document::fresh("test"), sealed(bad, good[head - 2])));  // all over the longer one
 }
 
+/// The number as a snapshot has it: in lists as it lies in memory, else with the highest byte first.
+std::array<std::string, 2> forms_of(double number) {
+  const std::string forward = bytes_of(std::span(&number, 1));
+  return {forward, {forward.rbegin(), forward.rend()}};
+}
+
+TEST(Snapshot, RefusesNumbersOutOfTheRangesOfTheCommandsThatAreKept) {
+  struct Kept {
+    std::string command;
+    double number, wrong;
+  };
+  for (const auto& [command, number, wrong] :
+       {Kept{R"({"do":"evolve","mode":"dynamic","time_step":0.0316})", 0.0316, -0.0316},
+        Kept{R"({"do":"pin","at":[0.3125,0.3125]})", 0.3125, 1.3125},
+        Kept{R"({"do":"freeze","region":[[0.8125,1],[0.8125,1]]})", 0.8125, -0.8125},
+        Kept{R"({"do":"keep","u":0.40625})", 0.40625, 1.40625},
+        Kept{R"({"do":"load","vector":[0,0,1],"ramp":0.40625})", 0.40625, -1},
+        Kept{R"({"do":"force","name":"pull","at":[0.34375,0.5],"to":[5,5,2],"strength":3})", 0.34375, 1.34375}}) {
+    const Session session = on_sheet({command});
+    const std::string good = session.snapshot();
+    std::string bad = good;
+    const auto from = forms_of(number), to = forms_of(wrong);
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (std::size_t at = bad.find(from[k]); at != std::string::npos; at = bad.find(from[k], at)) {
+        bad.replace(at, 8, to[k]);
+      }
+    }
+    ASSERT_NE(bad, good) << command;
+    EXPECT_TRUE(Session::restore(session.document(), good)) << command;
+    EXPECT_FALSE(Session::restore(session.document(), sealed(bad, good[head - 2]))) << command;
+  }
+}
+
 TEST(Snapshot, RefusesBytesThatAreNotItsOwn) {
   Session session = on_sheet(rich);
   const std::string good = session.snapshot();
