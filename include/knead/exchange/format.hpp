@@ -68,6 +68,8 @@ struct Format {
   FormatContent content = FormatContent::triangles;
   std::string_view holds;  ///< its content, for menus and tables
   bool writes_curves = false;
+  /// Its readers know a whole sphere as such alone: they cannot follow a loop along the seam from pole to pole.
+  bool keeps_whole_spheres = false;
   /// Whether bytes look like a file of this format, by how they begin. Null: it cannot be opened.
   bool (*recognises)(std::string_view bytes) = nullptr;
   /// Opens bytes; `name` stands for the file in errors. Null where `recognises` is.

@@ -12,9 +12,9 @@ Expected<FacesFile> save_faces(const Source& source, const Format& format, const
   if (!holds_faces(format))
     return input_error(fmt::format("new {} files hold no faces", format.name), {}, "write STEP or IGES");
   using detail::Conversion;
-  const Conversion conversion = !convert              ? Conversion::none
-                                : format.id == "iges" ? Conversion::all_but_whole_spheres
-                                                      : Conversion::all;
+  const Conversion conversion = !convert                     ? Conversion::none
+                                : format.keeps_whole_spheres ? Conversion::all_but_whole_spheres
+                                                             : Conversion::all;
   auto plan = detail::face_plan(source, options.unit.empty() ? "mm" : options.unit, conversion);
   if (!plan) return std::unexpected(std::move(plan.error()));
   auto bytes = format.save_faces(*plan, options);

@@ -97,6 +97,7 @@ Format iges_format() {
           .content = FormatContent::surfaces,
           .holds = "the surfaces themselves, and everything else of an opened file byte for byte",
           .writes_curves = true,
+          .keeps_whole_spheres = true,
           .recognises = is_iges,
           .open = open_iges,
           .save = iges::text_of,
