@@ -63,4 +63,12 @@ Expected<ElementarySurface> elementary_of(ElementarySurface::Kind kind, const st
   return ElementarySurface{kind, *frame, radius, two ? second : 0};
 }
 
+Point newell_normal(std::span<const Point> polygon) {
+  Point normal = Point::Zero();
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    normal += (polygon[k] - polygon[0]).cross(polygon[(k + 1) % polygon.size()] - polygon[0]);
+  }
+  return normal;
+}
+
 }  // namespace knead::brep

@@ -22,4 +22,7 @@ namespace knead::brep {
 [[nodiscard]] Expected<ElementarySurface> elementary_of(ElementarySurface::Kind kind, const std::optional<Frame>& frame,
                                                         double radius = 0, double second = 0);
 
+/// Newell's normal of a polygon, twice its area long; zero where it spans no plane.
+[[nodiscard]] Point newell_normal(std::span<const Point> polygon);
+
 }  // namespace knead::brep

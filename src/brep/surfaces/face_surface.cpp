@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "brep/geometry_forms.hpp"
+
 namespace knead::brep {
 namespace {
 
@@ -36,13 +38,9 @@ Expected<FaceSurface> FaceSurface::under(const Model& model, const Face& face, s
 
 Expected<FaceSurface> FaceSurface::elementary(const Model& model, const Support& support,
                                               std::span<const Point> on_it) {
-  using Form = ElementarySurface::Kind;
   const auto& own = std::get<ElementarySurface>(support.form);
-  const Kind kind = own.kind == Form::plane      ? Kind::plane
-                    : own.kind == Form::cylinder ? Kind::cylinder
-                    : own.kind == Form::cone     ? Kind::cone
-                    : own.kind == Form::sphere   ? Kind::sphere
-                                                 : Kind::torus;
+  static_assert(static_cast<int>(ElementarySurface::Kind::torus) == static_cast<int>(Kind::torus));
+  const auto kind = static_cast<Kind>(own.kind);
   FaceSurface surface(kind, own.frame);
   surface.radius_ = own.radius;
   surface.minor_ = own.second;
@@ -78,12 +76,10 @@ void FaceSurface::set_reach(std::span<const Point> on_it) {
 }
 
 std::optional<FaceSurface> FaceSurface::plane_of(std::span<const Point> loop) {
-  Point normal = Point::Zero(), middle = Point::Zero();
-  for (std::size_t k = 0; k < loop.size(); ++k) {
-    normal += (loop[k] - loop[0]).cross(loop[(k + 1) % loop.size()] - loop[0]);
-    middle += loop[k] / static_cast<double>(loop.size());
-  }
+  const Point normal = newell_normal(loop);
   if (!(normal.norm() > 0)) return std::nullopt;
+  Point middle = Point::Zero();
+  for (const Point& p : loop) middle += p / static_cast<double>(loop.size());
   Frame frame{middle};
   frame.z = normal.normalized();
   frame.x = frame.z.unitOrthogonal();

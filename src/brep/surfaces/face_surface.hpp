@@ -65,6 +65,7 @@ class FaceSurface final : public ChartedSurface {
   [[nodiscard]] std::array<bool, 2> straight() const override;
 
  private:
+  /// Those of `ElementarySurface` first.
   enum class Kind { plane, cylinder, cone, sphere, torus, revolution, extrusion };
   FaceSurface(Kind kind, Frame frame) : kind_(kind), frame_(frame) {}
 

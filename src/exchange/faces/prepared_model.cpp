@@ -77,10 +77,7 @@ class PolygonEdges {
   void lie_on_plane(brep::Face& face) {
     if (face.bounds.empty() || face.bounds.front().polygon.empty()) return;
     const std::vector<Point>& polygon = face.bounds.front().polygon;
-    Point normal = Point::Zero();
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      normal += (polygon[k] - polygon[0]).cross(polygon[(k + 1) % polygon.size()] - polygon[0]);
-    }
+    const Point normal = brep::newell_normal(polygon);
     if (!(normal.norm() > 0)) return;
     brep::Support& support = model_.supports.emplace_back();
     support.id = face.id;
