@@ -6,9 +6,7 @@ namespace {
 
 struct SurfaceNumbers {
   std::array<int, 2> degree = {0, 0}, net = {0, 0};
-  std::vector<double> knots_u, knots_v;
-  std::optional<std::vector<double>> weights;
-  std::vector<Vector3> points;
+  Doubles knots_u, knots_v, weights, points;
 };
 
 void describe(SurfaceNumbers& s, Fields& fields) {
@@ -17,24 +15,21 @@ void describe(SurfaceNumbers& s, Fields& fields) {
   fields.add("net", s.net);
   fields.add("knots_u", s.knots_u);
   fields.add("knots_v", s.knots_v);
-  fields.add("weights", s.weights, {.help = "null where all are 1"});
-  fields.add("points", s.points);
+  fields.add("weights", s.weights, {.help = "none where all are 1"});
+  fields.add("points", s.points, {.help = "three numbers each"});
 }
 
 Expected<SurfaceNumbers> surface(Session& session, int number) {
   const auto of = surface_of(session, number);
   if (!of) return std::unexpected(of.error());
   const Surface& s = *(*of)->current;
-  const auto numbers = [](auto list) { return std::vector<double>(list.begin(), list.end()); };
-  SurfaceNumbers answer{{s.knots(0).degree(), s.knots(1).degree()},
+  const auto numbers = [](std::span<const double> list) { return Doubles{{list.begin(), list.end()}}; };
+  return SurfaceNumbers{{s.knots(0).degree(), s.knots(1).degree()},
                         s.net(),
                         numbers(s.knots(0).knots()),
                         numbers(s.knots(1).knots()),
-                        {},
-                        {}};
-  if (s.rational()) answer.weights = numbers(s.weights());
-  for (const auto& row : s.control_points().rowwise()) answer.points.push_back({row[0], row[1], row[2]});
-  return answer;
+                        numbers(s.weights()),
+                        numbers({s.control_points().data(), static_cast<std::size_t>(s.control_points().size())})};
 }
 
 Expected<Doubles> control_points(Session& session, int number) {

@@ -77,9 +77,9 @@ export class Saving {
   rhino = () => this.work(async (stem) => {
     const { client, state } = this.host;
     const { file } = this.documents;
-    const { rhino } = await import('./rhino/client');
+    const { patchOfNumbers, rhino } = await import('./rhino/client');
     const surfaces = [];
-    for (const [k, { name, id }] of state!.surfaces.entries()) surfaces.push({ name: name || id, patch: await client.query('surface', { surface: k }) });
+    for (const [k, { name, id }] of state!.surfaces.entries()) surfaces.push({ name: name || id, patch: patchOfNumbers(await client.query('surface', { surface: k })) });
     const source = file?.kind === 'rhino' ? file.bytes : null;
     const { bytes, beside, within } = await rhino.write(source, surfaces, state!.surfaces[0]?.unit ?? 'mm');
     download(bytes, `${stem}${source ? '-sculpted' : ''}.3dm`, 'model/vnd.3dm');

@@ -9,7 +9,7 @@ import { numbers } from './panel_create';
 const small = (label: string, title: string, onclick: () => void) => h('button', { class: 'button small', type: 'button', title, onclick }, label);
 
 /** Multiple knots are written once, with their count: 0×4. */
-export function knotText(knots: readonly number[]): string {
+export function knotText(knots: ArrayLike<number>): string {
   const parts: string[] = [];
   for (let k = 0; k < knots.length;) {
     let count = 1;
@@ -65,7 +65,7 @@ export function surfacePanel(app: App): HTMLElement {
       data = now;
       of = key;
       for (const k of knots) k.fill();
-      const all = now.weights ?? [];
+      const all = now.weights;
       weights.textContent = all.length === 0 ? 'polynomial: all weights 1' : `rational: weights ${Math.min(...all).toPrecision(4)} to ${Math.max(...all).toPrecision(4)}`;
     }, () => {});
     let insert = '';

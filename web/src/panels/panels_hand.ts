@@ -185,7 +185,7 @@ function weightFields(app: App, chosen: number[]): (Node | null)[] {
   const input = numberInput('Weight', null, (weight) => app.offer([{ do: 'weights', ...points.which(), weight }]), undefined, '1');
   const surface = points.surface!;
   void app.surfaceData(surface).then(({ weights }) => {
-    const values = chosen.map((k) => weights?.[k] ?? 1);
+    const values = chosen.map((k) => weights[k] ?? 1);
     const same = values.every((w) => w === values[0]);
     input.value = same ? format(values[0]!) : '';
     input.placeholder = same ? '' : 'several';

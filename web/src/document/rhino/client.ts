@@ -1,3 +1,4 @@
+import type { SurfaceNumbers } from '../../engine/session_types';
 import type { Patch } from './patch';
 import type { RhinoContents } from './read';
 import type { RhinoReply, RhinoRequest } from './worker';
@@ -41,3 +42,8 @@ class RhinoClient {
 }
 
 export const rhino = new RhinoClient();
+
+export const patchOfNumbers = ({ degree, net, knots_u, knots_v, weights, points }: SurfaceNumbers): Patch => ({
+  degree, net, knots_u: [...knots_u], knots_v: [...knots_v], weights: weights.length > 0 ? [...weights] : null,
+  points: Array.from({ length: points.length / 3 }, (_, k) => [points[3 * k]!, points[3 * k + 1]!, points[3 * k + 2]!]),
+});
