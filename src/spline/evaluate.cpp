@@ -135,14 +135,13 @@ int multi_index_position(MultiIndex<D> a) {
   return position;
 }
 
+namespace {
+
 template <int D>
-Expected<void> evaluate(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
-                        Evaluation<D>& result) {
+Expected<void> write_points(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
+                            std::span<double* const> out) {
   const std::ptrdiff_t rows = tables[0]->size();
   const auto indices = multi_indices<D>(order);
-  result.order = order;
-  result.derivatives.resize(indices.size());
-  for (Points& derivative : result.derivatives) derivative.resize(rows, 3);
   double terms = 1;  // control points that affect a point
   for (const BasisTable* table : tables) {
     assert(table->order >= order && table->size() == rows);
@@ -160,9 +159,9 @@ Expected<void> evaluate(const Spline<D>& spline, const std::array<const BasisTab
       contraction.point(static_cast<int>(row), homogeneous.data());
       if (!spline.rational()) {
         for (std::size_t k = 0; k < indices.size(); ++k) {
-          std::copy_n(homogeneous.data() + k * 3, 3, result.derivatives[k].data() + row * 3);
+          std::copy_n(homogeneous.data() + k * 3, 3, out[k] + row * 3);
         }
-      } else if (!detail::divide_point<D>(quotient, homogeneous.data(), net.width(), row, result.derivatives)) {
+      } else if (!detail::divide_point<D>(quotient, homogeneous.data(), net.width(), row, out)) {
         failed[static_cast<std::size_t>(begin / size)] = row;
         return;
       }
@@ -172,6 +171,44 @@ Expected<void> evaluate(const Spline<D>& spline, const std::array<const BasisTab
     if (row >= 0) return detail::denominator_error<1>({static_cast<std::size_t>(row)});
   }
   return {};
+}
+
+}  // namespace
+
+template <int D>
+std::vector<double*> detail::memory_of(Evaluation<D>& result, int order, Eigen::Index points) {
+  result.order = order;
+  result.derivatives.resize(multi_indices<D>(order).size());
+  std::vector<double*> out;
+  for (Points& derivative : result.derivatives) {
+    derivative.resize(points, 3);
+    out.push_back(derivative.data());
+  }
+  return out;
+}
+
+template <int D>
+std::vector<double*> detail::checked_memory(DerivativeMemory memory, [[maybe_unused]] int order,
+                                            [[maybe_unused]] Eigen::Index points) {
+  assert(memory.size() == multi_indices<D>(order).size());
+  std::vector<double*> out;
+  for (const std::span<double> part : memory) {
+    assert(std::ssize(part) == 3 * points);
+    out.push_back(part.data());
+  }
+  return out;
+}
+
+template <int D>
+Expected<void> evaluate(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
+                        Evaluation<D>& result) {
+  return write_points<D>(spline, tables, order, detail::memory_of<D>(result, order, tables[0]->size()));
+}
+
+template <int D>
+Expected<void> evaluate_into(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
+                             DerivativeMemory out) {
+  return write_points<D>(spline, tables, order, detail::checked_memory<D>(out, order, tables[0]->size()));
 }
 
 template <int D>
@@ -205,6 +242,10 @@ Expected<Point> evaluate_point(const Spline<D>& spline, std::array<double, D> u)
   template std::vector<MultiIndex<D>> multi_indices<D>(int);                                                           \
   template int multi_index_position<D>(MultiIndex<D>);                                                                 \
   template Expected<void> evaluate<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int, Evaluation<D>&); \
+  template Expected<void> evaluate_into<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int,             \
+                                           DerivativeMemory);                                                          \
+  template std::vector<double*> detail::memory_of<D>(Evaluation<D>&, int, Eigen::Index);                               \
+  template std::vector<double*> detail::checked_memory<D>(DerivativeMemory, int, Eigen::Index);                        \
   template Expected<Evaluation<D>> evaluate<D>(const Spline<D>&, const Parameters<D>&, int, Side);                     \
   template Expected<Point> evaluate_point<D>(const Spline<D>&, std::array<double, D>);
 KNEAD_INSTANTIATE(1)

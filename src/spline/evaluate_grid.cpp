@@ -79,7 +79,7 @@ class ListedQuotientRule {
 template <int D>
 struct GridTask {
   GridTask(const detail::GridKernels& chosen, const Spline<D>& spline, const std::array<const BasisTable*, D>& given,
-           int derivatives, Evaluation<D>& evaluation)
+           int derivatives, std::vector<double*> to)
       : kernels(chosen),
         rational(spline.rational()),
         net(spline),
@@ -87,7 +87,7 @@ struct GridTask {
         order(derivatives),
         basis(*given[D - 1], derivatives),
         quotient(detail::QuotientRule<D>(rational ? derivatives : 0)),
-        result(evaluation) {}
+        out(std::move(to)) {}
 
   const detail::GridKernels& kernels;
   bool rational;
@@ -96,7 +96,7 @@ struct GridTask {
   int order;
   TransposedBasis basis;
   ListedQuotientRule quotient;
-  Evaluation<D>& result;
+  std::vector<double*> out;  ///< by derivative
 };
 
 /// Walks a part of the grid row by row. At every parameter of a direction but the last, the net is contracted once for
@@ -108,9 +108,9 @@ class GridWalk {
     for (std::size_t d = 0; d + 1 < D; ++d) nets_[d].resize(multi_indices<D>(task.order).size() * task.net.stride(d));
     if (!task.rational) return;
     constexpr auto spare = static_cast<std::size_t>(detail::GridKernels::spare);
-    homogeneous_.resize(task.result.derivatives.size() * task.basis.stride() * 4 + spare);
-    work_.resize(task.result.derivatives.size() * 3 * spare);
-    for (Points& derivative : task.result.derivatives) divided_.push_back(derivative.data());
+    homogeneous_.resize(task.out.size() * task.basis.stride() * 4 + spare);
+    work_.resize(task.out.size() * 3 * spare);
+    divided_ = task.out;
   }
 
   /// At parameters begin … end − 1 of the first direction; all of it where that is also the last. False if a
@@ -165,8 +165,7 @@ class GridWalk {
       for (int m = 0; m <= left; ++m) {
         a[D - 1] = m;
         const auto k = static_cast<std::size_t>(multi_index_position<D>(a));
-        double* to = task_.rational ? homogeneous_.data() + k * basis.stride() * 4
-                                    : task_.result.derivatives[k].data() + row_ * 3;
+        double* to = task_.rational ? homogeneous_.data() + k * basis.stride() * 4 : task_.out[k] + row_ * 3;
         sum(basis.row(), basis.values(m), partial.net, to);
       }
     }
@@ -198,8 +197,8 @@ class GridWalk {
 template <int D>
 double work_of_a_slab(const GridTask<D>& task, Eigen::Index points) {
   if constexpr (D == 1) return 0;
-  const double numbers = static_cast<double>(points) / task.tables[0]->size() *
-                         static_cast<double>(task.result.derivatives.size() * task.net.width());
+  const double numbers =
+      static_cast<double>(points) / task.tables[0]->size() * static_cast<double>(task.out.size() * task.net.width());
   return numbers * (task.tables[D - 1]->degree + 1 + (task.rational ? 4 : 0));
 }
 
@@ -209,6 +208,13 @@ const detail::GridKernels& kernels_for(const BasisTable& last) {
   for (std::size_t k = 1; k < last.first.size(); ++k) runs += last.first[k] != last.first[k - 1] ? 1 : 0;
   const InstructionSet best = best_instruction_set();
   return detail::grid_kernels(last.size() > 8 * runs ? best : std::min(best, InstructionSet::avx2));
+}
+
+template <int D>
+Eigen::Index points_of(const std::array<const BasisTable*, D>& tables) {
+  Eigen::Index rows = 1;
+  for (const BasisTable* table : tables) rows *= table->size();
+  return rows;
 }
 
 /// The whole grid, by several threads where it is large.
@@ -228,28 +234,37 @@ Expected<void> walk_all(const GridTask<D>& task, Eigen::Index points) {
   return {};
 }
 
+template <int D>
+Expected<void> write_grid(const detail::GridKernels& kernels, const Spline<D>& spline,
+                          const std::array<const BasisTable*, D>& tables, int order, std::vector<double*> out) {
+  for (std::size_t d = 0; d < D; ++d) {
+    assert(tables[d]->order >= order && tables[d]->degree == spline.knots()[d].degree());
+  }
+  const Eigen::Index points = points_of<D>(tables);
+  if (points == 0) return {};
+  return walk_all(GridTask<D>(kernels, spline, tables, order, std::move(out)), points);
+}
+
 }  // namespace
 
 template <int D>
 Expected<void> detail::evaluate_grid_by(const GridKernels& kernels, const Spline<D>& spline,
                                         const std::array<const BasisTable*, D>& tables, int order,
                                         Evaluation<D>& result) {
-  Eigen::Index rows = 1;
-  for (std::size_t d = 0; d < D; ++d) {
-    assert(tables[d]->order >= order && tables[d]->degree == spline.knots()[d].degree());
-    rows *= tables[d]->size();
-  }
-  result.order = order;
-  result.derivatives.resize(multi_indices<D>(order).size());
-  for (Points& derivative : result.derivatives) derivative.resize(rows, 3);
-  if (rows == 0) return {};
-  return walk_all(GridTask<D>(kernels, spline, tables, order, result), rows);
+  return write_grid<D>(kernels, spline, tables, order, detail::memory_of<D>(result, order, points_of<D>(tables)));
 }
 
 template <int D>
 Expected<void> evaluate_grid(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
                              Evaluation<D>& result) {
   return detail::evaluate_grid_by<D>(kernels_for(*tables[D - 1]), spline, tables, order, result);
+}
+
+template <int D>
+Expected<void> evaluate_grid_into(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
+                                  DerivativeMemory out) {
+  return write_grid<D>(kernels_for(*tables[D - 1]), spline, tables, order,
+                       detail::checked_memory<D>(out, order, points_of<D>(tables)));
 }
 
 template <int D>
@@ -280,6 +295,8 @@ Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline, const std::array<
                                                       const std::array<const BasisTable*, D>&, int, Evaluation<D>&); \
   template Expected<void> evaluate_grid<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int,           \
                                            Evaluation<D>&);                                                          \
+  template Expected<void> evaluate_grid_into<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int,      \
+                                                DerivativeMemory);                                                   \
   template Expected<Evaluation<D>> evaluate_grid<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int); \
   template Expected<Evaluation<D>> evaluate_grid<D>(const Spline<D>&, const std::array<std::span<const double>, D>&, \
                                                     int, Side);

@@ -33,7 +33,7 @@ double* HomogeneousNet<D>::copy(std::size_t first, std::size_t count, double* to
 
 template <int D>
 bool divide_point(const QuotientRule<D>& rule, const double* homogeneous, std::size_t stride, Eigen::Index row,
-                  std::vector<Points>& out) {
+                  std::span<double* const> out) {
   const double denominator = homogeneous[3];
   if (!(denominator > 0)) return false;
   for (std::size_t k = 0; k < rule.size(); ++k) {
@@ -41,10 +41,10 @@ bool divide_point(const QuotientRule<D>& rule, const double* homogeneous, std::s
     double value[3] = {numerator[0], numerator[1], numerator[2]};
     for (const auto& term : rule.terms(k)) {
       const double factor = term.factor * homogeneous[term.denominator * stride + 3];
-      const double* lower = out[term.rest].data() + row * 3;
+      const double* lower = out[term.rest] + row * 3;
       for (int c = 0; c < 3; ++c) value[c] -= factor * lower[c];
     }
-    double* to = out[k].data() + row * 3;
+    double* to = out[k] + row * 3;
     for (int c = 0; c < 3; ++c) to[c] = value[c] / denominator;
   }
   return true;
@@ -59,7 +59,7 @@ std::unexpected<Error> denominator_error(const std::array<std::size_t, D>& at) {
 #define KNEAD_INSTANTIATE(D)                                                                      \
   template class HomogeneousNet<D>;                                                               \
   template bool divide_point<D>(const QuotientRule<D>&, const double*, std::size_t, Eigen::Index, \
-                                std::vector<Points>&);                                            \
+                                std::span<double* const>);                                        \
   template std::unexpected<Error> denominator_error<D>(const std::array<std::size_t, D>&);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)

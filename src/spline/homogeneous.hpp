@@ -1,9 +1,10 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
-#include "knead/spline/evaluate.hpp"
+#include "knead/spline/evaluate_into.hpp"
 #include "quotient_rule.hpp"
 
 namespace knead::detail {
@@ -39,7 +40,14 @@ class HomogeneousNet {
 /// False, with nothing written, if w is not positive.
 template <int D>
 [[nodiscard]] bool divide_point(const QuotientRule<D>& rule, const double* homogeneous, std::size_t stride,
-                                Eigen::Index row, std::vector<Points>& out);
+                                Eigen::Index row, std::span<double* const> out);
+
+/// The memory of an evaluation of so many points, made as large as it must be: where every derivative begins.
+template <int D>
+[[nodiscard]] std::vector<double*> memory_of(Evaluation<D>& result, int order, Eigen::Index points);
+/// The same of memory of the caller, whose size is asserted.
+template <int D>
+[[nodiscard]] std::vector<double*> checked_memory(DerivativeMemory out, int order, Eigen::Index points);
 
 /// The denominator at the parameters numbered `at` is not positive.
 template <int D>
