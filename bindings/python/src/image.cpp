@@ -1,0 +1,114 @@
+#include <algorithm>
+
+#include "binding.hpp"
+#include "knead/session/snake_script.hpp"
+#include "knead/session/volume_snake_script.hpp"
+#include "working.hpp"
+
+namespace knead::python {
+namespace {
+
+Image image_of(const Doubles& pixels) {
+  return {static_cast<int>(pixels.extent(1)), static_cast<int>(pixels.extent(0)), pixels.vector()};
+}
+
+VolumeImage volume_of(const Doubles& voxels) {
+  return {{static_cast<int>(voxels.extent(2)), static_cast<int>(voxels.extent(1)), static_cast<int>(voxels.extent(0))},
+          voxels.vector(),
+          {}};
+}
+
+Expected<Snakes> started(const Image& image, const SnakeScript& script, const std::optional<Image>& mask) {
+  const auto potential = ImagePotential::create(image, script.image, mask);
+  if (!potential) return std::unexpected(potential.error().within("image"));
+  const auto places = starts_of(script, image);
+  if (!places) return std::unexpected(places.error());
+  std::vector<Curve> curves;
+  std::vector<SnakeSettings> settings;
+  for (const SnakeStart& place : *places) {
+    settings.push_back(settings_of(script, place));
+    const auto points = points_of(place);
+    auto curve = points ? curve_through(*points, settings.back()) : std::unexpected(points.error());
+    if (!curve) return std::unexpected(curve.error().within("snakes[" + std::to_string(curves.size()) + "]"));
+    curves.push_back(*std::move(curve));
+  }
+  return Snakes::create(*potential, curves, settings);
+}
+
+/// Until all rest, or the work is stopped: then where they are.
+Expected<std::vector<SnakeResult>> run(const Image& image, const SnakeScript& script, const std::optional<Image>& mask,
+                                       Work& work) {
+  auto snakes = started(image, script, mask);
+  if (!snakes) return std::unexpected(snakes.error());
+  constexpr int at_a_time = 5;
+  const int most = script.settings.max_iterations;
+  for (int done = 0; !snakes->ended() && work.tell(std::min(done, most), most); done += at_a_time) {
+    if (auto more = snakes->advance(at_a_time); !more) return std::unexpected(more.error());
+  }
+  std::vector<SnakeResult> results;
+  for (int k = 0; k < snakes->count(); ++k) {
+    auto result = snakes->result(k);
+    if (!result) return std::unexpected(result.error());
+    results.push_back(*std::move(result));
+  }
+  return results;
+}
+
+py::list image_snakes(const py::object& picture, const std::string& json, const py::object& mask, py::object progress) {
+  const Image image = image_of(Doubles(picture));
+  std::optional<Image> drawn;
+  if (!mask.is_none()) drawn = image_of(Doubles(mask));
+  const SnakeScript script = value_of(parse_snake_script(json));
+  Work work(std::move(progress));
+  auto made = [&] {
+    const py::gil_scoped_release others;
+    return run(image, script, drawn, work);
+  }();
+  work.finish();
+  py::list result;
+  for (SnakeResult& s : value_of(std::move(made))) {
+    Image inside = mask_of(s, image.width, image.height);
+    const int crossed = crossings(s);
+    result.append(py::make_tuple(Held<1>{std::make_shared<const Curve>(std::move(s.curve))}, s.closed, s.iterations,
+                                 s.converged, s.last_motion, crossed,
+                                 view_of_own(std::move(inside.values), {image.height, image.width})));
+  }
+  return result;
+}
+
+py::list volume_snakes(const py::object& voxels, const py::object& origin, const py::object& directions,
+                       const std::string& json, const py::object& mask) {
+  VolumeImage volume = volume_of(Doubles(voxels));
+  std::ranges::copy(Doubles(origin).span(), volume.frame.origin.data());
+  const Doubles steps(directions);  // row i: the step along the i-th direction of the frame
+  volume.frame.directions = Eigen::Map<const Eigen::Matrix3d>(steps.span().data());
+  std::optional<VolumeImage> drawn;
+  if (!mask.is_none()) drawn = volume_of(Doubles(mask));
+  const VolumeSnakeScript script =
+      json.empty() ? default_volume_snake_script(volume) : value_of(parse_volume_snake_script(json));
+  auto made = [&] {
+    const py::gil_scoped_release others;
+    return run_volume_snakes(volume, script, drawn);
+  }();
+  py::list result;
+  for (SurfaceSnakeResult& s : value_of(std::move(made))) {
+    const SurfaceMeasure m = measure(s.snake);
+    const ClosedMesh mesh = closed_mesh(s.snake);
+    VolumeImage inside = mask_of(mesh, volume.size, volume.frame);
+    const char* form = s.snake.form == SurfaceForm::torus ? "torus" : "sphere";
+    result.append(
+        py::make_tuple(Held<2>{std::make_shared<const Surface>(std::move(s.snake.surface))}, form, s.iterations,
+                       s.converged, s.last_motion, crossings(mesh), m.area, m.volume,
+                       view_of_own(std::move(inside.values), {volume.size[2], volume.size[1], volume.size[0]})));
+  }
+  return result;
+}
+
+}  // namespace
+
+void bind_image(py::module_& module) {
+  module.def("image_snakes", &image_snakes);
+  module.def("volume_snakes", &volume_snakes);
+}
+
+}  // namespace knead::python

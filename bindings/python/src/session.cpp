@@ -1,0 +1,349 @@
+#include "session.hpp"
+
+#include <filesystem>
+#include <limits>
+
+#include "grids.hpp"
+#include "knead/exchange/compression.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/exchange/save_model.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/report.hpp"
+#include "knead/session/save_faces.hpp"
+#include "knead/session/script_error.hpp"
+#include "knead/session/session_info.hpp"
+#include "sparse.hpp"
+
+namespace knead::python {
+namespace {
+
+/// Scripts begin so: the edges of faces are held. It cannot be undone.
+Expected<void> begin(Session& session) {
+  auto done = session.execute(default_hold());
+  if (done) session.begin_history();
+  return done;
+}
+
+}  // namespace
+
+PySession::PySession(std::shared_ptr<const Source> source, Session session)
+    : source_(std::move(source)), session_(std::move(session)) {}
+
+std::unique_ptr<PySession> PySession::open(const py::bytes& bytes, const std::string& name, std::size_t max_unpacked) {
+  auto text = std::string(bytes);
+  auto source = [&] {
+    const py::gil_scoped_release others;
+    return open_source(std::move(text), name, {.max_unpacked = max_unpacked});
+  }();
+  auto made = value_of(std::move(source));
+  auto held = std::make_unique<PySession>(made, Session(Document::from(made)));
+  value_of(held->alone([&] { return begin(held->session_); }));
+  return held;
+}
+
+std::unique_ptr<PySession> PySession::fresh(const std::string& name, const std::string& unit) {
+  if (!is_length_unit(unit)) {
+    raise({ErrorKind::usage, "\"" + unit + "\" is no unit of length", "unit", "use one of " + list_of_length_units()});
+  }
+  auto held = std::make_unique<PySession>(nullptr, Session(Document::fresh(name, unit)));
+  value_of(begin(held->session_));
+  return held;
+}
+
+std::unique_ptr<PySession> PySession::copy() {
+  auto made = alone([&] { return restored(session_.snapshot(unlimited), session_.opening_commands()); });
+  return std::make_unique<PySession>(source_, value_of(std::move(made)));
+}
+
+Expected<Session> PySession::restored(const std::string& snapshot, std::size_t opening) const {
+  const Document& present = session_.document();
+  auto made =
+      Session::restore(source_ ? Document::from(source_) : Document::fresh(present.name(), present.unit()), snapshot);
+  if (made) made->begin_history_after(opening);
+  return made;
+}
+
+py::tuple PySession::state() {
+  auto [file, snapshot, opening, name, unit] = alone([&] {
+    std::vector<std::shared_ptr<const Surface>> surfaces;
+    if (source_) {
+      for (const SourceSurface& s : source_->surfaces()) surfaces.push_back(s.surface);
+    }
+    // With its own surfaces a file is saved as the bytes that it has.
+    auto bytes = source_ ? source_->save(surfaces) : Expected<std::string>();
+    const Document& present = session_.document();
+    return std::tuple(std::move(bytes), session_.snapshot(unlimited), session_.opening_commands(), present.name(),
+                      present.unit());
+  });
+  const py::object bytes = source_ ? py::object(py::bytes(value_of(std::move(file)))) : py::none();
+  return py::make_tuple(bytes, py::bytes(snapshot), opening, name, unit);
+}
+
+std::unique_ptr<PySession> PySession::from_state(const py::tuple& state) {
+  const auto name = state[3].cast<std::string>();
+  auto held = state[0].is_none()
+                  ? std::make_unique<PySession>(nullptr, Session(Document::fresh(name, state[4].cast<std::string>())))
+                  : open(state[0].cast<py::bytes>(), name, max_file_size);
+  held->session_ = value_of(held->restored(state[1].cast<std::string>(), state[2].cast<std::size_t>()));
+  return held;
+}
+
+void PySession::execute(const std::string& json, py::object progress) {
+  const Command command = value_of(parse_command(json));
+  Work work(std::move(progress));
+  auto done = alone([&] {
+    return session_.execute(
+        command, [&](int step, int all) { return work.tell(step, all); }, [&] { return work.go_on(); });
+  });
+  work.finish();
+  value_of(std::move(done));
+}
+
+void PySession::run(const std::string& text, const std::string& name, bool list, py::object progress) {
+  std::size_t implied = 0;
+  auto read = list ? parse_commands(text) : parse_script(text, name, &implied);
+  if (!read) raise(list ? read.error() : error_of_script(read.error(), text, name));
+  const std::span<const Command> commands = std::span(*read).subspan(implied);
+  Work work(std::move(progress));
+  auto done = alone([&]() -> Expected<void> {
+    const auto carry_out = [&](const Command& command) {
+      return session_.execute(
+          command, [&](int step, int all) { return work.tell(step, all); }, [&] { return work.go_on(); });
+    };
+    // A command that fails has changed nothing; what went before it is taken back.
+    const std::size_t opening = session_.opening_commands();
+    const std::string before = commands.size() > 1 ? session_.snapshot(unlimited) : std::string();
+    for (std::size_t k = 0; k < commands.size(); ++k) {
+      auto one = carry_out(commands[k]);
+      if (work.stopped()) return {};
+      if (one) continue;
+      Error error = error_at_command(std::move(one.error()), session_.document(), name, k);
+      if (k == 0) return std::unexpected(std::move(error));
+      auto again = restored(before, opening);
+      if (!again) return std::unexpected(std::move(again.error()));
+      session_ = *std::move(again);
+      return std::unexpected(std::move(error));
+    }
+    return {};
+  });
+  work.finish();
+  value_of(std::move(done));
+}
+
+py::list PySession::shapes() {
+  const auto listed = alone([&] {
+    std::vector<std::array<std::string, 4>> rows;
+    for (const SceneSurface& s : session_.state().surfaces) rows.push_back({"surface", s.id, s.name, s.unit});
+    for (const SceneBody& body : session_.state().bodies) {
+      const ShapeCommon& common = common_of(body);
+      rows.push_back({kind_of(body), common.id, common.name, common.unit});
+    }
+    return rows;
+  });
+  py::list result;
+  for (const auto& [kind, id, name, unit] : listed) result.append(py::make_tuple(kind, id, name, unit));
+  return result;
+}
+
+py::object PySession::shape(const std::string& id, bool opened) {
+  const auto found = alone([&]() -> std::variant<std::monostate, Held<1>, Held<2>, Held<3>> {
+    for (const SceneSurface& s : session_.state().surfaces) {
+      if (s.id == id) return Held<2>{opened ? s.opened : s.current};
+    }
+    for (const SceneBody& body : session_.state().bodies) {
+      if (common_of(body).id != id) continue;
+      if (const auto* curve = std::get_if<SceneCurve>(&body)) return Held<1>{opened ? curve->opened : curve->current};
+      const auto& volume = std::get<SceneVolume>(body);
+      return Held<3>{opened ? volume.opened : volume.current};
+    }
+    return std::monostate();
+  });
+  if (const auto* curve = std::get_if<Held<1>>(&found)) return py::cast(*curve);
+  if (const auto* surface = std::get_if<Held<2>>(&found)) return py::cast(*surface);
+  if (const auto* volume = std::get_if<Held<3>>(&found)) return py::cast(*volume);
+  return py::none();
+}
+
+std::string PySession::name() {
+  return alone([&] { return session_.document().name(); });
+}
+
+std::string PySession::script() {
+  return alone([&] { return script_json(session_.journal()); });
+}
+
+std::string PySession::info() {
+  return alone([&] { return session_json(session_); });
+}
+
+std::string PySession::report() {
+  return value_of(alone([&] {
+    const std::size_t opened = source_ ? source_->surfaces().size() : 0;
+    const Outcome outcome = outcome_of(session_, opened);
+    return report_json(session_.state(), outcome);
+  }));
+}
+
+std::string PySession::selected() {
+  return alone([&]() -> std::string {
+    const SessionState& state = session_.state();
+    if (state.body) return common_of(state.bodies[static_cast<std::size_t>(*state.body)]).id;
+    return state.selected ? state.surfaces[static_cast<std::size_t>(*state.selected)].id : std::string();
+  });
+}
+
+namespace {
+
+std::vector<std::string> sentences_of(const std::vector<LeftOut>& left_out) {
+  std::vector<std::string> result;
+  for (const LeftOut& left : left_out) result.push_back(sentence(left));
+  return result;
+}
+
+using FileBytes = Expected<std::pair<std::string, std::vector<std::string>>>;
+
+FileBytes without_loss(Expected<std::string> bytes) {
+  if (!bytes) return std::unexpected(std::move(bytes.error()));
+  return std::pair(*std::move(bytes), std::vector<std::string>());
+}
+
+/// In the format of the document's own file, or as a new file of another one.
+FileBytes saved_as(const Session& session, const Format& format, const SaveOptions& how) {
+  const Document& document = session.document();
+  if (document.source() != nullptr && format.name == document.source()->format()) return without_loss(session.save());
+  if (document.model() == nullptr || !holds_faces(format)) return without_loss(session.save_as(format, how));
+  auto made = save_faces(session, format, how);
+  if (!made) return std::unexpected(std::move(made.error()));
+  return std::pair(std::move(made->bytes), sentences_of(made->left_out));
+}
+
+/// The faces of the document as it would be saved, or else all surfaces, whole, as triangles.
+FileBytes meshed(const Session& session, const Format& format, double tolerance, int detail) {
+  if (session.document().model() == nullptr) {
+    std::vector<NamedSurface> surfaces;
+    SaveOptions options;
+    options.detail = detail;
+    for (const SceneSurface& s : session.state().surfaces) {
+      surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
+      options.unit = s.unit;
+    }
+    return without_loss(save_surfaces(surfaces, format, options));
+  }
+  auto saved = session.save();
+  if (!saved) return std::unexpected(std::move(saved.error()));
+  const auto file = open_source(*std::move(saved), session.document().name());
+  if (!file) return std::unexpected(file.error());
+  auto model = save_model(**file, format, tolerance);
+  if (!model) return std::unexpected(std::move(model.error()));
+  auto lines = std::move(model->warnings);
+  for (std::string& line : sentences_of(left_out_of_mesh(**file, model->skipped))) lines.push_back(std::move(line));
+  return std::pair(std::move(model->bytes), std::move(lines));
+}
+
+Expected<std::string> compressed(std::string bytes, const std::string& name) {
+  const Compression wanted = compression_of_name(name);
+  if (wanted == compression_of(bytes)) return bytes;
+  if (compression_of(bytes) != Compression::none) {
+    auto plain = uncompress(bytes, std::numeric_limits<std::size_t>::max());
+    if (!plain) return plain;
+    bytes = *std::move(plain);
+  }
+  return compress(bytes, wanted, std::filesystem::path(uncompressed_name(name)).filename().string());
+}
+
+}  // namespace
+
+py::tuple PySession::file(const std::string& name, double tolerance, int detail, const std::string& schema) {
+  auto made = alone([&]() -> FileBytes {
+    if (name.empty()) return without_loss(session_.save());
+    const auto triangles = format_of_name(name, FormatContent::triangles);
+    if (triangles) return meshed(session_, **triangles, tolerance, detail);
+    const auto format = format_of_name(name, FormatContent::surfaces);
+    if (!format) {
+      Error error = format.error();
+      error.remedy += "; triangles: " + list_of_endings(FormatContent::triangles);
+      return std::unexpected(std::move(error));
+    }
+    SaveOptions how;
+    how.schema = schema == "ap242" ? "ap242" : "ap214";
+    auto saved = saved_as(session_, **format, how);
+    if (!saved) return saved;
+    auto bytes = compressed(std::move(saved->first), name);
+    if (!bytes) return std::unexpected(std::move(bytes.error()));
+    return std::pair(*std::move(bytes), std::move(saved->second));
+  });
+  auto [bytes, left_out] = value_of(std::move(made));
+  py::list lines;
+  for (const std::string& line : left_out) lines.append(line);
+  return py::make_tuple(py::bytes(bytes), lines);
+}
+
+py::tuple PySession::analysis(int samples) {
+  auto made = alone([&]() -> Expected<std::pair<std::vector<FieldGrid>, std::vector<HoldReaction>>> {
+    const SessionState& state = session_.state();
+    if (!state.selected) return input_error("no surface is selected", {}, "select one");
+    auto grids = result_grids(state, samples);
+    if (!grids) return std::unexpected(grids.error());
+    std::vector<HoldReaction> reactions;
+    if (is_nonlinear(state.surfaces[static_cast<std::size_t>(*state.selected)].elasticity)) {
+      auto found = hold_reactions(state);
+      if (!found) return std::unexpected(found.error());
+      reactions = *std::move(found);
+    }
+    return std::pair(*std::move(grids), std::move(reactions));
+  });
+  auto [grids, reactions] = value_of(std::move(made));
+  py::list forces, modes, buckling;
+  for (const HoldReaction& r : reactions) forces.append(py::make_tuple(r.hold, r.force.x(), r.force.y(), r.force.z()));
+  const auto records = alone([&] { return std::pair(session_.state().modes, session_.state().buckling); });
+  for (const ModeRecord& mode : records.first) modes.append(py::make_tuple(mode.value, mode.residual));
+  for (const ModeRecord& mode : records.second) buckling.append(py::make_tuple(mode.value, mode.residual));
+  return py::make_tuple(Grids{std::make_shared<const std::vector<FieldGrid>>(std::move(grids))}, forces, modes,
+                        buckling);
+}
+
+py::tuple PySession::matrices(const std::string& id, bool normalised, double tolerance) {
+  const auto found =
+      alone([&]() -> Expected<std::tuple<std::shared_ptr<const Surface>, MaterialFieldOf<2>, int, Vector3>> {
+        for (const SceneSurface& s : session_.state().surfaces) {
+          if (s.id != id) continue;
+          if (is_nonlinear(s.elasticity)) {
+            return usage_error("a shell has no constant matrices: what resists depends on its shape", id,
+                               "give it a linear material");
+          }
+          return std::tuple(s.reference, s.material, s.hold_rows, session_.state().load.vector);
+        }
+        return input_error("no surface is selected", {}, "select one");
+      });
+  const auto [shape, material, hold, load] = value_of(found);
+  return matrices_of(*shape, material, {load[0], load[1], load[2]}, hold, normalised, tolerance);
+}
+
+bool PySession::normalised() {
+  return alone([&] { return session_.state().scaling == ScalingMode::normalised; });
+}
+
+void bind_session(py::module_& module) {
+  module.def("script_schema", &script_schema);
+  py::class_<PySession>(module, "Session")
+      .def_static("open", &PySession::open)
+      .def_static("fresh", &PySession::fresh)
+      .def_static("from_state", &PySession::from_state)
+      .def("state", &PySession::state)
+      .def("copy", &PySession::copy)
+      .def("execute", &PySession::execute)
+      .def("run", &PySession::run)
+      .def("shapes", &PySession::shapes)
+      .def("shape", &PySession::shape)
+      .def("selected", &PySession::selected)
+      .def("name", &PySession::name)
+      .def("script", &PySession::script)
+      .def("info", &PySession::info)
+      .def("report", &PySession::report)
+      .def("file", &PySession::file)
+      .def("analysis", &PySession::analysis)
+      .def("matrices", &PySession::matrices)
+      .def("normalised", &PySession::normalised);
+}
+
+}  // namespace knead::python
