@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
 # Installs the Debian packages a goal needs, and only those that are missing.
-#   scripts/setup.sh build | test | sanitizers | bench | instructions | format | lint | wasm | studio | web
+#   scripts/setup.sh build | python | test | sanitizers | bench | instructions | format | lint | wasm | studio | web
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev libpng-dev libjpeg-dev zlib1g-dev)
 # The benchmarks are built with the tests, so that they keep compiling. OCCT is the oracle the tests compare STEP files
 # with; the product does not use it.
 tests=(libgtest-dev libgmp-dev libbenchmark-dev libocct-data-exchange-dev)
+# The Python package; the tests of it need SciPy, make environments and check types.
+python=("${build[@]}" python3-dev pybind11-dev)
+python_tests=("${python[@]}" python3-numpy python3-scipy python3-venv python3-pip mypy)
 # Address and undefined-behaviour sanitizers by a second compiler; llvm names the functions in their reports.
 sanitizers=(clang-19 libclang-rt-19-dev llvm-19)
 # What benchmarks measure beside the library.
@@ -23,7 +26,8 @@ web=("${build[@]}" "${studio[@]}")
 
 case "${1:-}" in
   build) needed=("${build[@]}") ;;
-  test) needed=("${build[@]}" "${tests[@]}") ;;
+  python) needed=("${python[@]}") ;;
+  test) needed=("${build[@]}" "${tests[@]}" "${python_tests[@]}") ;;
   sanitizers) needed=("${build[@]}" "${tests[@]}" "${sanitizers[@]}") ;;
   bench) needed=("${build[@]}" libbenchmark-dev "${peers[@]}") ;;
   instructions) needed=("${build[@]}" libbenchmark-dev valgrind) ;;
@@ -32,7 +36,7 @@ case "${1:-}" in
   studio) needed=("${build[@]}" "${studio[@]}") ;;
   web) needed=("${web[@]}") ;;
   lint) needed=("${build[@]}" "${tests[@]}" clang-tidy-19) ;;
-  *) echo "usage: scripts/setup.sh build|test|sanitizers|bench|instructions|format|lint|wasm|studio|web" >&2; exit 2 ;;
+  *) echo "usage: scripts/setup.sh build|python|test|sanitizers|bench|instructions|format|lint|wasm|studio|web" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
@@ -41,7 +45,8 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     declare -A fedora=([g++]=gcc-c++ [libeigen3-dev]=eigen3-devel [libfmt-dev]=fmt-devel [nlohmann-json3-dev]=json-devel
       [libcli11-dev]=cli11-devel [libpng-dev]=libpng-devel [libjpeg-dev]=libjpeg-turbo-devel [zlib1g-dev]=zlib-devel [libgtest-dev]=gtest-devel
       [libgmp-dev]=gmp-devel [libbenchmark-dev]=google-benchmark-devel [libocct-data-exchange-dev]=opencascade-devel
-      [libsuitesparse-dev]=suitesparse-devel [clang-format]=clang-tools-extra [npm]=nodejs-npm)
+      [libsuitesparse-dev]=suitesparse-devel [python3-dev]=python3-devel [python3-numpy]=python3-numpy [python3-scipy]=python3-scipy
+      [python3-venv]=python3 [python3-pip]=python3-pip [mypy]=python3-mypy [clang-format]=clang-tools-extra [npm]=nodejs-npm)
     names=() without=()
     for package in "${needed[@]}"; do
       case $package in *-19*|wasi-libc) without+=("$package") ;; *) names+=("${fedora[$package]:-$package}") ;; esac

@@ -8,10 +8,11 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/stages.sh
 source scripts/native_tests.sh
+source scripts/python_tests.sh
 
 build() {
   scripts/setup.sh test
-  scripts/configure.sh release KNEAD_BUILD_TESTS=ON KNEAD_BUILD_BENCH=ON
+  scripts/configure.sh release KNEAD_BUILD_TESTS=ON KNEAD_BUILD_BENCH=ON KNEAD_BUILD_PYTHON=ON Python_EXECUTABLE="$python"
   cmake --build build/release
 }
 build_wasm() {
@@ -64,13 +65,14 @@ if [ "${1:-}" = skipped ]; then
 fi
 
 about=$([ -f build/release/build.ninja ] && echo "about 10 minutes where everything was built before" || echo "about 20 minutes from nothing")
-echo "test: builds the library, the command line and their tests; the engine for WebAssembly; the studio. Runs the native tests,"
-echo "test: the studio's in node and in Chromium. On two cores $about; logs in build/log."
-stages test 6
+echo "test: builds the library, the command line, the Python package and their tests; the engine for WebAssembly; the studio. Runs the native tests,"
+echo "test: those of the package from its wheel, the studio's in node and in Chromium. On two cores $about; logs in build/log."
+stages test 7
 rm -f "$results/native.xml"
 stage "build" "" "make test" build
 stage "build for WebAssembly" "" "scripts/wasm.sh" build_wasm
 stage "native tests" "build" "ctest --preset release" native_tests native
+stage "Python package" "build" "scripts/python_test.sh" python_tests
 stage "build of the studio" "build for WebAssembly" "scripts/studio.sh" build_studio
 stage "studio in node" "build of the studio" "(cd web && npm test)" studio_tests test studio_node
 stage "studio in Chromium" "build of the studio" "(cd web && npm run e2e)" studio_tests e2e studio_chromium

@@ -1,0 +1,19 @@
+# The tests of the Python package as a stage, to be sourced after stages.sh from the root of the project.
+
+# Debian's, whose NumPy and SciPy the tests use.
+python=$(realpath /usr/bin/python3)
+
+# Installs the wheel of the build that is there into a new environment, without network, and tests it in a fresh directory.
+python_tests() (
+  fresh=$(mktemp -d)
+  trap 'rm -rf "$fresh"' EXIT
+  "$python" bindings/python/backend/knead_backend.py "$fresh/dist"
+  "$python" -m venv --system-site-packages "$fresh/venv"
+  "$fresh/venv/bin/pip" install --quiet --no-index --no-deps "$fresh"/dist/*.whl
+  cp -r tests/python "$fresh/tests"
+  cp -r samples "$fresh"
+  cp bindings/python/README.md "$fresh/README-python.md"
+  cp -r examples/python "$fresh/examples-python"
+  cd "$fresh/tests"
+  "$fresh/venv/bin/python" run.py "${stage_counts:-/dev/null}" "${stage_failed:-/dev/null}"
+)
