@@ -8,6 +8,7 @@
 #include "knead/energy/stiffness.hpp"
 #include "knead/solve/sparse_cholesky.hpp"
 #include "medians.hpp"
+#include "solve/dissection.hpp"
 #include "solve/independent_places.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <string>
 
-#include "knead/scene/model.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "medians.hpp"
+#include "scene/model/model.hpp"
+#include "session/session_state.hpp"
 
 // A moving ball in contact with a sheet: a cubic net over the unit square with two rows held and λ = 20, a ball of
 // radius 0.15 whose centre goes from (0.5, 0.5, 0.16) by (0.005, 0, −0.004) per frame, 20 frames. Times are medians

@@ -13,12 +13,12 @@
 
 #include "knead/energy/stiffness.hpp"
 #include "knead/gramian/gramian.hpp"
-#include "knead/scene/model.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "knead/solve/sparse_cholesky.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "sample_surface.hpp"
+#include "scene/model/model.hpp"
+#include "session/session_state.hpp"
 #include "tool/tool_load.hpp"
 
 // The one function whose instructions are counted, with all that it calls.

@@ -14,7 +14,7 @@
 #include <random>
 
 #include "knead/spline/closest_point.hpp"
-#include "knead/spline/normals.hpp"
+#include "knead/spline/evaluate.hpp"
 #include "medians.hpp"
 #include "sample_surface.hpp"
 

@@ -9,10 +9,10 @@
 #include "knead/energy/shell_energy.hpp"
 #include "knead/energy/stiffness.hpp"
 #include "knead/solve/sparse_cholesky.hpp"
-#include "knead/spline/evaluator.hpp"
-#include "knead/spline/normals.hpp"
+#include "knead/spline/evaluate.hpp"
 #include "medians.hpp"
 #include "sample_surface.hpp"
+#include "solve/dissection.hpp"
 
 namespace {
 

@@ -10,8 +10,9 @@
 #include <exception>
 
 #include "draw.hpp"
-#include "knead/energy/shell_results.hpp"
+#include "knead/energy/shell_energy.hpp"
 #include "knead/exchange/file_io.hpp"
+#include "knead/session/report.hpp"
 #include "run_script.hpp"
 
 namespace {
@@ -34,9 +35,8 @@ examples::Colour rising(double t) {
   return mixed;
 }
 
-double von_mises(const SceneSurface& s, const std::array<double, 2>& u) {
-  const auto* shell = std::get_if<ShellMaterial>(&s.elasticity);
-  if (shell == nullptr) return 0;
+double von_mises(const SessionSurface& s, const std::optional<ShellMaterial>& shell, const std::array<double, 2>& u) {
+  if (!shell) return 0;
   const auto r = shell_results(*s.rest, *s.current, *shell, Parameters<2>{{u[0], u[1]}});
   return r ? std::max(r->front().von_mises[0], r->front().von_mises[1]) : 0;
 }
@@ -55,33 +55,36 @@ std::string legend(double largest) {
                    largest);
 }
 
-Expected<std::string> stress_picture(const Scene& scene) {
+Expected<std::string> stress_picture(const Session& session) {
+  const std::vector<SessionSurface> shapes = session.surfaces();
   std::vector<Surface> surfaces;
-  for (const SceneSurface& s : scene.surfaces) surfaces.push_back(*s.current);
+  for (const SessionSurface& s : shapes) surfaces.push_back(*s.current);
+  std::vector<std::optional<ShellMaterial>> shells;
+  for (std::size_t k = 0; k < shapes.size(); ++k) shells.push_back(shell_of(session, static_cast<int>(k)));
   double largest = 0;
   std::vector<double> seen;
   examples::DrawStyle style{.colour =
                                 [&](std::size_t k, const std::array<double, 2>& u) {
-                                  seen.push_back(von_mises(scene.surfaces[k], u));
+                                  seen.push_back(von_mises(shapes[k], shells[k], u));
                                   return examples::Colour{};
                                 },
                             .facets_per_span = stress_facets};
-  if (const auto once = examples::draw(surfaces, scene.tools, style); !once) return once;
+  if (const auto once = examples::draw(surfaces, session.tools(), style); !once) return once;
   // What a few facets at points of force show is left beyond the scale.
   std::ranges::sort(seen);
   largest = seen[static_cast<std::size_t>(0.995 * static_cast<double>(seen.size() - 1))];
   style.colour = [&](std::size_t k, const std::array<double, 2>& u) {
-    return rising(largest > 0 ? von_mises(scene.surfaces[k], u) / largest : 0);
+    return rising(largest > 0 ? von_mises(shapes[k], shells[k], u) / largest : 0);
   };
-  auto svg = examples::draw(surfaces, scene.tools, style);
+  auto svg = examples::draw(surfaces, session.tools(), style);
   if (svg) svg->replace(svg->rfind("</svg>"), std::string::npos, legend(largest));
   return svg;
 }
 
-Expected<std::string> modes_picture(const SessionState& state) {
-  const auto& modes = state.modes.empty() ? state.buckling : state.modes;
+Expected<std::string> modes_picture(const Session& session) {
+  const auto& modes = session.modes().empty() ? session.buckling() : session.modes();
   if (modes.empty()) return input_error("the script has neither modes nor buckling", "modes", "add one of them");
-  const SceneSurface& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
+  const SessionSurface s = session.surfaces()[static_cast<std::size_t>(session.selection().front())];
   const Points& x = s.current->control_points();
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
   double largest = 0;
@@ -113,8 +116,7 @@ Expected<void> picture(const std::string& what, const std::string& script, const
                        const std::string& file) {
   const auto session = examples::run_script(script, file);
   if (!session) return std::unexpected(session.error());
-  const SessionState& state = session->state();
-  const auto svg = what == "stress" ? stress_picture(state) : modes_picture(state);
+  const auto svg = what == "stress" ? stress_picture(*session) : modes_picture(*session);
   if (!svg) return std::unexpected(svg.error());
   return write_file_atomically(out, *svg);
 }

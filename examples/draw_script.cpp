@@ -17,8 +17,8 @@ Expected<void> run(const std::string& script, const std::string& out, const std:
   const auto session = examples::run_script(script, file);
   if (!session) return std::unexpected(session.error());
   std::vector<Surface> surfaces;
-  for (const SceneSurface& s : session->state().surfaces) surfaces.push_back(*s.current);
-  const auto svg = examples::draw(surfaces, session->state().tools);
+  for (const SessionSurface& s : session->surfaces()) surfaces.push_back(*s.current);
+  const auto svg = examples::draw(surfaces, session->tools());
   if (!svg) return std::unexpected(svg.error());
   return write_file_atomically(out, *svg);
 }

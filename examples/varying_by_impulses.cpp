@@ -4,7 +4,7 @@
 #include <cassert>
 #include <vector>
 
-#include "knead/spline/basis_integral.hpp"
+#include "knead/spline/basis.hpp"
 
 namespace knead::examples {
 namespace {

@@ -8,8 +8,6 @@
 #include "figures/svg.hpp"
 #include "figures/thesis_knots.hpp"
 #include "knead/spline/basis.hpp"
-#include "knead/spline/basis_integral.hpp"
-#include "knead/spline/jumps.hpp"
 
 namespace knead::figures {
 namespace {

@@ -3,8 +3,7 @@
 #include "figures/figures.hpp"
 #include "figures/svg.hpp"
 #include "figures/thesis_knots.hpp"
-#include "knead/spline/basis_integral.hpp"
-#include "knead/spline/jumps.hpp"
+#include "knead/spline/basis.hpp"
 
 namespace knead::figures {
 namespace {

@@ -14,8 +14,7 @@
 #include "knead/base/threads.hpp"
 #include "knead/energy/stiffness.hpp"
 #include "knead/gramian/gramian.hpp"
-#include "knead/spline/evaluator.hpp"
-#include "knead/spline/normals.hpp"
+#include "knead/spline/evaluate.hpp"
 #include "solve/panels.hpp"
 
 namespace knead::figures {

@@ -6,8 +6,7 @@
 
 #include "figures/digits.hpp"
 #include "figures/thesis_knots.hpp"
-#include "knead/spline/basis_integral.hpp"
-#include "knead/spline/jumps.hpp"
+#include "knead/spline/basis.hpp"
 
 namespace knead::figures {
 namespace {

@@ -20,7 +20,7 @@ struct AnalyseArguments {
   int samples = 41;
 };
 
-void print_summary(const AnalyseArguments& options, const SessionState& state, std::span<const FieldGrid> grids) {
+void print_summary(const AnalyseArguments& options, const Session& session, std::span<const FieldGrid> grids) {
   for (const FieldGrid& grid : grids) {
     say("{}: surface {}\n", options.fresh ? options.script : options.file, grid.name);
     for (const GridField& field : grid.fields) {
@@ -28,8 +28,8 @@ void print_summary(const AnalyseArguments& options, const SessionState& state, s
       say("  von Mises stress up to {:.6g}\n", *std::ranges::max_element(field.values));
     }
   }
-  for (const ModeRecord& mode : state.modes) say("  frequency {:.6g}\n", mode.value);
-  for (const ModeRecord& mode : state.buckling) say("  buckles at {:.6g} times the load\n", mode.value);
+  for (const ModeRecord& mode : session.modes()) say("  frequency {:.6g}\n", mode.value);
+  for (const ModeRecord& mode : session.buckling()) say("  buckles at {:.6g} times the load\n", mode.value);
 }
 
 Expected<void> run(const AnalyseArguments& options) {
@@ -49,12 +49,12 @@ Expected<void> run(const AnalyseArguments& options) {
   if (!document) return std::unexpected(document.error());
   Session session(std::move(*document));
   if (auto done = execute(session, *commands); !done) return std::unexpected(done.error());
-  if (!session.state().selected) return input_error("no surface is selected", options.script, "select one");
-  const auto grids = result_grids(session.state(), options.samples);
+  if (session.selection().empty()) return input_error("no surface is selected", options.script, "select one");
+  const auto grids = result_grids(session, options.samples);
   if (!grids) return std::unexpected(grids.error());
-  const auto json = analysis_json(session.state(), *grids);
+  const auto json = analysis_json(session, *grids);
   if (!json) return std::unexpected(json.error());
-  print_summary(options, session.state(), *grids);
+  print_summary(options, session, *grids);
   if (!options.vtu.empty()) {
     if (auto done = write_output(options.vtu, vtu_text(*grids)); !done) return done;
     say("wrote {}\n", options.vtu);

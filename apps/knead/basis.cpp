@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "cli.hpp"
-#include "knead/spline/basis_integral.hpp"
-#include "knead/spline/jumps.hpp"
+#include "knead/spline/basis.hpp"
 #include "knots_option.hpp"
 #include "say.hpp"
 

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <limits>
 
-#include "knead/exchange/compression.hpp"
 #include "knead/exchange/file_io.hpp"
 
 namespace knead::cli {

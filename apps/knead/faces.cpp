@@ -33,24 +33,24 @@ void print_visible(const FileVisible& v) {
 
 }  // namespace
 
-void print_edges(const SessionState& state) {
-  for (const auto& [index, report] : report_edges(state)) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+void print_edges(const Session& session) {
+  const std::vector<SessionSurface> surfaces = session.surfaces();
+  for (const EdgesReport& report : report_edges(session)) {
+    const SessionSurface& s = surfaces[static_cast<std::size_t>(report.surface)];
     int held = 0;
     double largest = 0;
-    for (const TrimReport::Edge& edge : report.edges) {
-      held += edge.held.order >= 0 ? 1 : 0;
-      if (edge.held.order >= 0) largest = std::max(largest, edge.deviation);
+    for (const EdgeReport& edge : report.edges) {
+      const bool holds = edge.held;
+      held += holds ? 1 : 0;
+      if (holds) largest = std::max(largest, edge.deviation);
     }
     say("  {}: {} of {} edges held, {} of {} control points free, largest deviation along held edges {:.2g} {}", s.id,
         held, report.edges.size(), report.free, s.current->size(), largest, s.unit);
-    say("; largest edge gap {:.2g} {} (at {} points)\n", report.largest, s.unit, report.samples);
+    say("; largest edge gap {:.2g} {} (at {} points)\n", report.largest_gap, s.unit, report.samples);
   }
-  for (const FollowedEdge& edge : state.followed) {
-    const auto angles = angles_at(state, edge.id);
-    if (!angles) continue;
+  for (const FollowedReport& edge : report_followed(session)) {
     say("  edge {} follows smoothly, with at most {:.2g} degrees between its tangent planes, {:.2g} as opened\n",
-        edge.id, in_degrees(angles->angle), in_degrees(angles->angle_before));
+        edge.id, in_degrees(edge.angle), in_degrees(edge.angle_before));
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "knead/exchange/left_out.hpp"
+#include "knead/exchange/source.hpp"
 
 namespace knead::cli {
 

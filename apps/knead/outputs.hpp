@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "knead/base/error.hpp"
-#include "knead/session/save_faces.hpp"
+#include "knead/session/session.hpp"
 
 namespace knead::cli {
 

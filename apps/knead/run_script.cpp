@@ -8,7 +8,6 @@
 #include "cli.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/script_error.hpp"
 #include "progress.hpp"
 #include "working.hpp"
 

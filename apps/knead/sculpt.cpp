@@ -11,14 +11,12 @@
 #include "cli.hpp"
 #include "faces.hpp"
 #include "knead/base/printable.hpp"
-#include "knead/exchange/compression.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/save_faces.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/report.hpp"
 #include "knead/session/session.hpp"
-#include "knead/tool/describe_shape.hpp"
 #include "outputs.hpp"
 #include "picture.hpp"
 #include "progress.hpp"
@@ -36,26 +34,8 @@ struct SculptArguments {
   [[nodiscard]] const std::string& name() const { return fresh ? output : file; }
 };
 
-/// "box of sizes 10 x 20 x 5, rounding 2"
-std::string in_words(const Shape& shape) {
-  const Type& shapes = type_of<Shape>();
-  const Type& type = *shapes.variants[shape.index()];
-  std::string text(type.name), separator = " of ";
-  for (const Field& field : type.fields) {
-    if (!field.type->numeric()) continue;
-    const auto* numbers = static_cast<const double*>(field.of(shapes.part(&shape)));
-    const std::size_t count = field.type->kind == Kind::array ? field.type->length : 1;
-    std::string values;
-    for (std::size_t k = 0; k < count; ++k) {
-      values += fmt::format("{}{:.4g}", k == 0 ? "" : " x ", numbers[k] * field.factor);
-    }
-    text += fmt::format("{}{} {}", std::exchange(separator, ", "), field.name, values);
-  }
-  return text;
-}
-
-void print_tools(const SessionState& state) {
-  for (const Tool& t : state.tools) {
+void print_tools(const Session& session) {
+  for (const Tool& t : session.tools()) {
     const Point& c = t.shape.placement().position;
     say("  tool {}: {} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", printable(t.name),
         in_words(t.shape.shape()), c.x(), c.y(), c.z(),
@@ -66,48 +46,46 @@ void print_tools(const SessionState& state) {
 }
 
 void print_summary(const SculptArguments& options, const Session& session, const Outcome& o) {
-  const SessionState& state = session.state();
   const std::string& file = options.name();
-  if (state.body) {
-    const SceneBody& b = state.bodies[static_cast<std::size_t>(*state.body)];
-    const ShapeCommon& common = common_of(b);
-    say("{}: {} {}{}, lengths in {}\n", file, kind_of(b), common.id,
-        common.name.empty() ? "" : " \"" + printable(common.name) + "\"", common.unit);
-    say("  degree {}, net {}\n", fmt::join(degrees_of(b), " x "), fmt::join(net_of(b), " x "));
-    print_tools(state);
-  } else if (!state.selected) {
+  const std::vector<SessionSurface> surfaces = session.surfaces();
+  const std::vector<int> selection = session.selection();
+  if (const auto b = report_body(session)) {
+    say("{}: {} {}{}, lengths in {}\n", file, b->kind, b->id, b->name.empty() ? "" : " \"" + printable(b->name) + "\"",
+        b->unit);
+    say("  degree {}, net {}\n", fmt::join(b->degrees, " x "), fmt::join(b->net, " x "));
+    print_tools(session);
+  } else if (selection.empty()) {
     say("{}: no surface selected\n", file);
   } else {
-    for (int index : state.selection()) {
-      const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+    for (int index : selection) {
+      const SessionSurface& s = surfaces[static_cast<std::size_t>(index)];
       const auto [m, n] = s.current->net();
       say("{}: surface {}{}, lengths in {}\n", file, s.id, s.name.empty() ? "" : " \"" + printable(s.name) + "\"",
           s.unit);
       say("  degree {} x {}, net {} x {}, {}\n", s.current->knots(0).degree(), s.current->knots(1).degree(), m, n,
           s.current->rational() ? "rational" : "polynomial");
     }
-    print_tools(state);
+    print_tools(session);
   }
   for (const std::string& note : o.notes) say("  {}\n", printable(note, 2000));
-  print_edges(state);
+  print_edges(session);
   for (const RepeatedSurface& r : o.places) {
     say("  {}: its part \"{}\" stands in {} places of the assembly, and has changed in all of them\n", r.surface,
         printable(r.part), r.places);
   }
-  for (const SeamReport& s : state.seam_reports) {
-    say("  seam {} - {}: {}{}{}\n", name_of(state, s.seam.a), name_of(state, s.seam.b), name_of(s.continuity),
-        s.reason.empty() ? "" : ", ", s.reason);
+  for (const SeamSummary& s : report_seams(session)) {
+    say("  seam {} - {}: {}{}{}\n", s.a, s.b, s.continuity, s.reason.empty() ? "" : ", ", s.reason);
   }
-  if (!state.steps.empty()) {
-    say("  {} step{}, {:.3g} ms each ({:.3g} s in all), residual {:.2g}\n", state.steps.size(),
-        state.steps.size() == 1 ? "" : "s", 1e3 * o.time / static_cast<double>(state.steps.size()), o.time, o.residual);
+  if (const std::vector<StepRecord> steps = session.steps(); !steps.empty()) {
+    say("  {} step{}, {:.3g} ms each ({:.3g} s in all), residual {:.2g}\n", steps.size(), steps.size() == 1 ? "" : "s",
+        1e3 * o.time / static_cast<double>(steps.size()), o.time, o.residual);
     say("  largest displacement {:.6g}, {} control point{} moved\n", o.largest_displacement, o.moved,
         o.moved == 1 ? "" : "s");
     if (std::isfinite(o.energy_after)) {
       say("  energy {:.6g} before, {:.6g} after\n", o.energy_before, o.energy_after);
     }
     if (o.gap > 0) say("  deepest entry into a tool: {:.2g} of its size\n", o.gap);
-    const StepRecord& last = state.steps.back();
+    const StepRecord& last = steps.back();
     if (!last.note.empty()) {
       say(stderr, "knead: warning: {}\n", printable(last.note, 2000));
     } else if (!last.converged) {
@@ -167,8 +145,8 @@ Expected<void> write_results(const SculptArguments& options, const Session& sess
     say("lengths are written as millimetres: {} does not say what they are\n", options.file);
   }
   Besides besides;
-  if (!options.report.empty()) besides.write(options.report, "--report", report_json(session.state(), o));
-  if (!options.picture.empty()) besides.write(options.picture, "--picture", picture_of(session.state()));
+  if (!options.report.empty()) besides.write(options.report, "--report", report_json(session, o));
+  if (!options.picture.empty()) besides.write(options.picture, "--picture", picture_of(session));
   if (auto done = write_output(options.output, *bytes); !done) return done;
   say("wrote {} ({} surface{}{} changed)\n", options.output, o.surfaces, o.surfaces == 1 ? "" : "s",
       o.bodies == 0

@@ -13,7 +13,7 @@
 #include "image_file.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/nrrd.hpp"
-#include "knead/session/script_error.hpp"
+#include "knead/session/command_json.hpp"
 #include "knead/session/snake_script.hpp"
 #include "knead/session/snake_text.hpp"
 #include "outputs.hpp"

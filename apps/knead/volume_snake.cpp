@@ -9,7 +9,7 @@
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/nrrd.hpp"
-#include "knead/session/script_error.hpp"
+#include "knead/session/command_json.hpp"
 #include "knead/session/snake_text.hpp"
 #include "knead/session/volume_snake_script.hpp"
 #include "knead/spline/spline_refinement.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "answers.hpp"
-#include "knead/spline/jumps.hpp"
+#include "knead/spline/basis.hpp"
 #include "lab_curves.hpp"
 #include "lab_gramians.hpp"
 

@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "knead/spline/basis.hpp"
-#include "knead/spline/basis_integral.hpp"
-#include "knead/spline/jumps.hpp"
 
 namespace knead::lab {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "knead/session/session.hpp"
+#include "session/session_state.hpp"
 #include "studio_picture.hpp"
 #include "studio_trims.hpp"
 

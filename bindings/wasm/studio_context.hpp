@@ -1,9 +1,9 @@
 #pragma once
 
-#include "knead/brep/context_faces.hpp"
+#include "brep/tessellation/context_faces.hpp"
 #include "knead/brep/model.hpp"
 #include "knead/session/document.hpp"
-#include "knead/session/session.hpp"
+#include "session/session_state.hpp"
 
 namespace knead::studio {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "knead/scene/display_range.hpp"
-#include "knead/scene/held_points.hpp"
-#include "knead/spline/grid_lines.hpp"
+#include "scene/display_range.hpp"
+#include "scene/held_points.hpp"
+#include "spline/grid_lines.hpp"
 
 namespace knead::studio {
 

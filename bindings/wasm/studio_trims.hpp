@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "knead/brep/trim_loops.hpp"
-#include "knead/scene/display.hpp"
+#include "brep/trim_loops.hpp"
 #include "knead/session/document.hpp"
-#include "knead/session/session.hpp"
+#include "scene/display.hpp"
+#include "session/session_state.hpp"
 
 namespace knead::studio {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "knead/spline/evaluate.hpp"
-#include "knead/spline/grid_lines.hpp"
+#include "spline/grid_lines.hpp"
 
 namespace knead::studio {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "knead/base/describe.hpp"
+#include "base/describe.hpp"
 #include "knead/session/command.hpp"
 
 namespace knead::studio {

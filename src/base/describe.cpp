@@ -1,4 +1,4 @@
-#include "knead/base/describe.hpp"
+#include "describe.hpp"
 
 #include <fmt/format.h>
 

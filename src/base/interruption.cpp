@@ -1,4 +1,4 @@
-#include "knead/base/interruption.hpp"
+#include "interruption.hpp"
 
 #include <utility>
 

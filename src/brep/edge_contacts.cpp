@@ -1,4 +1,4 @@
-#include "knead/brep/edge_contacts.hpp"
+#include "edge_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

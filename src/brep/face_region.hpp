@@ -6,7 +6,7 @@
 #include "brep/surfaces/surface_foot.hpp"
 #include "brep/tessellation/parameter_region.hpp"
 #include "face_loops.hpp"
-#include "knead/brep/trim_loops.hpp"
+#include "trim_loops.hpp"
 
 namespace knead::brep {
 

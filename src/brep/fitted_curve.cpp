@@ -5,7 +5,7 @@
 
 #include "boundary_curve.hpp"
 #include "knead/spline/evaluate.hpp"
-#include "spline/greville_interpolation.hpp"
+#include "spline/interpolation/greville_interpolation.hpp"
 
 namespace knead::brep {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/brep/shared_edge.hpp"
+#include "shared_edge.hpp"
 
 namespace knead::brep {
 

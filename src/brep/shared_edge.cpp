@@ -1,4 +1,4 @@
-#include "knead/brep/shared_edge.hpp"
+#include "shared_edge.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "knead/brep/trim_loops.hpp"
+#include "trim_loops.hpp"
 
 #include <unordered_map>
 

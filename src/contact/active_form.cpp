@@ -1,4 +1,4 @@
-#include "knead/contact/active_form.hpp"
+#include "active_form.hpp"
 
 #include "elastic_step.hpp"
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "active_run.hpp"
-#include "knead/base/interruption.hpp"
+#include "base/interruption.hpp"
 
 namespace knead {
 namespace {

@@ -1,4 +1,4 @@
-#include "knead/contact/active_shell.hpp"
+#include "active_shell.hpp"
 
 #include "elastic_step.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "active_model.hpp"
-#include "knead/base/interruption.hpp"
+#include "base/interruption.hpp"
 #include "knead/energy/field_assembler.hpp"
 #include "solve/coordinate_map.hpp"
 #include "solve/eigen_problem.hpp"

@@ -4,9 +4,10 @@
 #include <cmath>
 
 #include "active_run.hpp"
+#include "base/interruption.hpp"
 #include "energy/surface_forces.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/base/interruption.hpp"
+#include "solve/dissection.hpp"
 
 namespace knead {
 namespace {

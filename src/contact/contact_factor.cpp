@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "knead/base/interruption.hpp"
+#include "base/interruption.hpp"
 
 namespace knead {
 namespace {

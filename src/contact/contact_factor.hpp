@@ -5,6 +5,7 @@
 #include "contact_anchor.hpp"
 #include "contact_newton.hpp"
 #include "coordinate_sum.hpp"
+#include "solve/dissection.hpp"
 
 namespace knead {
 

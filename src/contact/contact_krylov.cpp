@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/interruption.hpp"
 #include "contact_limits.hpp"
-#include "knead/base/interruption.hpp"
 
 namespace knead {
 namespace {

@@ -5,11 +5,11 @@
 #include <limits>
 #include <optional>
 
+#include "base/interruption.hpp"
 #include "contact_directions.hpp"
 #include "contact_factor.hpp"
 #include "contact_krylov.hpp"
 #include "contact_limits.hpp"
-#include "knead/base/interruption.hpp"
 
 namespace knead {
 namespace {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "solve/dissection.hpp"
 #include "solve/step_inverse.hpp"
 #include "tool/potential.hpp"
 

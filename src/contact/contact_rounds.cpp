@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/base/interruption.hpp"
+#include "base/interruption.hpp"
 #include "largest_displacement.hpp"
 
 namespace knead {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/interruption.hpp"
 #include "coordinate_sum.hpp"
-#include "knead/base/interruption.hpp"
 #include "knead/solve/eigenmodes.hpp"
 
 namespace knead {

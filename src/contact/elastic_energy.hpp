@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "knead/energy/form_energy.hpp"
-#include "knead/energy/shell_structure.hpp"
+#include "energy/form_energy.hpp"
+#include "energy/shell_structure.hpp"
 
 namespace knead {
 

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/interruption.hpp"
 #include "elastic_descent.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/base/interruption.hpp"
+#include "solve/dissection.hpp"
 
 namespace knead {
 namespace {

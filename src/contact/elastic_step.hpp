@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "active_shell.hpp"
 #include "contact_rounds.hpp"
 #include "elastic_energy.hpp"
-#include "knead/contact/active_shell.hpp"
 #include "solve/constraint_space.hpp"
 #include "solve/coordinate_restriction.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "knead/energy/domain_scaling.hpp"
 #include "knead/energy/stiffness.hpp"
-#include "knead/spline/site_values.hpp"
+#include "spline/interpolation/site_values.hpp"
 
 namespace knead {
 

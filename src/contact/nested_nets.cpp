@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "knead/spline/knot_refinement.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
 namespace {

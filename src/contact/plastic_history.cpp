@@ -1,4 +1,4 @@
-#include "knead/contact/plastic_history.hpp"
+#include "plastic_history.hpp"
 
 #include <cassert>
 

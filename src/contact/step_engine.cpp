@@ -6,9 +6,10 @@
 #include <cmath>
 
 #include "base/decompositions.hpp"
+#include "base/interruption.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/base/interruption.hpp"
 #include "nested_nets.hpp"
+#include "solve/dissection.hpp"
 
 namespace knead {
 namespace {

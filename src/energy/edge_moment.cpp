@@ -1,4 +1,4 @@
-#include "knead/energy/edge_moment.hpp"
+#include "knead/energy/loads.hpp"
 
 #include <fmt/format.h>
 

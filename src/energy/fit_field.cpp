@@ -1,11 +1,11 @@
-#include "knead/energy/fit_field.hpp"
+#include "knead/energy/paint.hpp"
 
 #include <fmt/format.h>
 
 #include <string>
 
 #include "span_samples.hpp"
-#include "spline/greville_interpolation.hpp"
+#include "spline/interpolation/greville_interpolation.hpp"
 
 namespace knead {
 namespace {

@@ -1,4 +1,4 @@
-#include "knead/energy/form_energy.hpp"
+#include "form_energy.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/decompositions.hpp"
-#include "knead/energy/form_energy.hpp"
+#include "form_energy.hpp"
 
 namespace knead::detail {
 

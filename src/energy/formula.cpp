@@ -1,4 +1,4 @@
-#include "knead/energy/formula.hpp"
+#include "formula.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

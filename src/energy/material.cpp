@@ -1,4 +1,4 @@
-#include "knead/energy/material.hpp"
+#include "knead/energy/energy.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "knead/energy/shell_crease.hpp"
+#include "shell_crease.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "knead/energy/shell_energy.hpp"
-#include "knead/spline/basis_integral.hpp"
+#include "knead/spline/basis.hpp"
 
 namespace knead {
 namespace {

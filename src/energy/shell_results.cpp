@@ -1,4 +1,4 @@
-#include "knead/energy/shell_results.hpp"
+#include "knead/energy/shell_energy.hpp"
 
 #include <cmath>
 

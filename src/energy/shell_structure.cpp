@@ -1,4 +1,4 @@
-#include "knead/energy/shell_structure.hpp"
+#include "shell_structure.hpp"
 
 #include <utility>
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/counts.hpp"
-#include "spline/greville_interpolation.hpp"
+#include "spline/interpolation/greville_interpolation.hpp"
 #include "spline/tensor_contraction.hpp"
 
 namespace knead {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "knead/exchange/compression.hpp"
+#include "knead/exchange/file_io.hpp"
 
 namespace knead::detail {
 

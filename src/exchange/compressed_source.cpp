@@ -1,6 +1,6 @@
 #include "compressed_source.hpp"
 
-#include "knead/exchange/compression.hpp"
+#include "knead/exchange/file_io.hpp"
 
 namespace knead::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "knead/exchange/compression.hpp"
+#include "knead/exchange/file_io.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // What names and first bytes tell of compression; the rest needs zlib.
-#include "knead/exchange/compression.hpp"
+#include "knead/exchange/file_io.hpp"
 
 namespace knead {
 namespace {

@@ -10,7 +10,7 @@
 #include "exchange/meshes/surface_mesh.hpp"
 #include "foreign_format.hpp"
 #include "format_list.hpp"
-#include "knead/exchange/compression.hpp"
+#include "knead/exchange/file_io.hpp"
 
 namespace knead {
 namespace {

@@ -1,4 +1,4 @@
-#include "knead/exchange/left_out.hpp"
+#include "knead/exchange/source.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "knead/exchange/left_out.hpp"
+#include "knead/exchange/source.hpp"
 
 namespace knead::detail {
 

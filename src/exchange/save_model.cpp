@@ -2,6 +2,8 @@
 
 #include <unordered_map>
 
+#include "brep/tessellation/model_mesh.hpp"
+
 namespace knead {
 
 Expected<ModelFile> save_model(const Source& source, const Format& format, double tolerance, SaveOptions options) {

@@ -1,4 +1,4 @@
-#include "knead/hold/body_constraints.hpp"
+#include "body_constraints.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "knead/hold/edge_coupling.hpp"
+#include "edge_coupling.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "knead/hold/seam_coupling.hpp"
+#include "knead/hold/seams.hpp"
 
 #include <fmt/format.h>
 

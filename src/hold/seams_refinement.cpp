@@ -2,7 +2,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "knead/hold/seam_coupling.hpp"
+#include "knead/hold/seams.hpp"
 #include "seams_space.hpp"
 
 namespace knead {

@@ -1,4 +1,4 @@
-#include "knead/hold/trim_hold.hpp"
+#include "trim_hold.hpp"
 
 #include <fmt/format.h>
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <optional>
 
-#include "knead/hold/trim_hold.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "trim_hold.hpp"
 
 namespace knead {
 namespace {

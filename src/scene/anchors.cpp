@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "knead/scene/trims.hpp"
 #include "scene/model/dead_loads.hpp"
+#include "trims.hpp"
 
 namespace knead {
 namespace {

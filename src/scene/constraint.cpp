@@ -1,4 +1,4 @@
-#include "knead/scene/constraint.hpp"
+#include "constraint.hpp"
 
 namespace knead {
 

@@ -1,4 +1,4 @@
-#include "knead/scene/display.hpp"
+#include "display.hpp"
 
 #include <algorithm>
 #include <cmath>

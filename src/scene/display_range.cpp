@@ -1,4 +1,4 @@
-#include "knead/scene/display_range.hpp"
+#include "display_range.hpp"
 
 #include <algorithm>
 #include <cmath>

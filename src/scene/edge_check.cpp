@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/decompositions.hpp"
-#include "knead/brep/shared_edge.hpp"
+#include "brep/shared_edge.hpp"
 #include "knead/spline/curvature.hpp"
 
 namespace knead {

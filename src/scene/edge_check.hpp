@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "knead/brep/edge_contacts.hpp"
-#include "knead/scene/scene.hpp"
+#include "brep/edge_contacts.hpp"
+#include "scene.hpp"
 
 namespace knead {
 

@@ -1,4 +1,4 @@
-#include "knead/scene/energy_density.hpp"
+#include "energy_density.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "knead/scene/followed.hpp"
+#include "followed.hpp"
 
 #include <algorithm>
 #include <cmath>

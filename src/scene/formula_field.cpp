@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "knead/energy/formula.hpp"
+#include "energy/formula.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "knead/energy/fit_field.hpp"
+#include "knead/energy/paint.hpp"
 #include "knead/spline/spline.hpp"
 
 namespace knead {

@@ -1,14 +1,14 @@
-#include "knead/scene/parted_edges.hpp"
+#include "parted_edges.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "brep/shared_edge.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/brep/shared_edge.hpp"
-#include "knead/scene/trims.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "trims.hpp"
 
 namespace knead {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "knead/scene/constraint.hpp"
+#include "constraint.hpp"
 
 namespace knead {
 

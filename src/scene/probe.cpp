@@ -1,7 +1,7 @@
-#include "knead/scene/scene.hpp"
 #include "knead/spline/curvature.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "places.hpp"
+#include "scene.hpp"
 
 namespace knead {
 

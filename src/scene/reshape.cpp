@@ -3,9 +3,9 @@
 #include <map>
 
 #include "knead/base/error_code.hpp"
-#include "knead/scene/lattice.hpp"
 #include "knead/spline/extremum.hpp"
-#include "knead/spline/knot_removal.hpp"
+#include "knead/spline/spline_refinement.hpp"
+#include "lattice.hpp"
 #include "mask.hpp"
 
 namespace knead {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "knead/scene/scene.hpp"
+#include "scene.hpp"
 
 namespace knead {
 

@@ -1,4 +1,4 @@
-#include "knead/scene/scene.hpp"
+#include "scene.hpp"
 
 namespace knead {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "knead/scene/scene.hpp"
+#include "scene.hpp"
 
 namespace knead {
 

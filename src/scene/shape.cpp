@@ -1,4 +1,4 @@
-#include "knead/scene/shape.hpp"
+#include "shape.hpp"
 
 #include <fmt/format.h>
 

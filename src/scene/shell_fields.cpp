@@ -1,4 +1,4 @@
-#include "knead/scene/shell_fields.hpp"
+#include "shell_fields.hpp"
 
 #include <fmt/format.h>
 

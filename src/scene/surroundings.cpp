@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "brep/trim_loops.hpp"
+#include "display.hpp"
 #include "knead/brep/assembly.hpp"
 #include "knead/brep/face_conversion.hpp"
-#include "knead/brep/trim_loops.hpp"
-#include "knead/scene/display.hpp"
 
 namespace knead {
 

@@ -1,4 +1,4 @@
-#include "knead/scene/trims.hpp"
+#include "trims.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "knead/scene/followed.hpp"
+#include "followed.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 

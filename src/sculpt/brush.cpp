@@ -1,4 +1,4 @@
-#include "knead/sculpt/brush.hpp"
+#include "brush.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "knead/sculpt/lattice.hpp"
+#include "lattice.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "knead/sculpt/stamp.hpp"
+#include "stamp.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "knead/sculpt/brush.hpp"
+#include "brush.hpp"
 
 namespace knead {
 namespace {

@@ -1,4 +1,4 @@
-#include "knead/sculpt/tool_path.hpp"
+#include "tool_path.hpp"
 
 namespace knead {
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "knead/spline/site_values.hpp"
+#include "spline/interpolation/site_values.hpp"
 
 namespace knead {
 

@@ -2,8 +2,8 @@
 #include <utility>
 
 #include "commands.hpp"
-#include "knead/session/session.hpp"
 #include "same_scene.hpp"
+#include "session_state.hpp"
 
 namespace knead {
 namespace {

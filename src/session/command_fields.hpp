@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "knead/base/describe.hpp"
-#include "knead/session/session.hpp"
+#include "base/describe.hpp"
+#include "session_state.hpp"
 
 namespace knead {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "knead/scene/constraint.hpp"
+#include "scene/constraint.hpp"
 
 namespace knead {
 

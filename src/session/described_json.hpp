@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/describe.hpp"
 #include "json.hpp"
-#include "knead/base/describe.hpp"
 
 namespace knead {
 

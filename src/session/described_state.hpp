@@ -1,7 +1,7 @@
 #pragma once
 
-#include "knead/base/describe.hpp"
-#include "knead/session/session.hpp"
+#include "base/describe.hpp"
+#include "session_state.hpp"
 
 namespace knead {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "knead/session/fixes.hpp"
-#include "knead/session/note.hpp"
+#include "fixes.hpp"
+#include "knead/session/session.hpp"
 
 namespace knead {
 

@@ -8,6 +8,7 @@
 
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
+#include "scene/shape.hpp"
 
 namespace knead {
 
@@ -72,7 +73,7 @@ bool same_bits(const Surface& a, const Surface& b) {
 }  // namespace
 
 Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, std::span<const std::string> followed,
-                                     std::span<const SceneBody> bodies) const {
+                                     std::span<const DocumentBody> bodies) const {
   if (source_) {
     std::vector<std::shared_ptr<const Surface>> present;
     const auto& opened = source_->surfaces();
@@ -83,9 +84,9 @@ Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, 
     }
     std::vector<std::shared_ptr<const Curve>> curves;
     for (const SourceCurve& c : source_->curves()) {
-      const auto body = std::ranges::find(bodies, c.id, [](const SceneBody& b) { return common_of(b).id; });
-      const auto* curve = body == bodies.end() ? nullptr : std::get_if<SceneCurve>(&*body);
-      curves.push_back(curve != nullptr ? curve->current : c.curve);
+      const auto body = std::ranges::find(bodies, c.id, &DocumentBody::id);
+      const auto* curve = body == bodies.end() ? nullptr : std::get_if<std::shared_ptr<const Curve>>(&body->shape);
+      curves.push_back(curve != nullptr ? *curve : c.curve);
     }
     return source_->save(present, followed, curves);
   }
@@ -93,7 +94,7 @@ Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, 
 }
 
 Expected<std::string> Document::save_as(const Format& format, std::span<const DocumentSurface> surfaces,
-                                        std::span<const SceneBody> bodies, SaveOptions options) const {
+                                        std::span<const DocumentBody> bodies, SaveOptions options) const {
   if (model() != nullptr) {
     return input_error(fmt::format("a new file would lose the faces of this {} file", source_->format()), {},
                        "write it in its own format");
@@ -102,21 +103,20 @@ Expected<std::string> Document::save_as(const Format& format, std::span<const Do
     return input_error(fmt::format("new {} files cannot be written", format.name), {}, "write STEP");
   std::vector<NamedSurface> made;
   for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface, {}, s.id});
-  options.unit = !surfaces.empty() ? surfaces.front().unit : !bodies.empty() ? common_of(bodies.front()).unit : unit_;
-  for (const SceneBody& body : bodies) {
-    if (const auto* curve = std::get_if<SceneCurve>(&body)) {
-      options.curves.push_back({curve->name, *curve->current, curve->id});
+  options.unit = !surfaces.empty() ? surfaces.front().unit : !bodies.empty() ? bodies.front().unit : unit_;
+  for (const DocumentBody& body : bodies) {
+    if (const auto* curve = std::get_if<std::shared_ptr<const Curve>>(&body.shape)) {
+      options.curves.push_back({body.name, **curve, body.id});
       continue;
     }
-    const SceneVolume& volume = std::get<SceneVolume>(body);
-    auto sides = sides_of(*volume.current);
-    if (!sides) return std::unexpected(sides.error().within(volume.id));
+    auto sides = sides_of(*std::get<std::shared_ptr<const Volume>>(body.shape));
+    if (!sides) return std::unexpected(sides.error().within(body.id));
     static constexpr const char* names[] = {"u0", "u1", "v0", "v1", "w0", "w1"};
     for (std::size_t k = 0; k < sides->size(); ++k) {
-      made.push_back({fmt::format("{} {}", volume.name, names[k]),
+      made.push_back({fmt::format("{} {}", body.name, names[k]),
                       std::move((*sides)[k]),
                       {},
-                      fmt::format("{} {}", volume.id, names[k])});
+                      fmt::format("{} {}", body.id, names[k])});
     }
   }
   options.title = name_;

@@ -1,4 +1,4 @@
-#include "knead/session/document_regions.hpp"
+#include "document_regions.hpp"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 #include <numbers>
 
+#include "document_regions.hpp"
 #include "info_values.hpp"
-#include "knead/scene/trims.hpp"
-#include "knead/session/document_regions.hpp"
 #include "knead/session/session_info.hpp"
 #include "scene/edge_check.hpp"
+#include "scene/trims.hpp"
 
 namespace knead {
 

@@ -1,4 +1,4 @@
-#include "knead/session/fixes.hpp"
+#include "fixes.hpp"
 
 #include <array>
 #include <utility>

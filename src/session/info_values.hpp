@@ -4,7 +4,7 @@
 
 #include "described_json.hpp"
 #include "described_state.hpp"
-#include "knead/session/session.hpp"
+#include "session_state.hpp"
 
 namespace knead {
 

@@ -3,8 +3,8 @@
 #include "commands.hpp"
 #include "described_archive.hpp"
 #include "diagnostic_info.hpp"
-#include "knead/tool/describe_shape.hpp"
 #include "restated.hpp"
+#include "tool/describe_shape.hpp"
 
 // Values of states that are kept in another form than they have, and lists that copies share.
 

@@ -9,8 +9,8 @@
 #include "acts/limits.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/revolution.hpp"
-#include "knead/spline/site_values.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "spline/interpolation/site_values.hpp"
 
 namespace knead {
 namespace {

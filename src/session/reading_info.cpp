@@ -1,9 +1,9 @@
 #include "brep/face_point.hpp"
 #include "command_fields.hpp"
 #include "info_values.hpp"
-#include "knead/scene/shell_fields.hpp"
 #include "knead/session/session_info.hpp"
 #include "scene/places.hpp"
+#include "scene/shell_fields.hpp"
 
 namespace knead {
 

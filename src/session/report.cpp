@@ -8,7 +8,12 @@
 
 #include "described_state.hpp"
 #include "knead/brep/assembly.hpp"
-#include "knead/scene/parted_edges.hpp"
+#include "scene/followed.hpp"
+#include "scene/parted_edges.hpp"
+#include "scene/shell_fields.hpp"
+#include "scene/trims.hpp"
+#include "session_state.hpp"
+#include "tool/describe_shape.hpp"
 
 namespace knead {
 namespace {
@@ -62,7 +67,38 @@ std::vector<std::pair<std::string, Points>> shapes_on(const SessionState& state,
   return shapes;
 }
 
+std::string_view hold_of(const TrimReport::Edge& edge) {
+  constexpr std::string_view names[] = {"free", "position", "clamped", "curvature"};
+  return edge.follows ? "follow" : names[edge.held.order + 1];
+}
+
+/// The angles between the tangent planes at an edge that follows and was smooth as opened; none for other edges.
+std::optional<Parting> angles_at(const SessionState& state, const std::string& edge) {
+  const auto found = std::ranges::find(state.followed, edge, &FollowedEdge::id);
+  if (found == state.followed.end() || !found->course || !is_smooth(*found->course)) return std::nullopt;
+  const auto measured = parting(state, *found->course);
+  return measured ? std::optional(*measured) : std::nullopt;
+}
+
 }  // namespace
+
+const Document& Session::document_of(const SessionState& state) const {
+  return state.document ? *state.document : document_;
+}
+const Document& Session::document() const { return document_of(state()); }
+
+std::vector<SessionSurface> Session::surfaces() const {
+  std::vector<SessionSurface> list;
+  for (const SceneSurface& s : state().surfaces) list.push_back({s.id, s.name, s.unit, s.opened, s.rest, s.current});
+  return list;
+}
+
+std::vector<int> Session::selection() const { return state().selection(); }
+const std::vector<Tool>& Session::tools() const { return state().tools; }
+std::vector<StepRecord> Session::steps() const { return {state().steps.begin(), state().steps.end()}; }
+const std::vector<ModeRecord>& Session::modes() const { return state().modes; }
+const std::vector<ModeRecord>& Session::buckling() const { return state().buckling; }
+const std::vector<Note>& Session::notes() const { return state().notes; }
 
 Outcome outcome_of(Session& session, std::size_t opened) {
   const SessionState& state = session.state();
@@ -104,40 +140,86 @@ Outcome outcome_of(Session& session, std::size_t opened) {
   return o;
 }
 
-std::vector<EdgesReport> report_edges(const SessionState& state) {
+std::vector<EdgesReport> report_edges(const Session& session) {
+  const SessionState& state = session.state();
   std::vector<EdgesReport> list;
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
     const SceneSurface& s = state.surfaces[k];
     const bool moved = s.current != s.opened;
     if (!s.visible || s.visible->edges.empty() || !(moved || holds_trims(s.constraints))) continue;
-    auto report = trim_report(s);
-    if (!report) continue;
-    list.push_back({static_cast<int>(k), *std::move(report)});
+    const auto trims = trim_report(s);
+    if (!trims) continue;
+    EdgesReport& report = list.emplace_back(static_cast<int>(k));
+    report.free = trims->free;
+    report.visible = trims->visible;
+    report.net = trims->net;
+    report.samples = trims->samples;
+    report.largest_gap = trims->largest;
+    for (const TrimReport::Edge& edge : trims->edges) {
+      const auto angles = edge.follows ? angles_at(state, edge.held.id) : std::nullopt;
+      report.edges.push_back({edge.held.id, hold_of(edge), edge.held.order >= 0, edge.held.along_lines,
+                              edge.held.points, edge.deviation, edge.neighbours,
+                              angles ? std::optional(std::array{angles->angle, angles->angle_before}) : std::nullopt});
+    }
   }
   return list;
 }
 
-std::string_view hold_of(const TrimReport::Edge& edge) {
-  constexpr std::string_view names[] = {"free", "position", "clamped", "curvature"};
-  return edge.follows ? "follow" : names[edge.held.order + 1];
+std::vector<FollowedReport> report_followed(const Session& session) {
+  std::vector<FollowedReport> list;
+  for (const FollowedEdge& edge : session.state().followed) {
+    if (const auto angles = angles_at(session.state(), edge.id))
+      list.push_back({edge.id, angles->angle, angles->angle_before});
+  }
+  return list;
 }
 
-std::optional<Parting> angles_at(const SessionState& state, const std::string& edge) {
-  const auto found = std::ranges::find(state.followed, edge, &FollowedEdge::id);
-  if (found == state.followed.end() || !found->course || !is_smooth(*found->course)) return std::nullopt;
-  const auto measured = parting(state, *found->course);
-  return measured ? std::optional(*measured) : std::nullopt;
+std::vector<SeamSummary> report_seams(const Session& session) {
+  const SessionState& state = session.state();
+  const auto side = [&](const PatchEdge& edge) {
+    return fmt::format("{} {}", state.surfaces[static_cast<std::size_t>(edge.patch)].id, edge_name(edge.edge));
+  };
+  std::vector<SeamSummary> list;
+  for (const SeamReport& s : state.seam_reports) {
+    const auto continuity = choices(s.continuity)[static_cast<std::size_t>(s.continuity)].name;
+    list.push_back({side(s.seam.a), side(s.seam.b), continuity, s.seam.gap, s.reason});
+  }
+  return list;
 }
 
-std::string_view name_of(SeamContinuity continuity) {
-  return choices(continuity)[static_cast<std::size_t>(continuity)].name;
+std::optional<BodyReport> report_body(const Session& session) {
+  const SessionState& state = session.state();
+  if (!state.body) return std::nullopt;
+  const SceneBody& body = state.bodies[static_cast<std::size_t>(*state.body)];
+  const ShapeCommon& common = common_of(body);
+  return BodyReport{kind_of(body), common.id, common.name, common.unit, degrees_of(body), net_of(body)};
 }
 
-std::string name_of(const SessionState& state, const PatchEdge& edge) {
-  return fmt::format("{} {}", state.surfaces[static_cast<std::size_t>(edge.patch)].id, edge_name(edge.edge));
+std::optional<ShellMaterial> shell_of(const Session& session, int surface) {
+  const auto& elasticity = session.state().surfaces[static_cast<std::size_t>(surface)].elasticity;
+  const auto* shell = std::get_if<ShellMaterial>(&elasticity);
+  return shell != nullptr ? std::optional(*shell) : std::nullopt;
 }
 
-Expected<std::vector<FieldGrid>> result_grids(const SessionState& state, int samples) {
+std::string in_words(const Shape& shape) {
+  const Type& shapes = type_of<Shape>();
+  const Type& type = *shapes.variants[shape.index()];
+  std::string text(type.name), separator = " of ";
+  for (const Field& field : type.fields) {
+    if (!field.type->numeric()) continue;
+    const auto* numbers = static_cast<const double*>(field.of(shapes.part(&shape)));
+    const std::size_t count = field.type->kind == Kind::array ? field.type->length : 1;
+    std::string values;
+    for (std::size_t k = 0; k < count; ++k) {
+      values += fmt::format("{}{:.4g}", k == 0 ? "" : " x ", numbers[k] * field.factor);
+    }
+    text += fmt::format("{}{} {}", std::exchange(separator, ", "), field.name, values);
+  }
+  return text;
+}
+
+Expected<std::vector<FieldGrid>> result_grids(const Session& session, int samples) {
+  const SessionState& state = session.state();
   std::vector<FieldGrid> grids;
   Eigen::Index first = 0;
   for (const int index : state.selection()) {

@@ -5,6 +5,7 @@
 
 #include "diagnostic_info.hpp"
 #include "info_values.hpp"
+#include "session_state.hpp"
 #include "knead/session/report.hpp"
 #include "knead/session/session_info.hpp"
 
@@ -54,7 +55,7 @@ static void describe(ReportedEdges& e, Fields& fields) {
 
 struct ReportedSeam {
   std::string a, b;
-  SeamContinuity continuity = SeamContinuity::none;
+  std::string continuity;
   double gap = 0;
   std::string reason;
 };
@@ -93,19 +94,20 @@ std::string modes_json(const SessionState& state) {
          rows_unless_empty("buckling", infos_of<BucklingInfo>(state.buckling));
 }
 
-std::vector<ReportedEdges> reported_edges(const SessionState& state) {
+std::vector<ReportedEdges> reported_edges(const Session& session) {
   constexpr double degrees = 180 / std::numbers::pi;
   std::vector<ReportedEdges> list;
-  for (const auto& [index, trims] : report_edges(state)) {
-    ReportedEdges& info = list.emplace_back(ReportedEdges{state.surfaces[static_cast<std::size_t>(index)].id, trims.net,
-                                                          trims.free, trims.visible, trims.largest, trims.samples});
-    for (const TrimReport::Edge& edge : trims.edges) {
-      info.edges.push_back({edge.held.id, std::string(hold_of(edge)), edge.held.along_lines, edge.held.points,
-                            edge.deviation, edge.neighbours});
-      const auto angles = edge.follows ? angles_at(state, edge.held.id) : std::nullopt;
-      if (!angles) continue;
-      info.edges.back().angle = angles->angle * degrees;
-      info.edges.back().angle_before = angles->angle_before * degrees;
+  const std::vector<SessionSurface> surfaces = session.surfaces();
+  for (const EdgesReport& r : report_edges(session)) {
+    const std::string& id = surfaces[static_cast<std::size_t>(r.surface)].id;
+    ReportedEdges& info =
+        list.emplace_back(ReportedEdges{id, r.net, r.free, r.visible, r.largest_gap, r.samples});
+    for (const EdgeReport& edge : r.edges) {
+      info.edges.push_back({edge.id, std::string(edge.hold), edge.along_lines, edge.control_points, edge.deviation,
+                            edge.faces});
+      if (!edge.angles) continue;
+      info.edges.back().angle = (*edge.angles)[0] * degrees;
+      info.edges.back().angle_before = (*edge.angles)[1] * degrees;
     }
   }
   return list;
@@ -113,12 +115,13 @@ std::vector<ReportedEdges> reported_edges(const SessionState& state) {
 
 }  // namespace
 
-Expected<std::string> report_json(const SessionState& state, const Outcome& outcome) {
+Expected<std::string> report_json(const Session& session, const Outcome& outcome) {
+  const SessionState& state = session.state();
   std::vector<ReportedStep> steps;
   for (const StepRecord& step : state.steps) steps.push_back({step});
   std::vector<ReportedSeam> seams;
-  for (const SeamReport& s : state.seam_reports) {
-    seams.push_back({name_of(state, s.seam.a), name_of(state, s.seam.b), s.continuity, s.seam.gap, s.reason});
+  for (const SeamSummary& s : report_seams(session)) {
+    seams.push_back({s.a, s.b, std::string(s.continuity), s.gap, s.reason});
   }
   std::vector<std::string> notes(outcome.notes.begin(), outcome.notes.end());
   std::vector<NoteInfo> coded;
@@ -131,7 +134,7 @@ Expected<std::string> report_json(const SessionState& state, const Outcome& outc
     if (!reading) return std::unexpected(reading.error());
     probes[probe.list].push_back({state.surfaces[static_cast<std::size_t>(probe.surface)].id, *std::move(reading)});
   }
-  const std::vector<ReportedEdges> edges = reported_edges(state);
+  const std::vector<ReportedEdges> edges = reported_edges(session);
   std::string text = "{\"steps\":" + rows(steps) + ",\n" + json_of(outcome).substr(1);
   text.back() = ',';  // the outcome's figures stand among the others
   text +=
@@ -142,7 +145,8 @@ Expected<std::string> report_json(const SessionState& state, const Outcome& outc
   return text + "}\n";
 }
 
-Expected<std::string> analysis_json(const SessionState& state, std::span<const FieldGrid> grids) {
+Expected<std::string> analysis_json(const Session& session, std::span<const FieldGrid> grids) {
+  const SessionState& state = session.state();
   std::string text;
   for (const FieldGrid& grid : grids) {
     text += fmt::format("{}\n {{\"id\":{},\"counts\":{},\n  \"points\":{}", text.empty() ? "" : ",",

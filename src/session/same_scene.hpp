@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knead/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace knead {
 

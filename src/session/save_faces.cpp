@@ -1,4 +1,4 @@
-#include "knead/session/save_faces.hpp"
+#include "knead/session/session.hpp"
 
 namespace knead {
 

@@ -1,8 +1,8 @@
-#include "knead/session/script_error.hpp"
+#include "knead/session/command_json.hpp"
 
 #include <fmt/format.h>
 
-#include "knead/exchange/compression.hpp"
+#include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/nrrd.hpp"
 

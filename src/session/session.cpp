@@ -13,13 +13,14 @@
 #include "acts/following.hpp"
 #include "acts/placing.hpp"
 #include "acts/selection.hpp"
+#include "base/interruption.hpp"
 #include "commands.hpp"
+#include "document_regions.hpp"
 #include "gestures/brushing.hpp"
 #include "gestures/stroking.hpp"
-#include "knead/base/interruption.hpp"
-#include "knead/scene/trims.hpp"
-#include "knead/session/document_regions.hpp"
 #include "knead/spline/extremum.hpp"
+#include "scene/trims.hpp"
+#include "session_state.hpp"
 
 namespace knead {
 
@@ -41,6 +42,24 @@ Session::Session(Document document) : document_(std::move(document)), cache_(std
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
+
+const Document& Session::document_of(const SessionState& state) const {
+  return state.document ? *state.document : document_;
+}
+const Document& Session::document() const { return document_of(state()); }
+
+std::vector<SessionSurface> Session::surfaces() const {
+  std::vector<SessionSurface> list;
+  for (const SceneSurface& s : state().surfaces) list.push_back({s.id, s.name, s.unit, s.opened, s.rest, s.current});
+  return list;
+}
+
+std::vector<int> Session::selection() const { return state().selection(); }
+const std::vector<Tool>& Session::tools() const { return state().tools; }
+std::vector<StepRecord> Session::steps() const { return {state().steps.begin(), state().steps.end()}; }
+const std::vector<ModeRecord>& Session::modes() const { return state().modes; }
+const std::vector<ModeRecord>& Session::buckling() const { return state().buckling; }
+const std::vector<Note>& Session::notes() const { return state().notes; }
 
 namespace {
 
@@ -369,6 +388,15 @@ std::vector<DocumentSurface> present_surfaces(const Session& session) {
   return surfaces;
 }
 
+/// The curves and volumes as they are now.
+std::vector<DocumentBody> present_bodies(const Scene& scene) {
+  std::vector<DocumentBody> bodies;
+  for (const SceneBody& body : scene.bodies) {
+    std::visit([&](const auto& b) { bodies.push_back({b.id, b.name, b.unit, b.current}); }, body);
+  }
+  return bodies;
+}
+
 }  // namespace
 
 Expected<std::string> Session::save() const {
@@ -377,11 +405,11 @@ Expected<std::string> Session::save() const {
   if (auto none = check_parted(*parted); !none) return std::unexpected(none.error());
   std::vector<std::string> followed;
   for (const FollowedEdge& edge : state().followed) followed.push_back(edge.id);
-  return document().save(present_surfaces(*this), followed, state().bodies);
+  return document().save(present_surfaces(*this), followed, present_bodies(state()));
 }
 
 Expected<std::string> Session::save_as(const Format& format, const SaveOptions& how) const {
-  return document().save_as(format, present_surfaces(*this), state().bodies, how);
+  return document().save_as(format, present_surfaces(*this), present_bodies(state()), how);
 }
 
 }  // namespace knead

@@ -8,8 +8,8 @@
 #include "described_text.hpp"
 #include "diagnostic_info.hpp"
 #include "info_values.hpp"
-#include "knead/tool/describe_shape.hpp"
 #include "restated.hpp"
+#include "tool/describe_shape.hpp"
 
 namespace knead {
 
@@ -285,9 +285,10 @@ std::string session_json(const Session& session) {
   return json_of(info);
 }
 
-std::string steps_json(const SessionState& state, std::size_t first) {
-  return json_of(std::vector<StepRecord>(
-      state.steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, state.steps.size())), state.steps.end()));
+std::string steps_json(const Session& session, std::size_t first) {
+  const auto& steps = session.state().steps;
+  return json_of(
+      std::vector<StepRecord>(steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, steps.size())), steps.end()));
 }
 
 std::string session_typescript(void (*more)(TypeScript&)) {

@@ -8,7 +8,7 @@
 
 #include "acts/selection.hpp"
 #include "described_json.hpp"
-#include "knead/tool/describe_shape.hpp"
+#include "tool/describe_shape.hpp"
 
 namespace knead {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "dissection.hpp"
 #include "independent_places.hpp"
 
 namespace knead {

@@ -5,6 +5,7 @@
 
 #include "constraint_space.hpp"
 #include "coordinate_restriction.hpp"
+#include "dissection.hpp"
 #include "knead/solve/sparse_cholesky.hpp"
 
 namespace knead {

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "dissection.hpp"
 #include "independent_places.hpp"
 
 namespace knead {

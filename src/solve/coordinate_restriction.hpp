@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "constraint_space.hpp"
-#include "knead/solve/dissection.hpp"
+#include "dissection.hpp"
 
 namespace knead {
 

@@ -1,4 +1,4 @@
-#include "knead/solve/dissection.hpp"
+#include "dissection.hpp"
 
 #include <Eigen/OrderingMethods>
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "constraint_space.hpp"
-#include "knead/solve/dissection.hpp"
+#include "dissection.hpp"
 
 namespace knead::detail {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/interruption.hpp"
 #include "base/parallel_for.hpp"
-#include "knead/base/interruption.hpp"
 
 namespace knead {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <utility>
 
+#include "base/interruption.hpp"
 #include "base/parallel_order.hpp"
-#include "knead/base/interruption.hpp"
-#include "knead/solve/dissection.hpp"
+#include "dissection.hpp"
 #include "panels.hpp"
 #include "simd/panel_kernels.hpp"
 

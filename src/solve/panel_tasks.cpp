@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/parallel_order.hpp"
-#include "knead/solve/dissection.hpp"
+#include "dissection.hpp"
 #include "panels.hpp"
 #include "simd/panel_kernels.hpp"
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "dissection.hpp"
 #include "knead/base/instruction_set.hpp"
 #include "knead/energy/stiffness.hpp"
 

@@ -1,4 +1,4 @@
-#include "knead/solve/shell_statics.hpp"
+#include "shell_statics.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "base/decompositions.hpp"
+#include "base/interruption.hpp"
 #include "coordinate_map.hpp"
-#include "knead/base/interruption.hpp"
 
 namespace knead {
 namespace {

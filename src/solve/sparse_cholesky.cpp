@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "knead/solve/dissection.hpp"
+#include "dissection.hpp"
 #include "panels.hpp"
 
 namespace knead {

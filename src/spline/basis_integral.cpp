@@ -1,4 +1,4 @@
-#include "knead/spline/basis_integral.hpp"
+#include "knead/spline/basis.hpp"
 
 #include <algorithm>
 #include <cassert>

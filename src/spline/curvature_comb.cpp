@@ -1,4 +1,4 @@
-#include "knead/spline/curvature_comb.hpp"
+#include "curvature_comb.hpp"
 
 #include <Eigen/Geometry>
 

@@ -7,7 +7,6 @@
 
 #include "base/parallel_for.hpp"
 #include "homogeneous.hpp"
-#include "knead/spline/evaluator.hpp"
 
 namespace knead {
 namespace {

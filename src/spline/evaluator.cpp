@@ -1,4 +1,4 @@
-#include "knead/spline/evaluator.hpp"
+#include "knead/spline/evaluate.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "knead/spline/grid_lines.hpp"
+#include "grid_lines.hpp"
 
 #include <algorithm>
 #include <cassert>

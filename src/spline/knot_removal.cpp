@@ -1,4 +1,4 @@
-#include "knead/spline/knot_removal.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-
-#include "knead/spline/knot_refinement.hpp"
 
 namespace knead {
 namespace {

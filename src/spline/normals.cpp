@@ -1,4 +1,4 @@
-#include "knead/spline/normals.hpp"
+#include "knead/spline/evaluate.hpp"
 
 #include <cassert>
 

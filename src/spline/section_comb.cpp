@@ -1,13 +1,13 @@
-#include "knead/spline/section_comb.hpp"
+#include "section_comb.hpp"
 
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <unordered_map>
 
+#include "grid_lines.hpp"
 #include "knead/spline/curvature.hpp"
 #include "knead/spline/evaluate.hpp"
-#include "knead/spline/grid_lines.hpp"
 
 namespace knead {
 namespace {

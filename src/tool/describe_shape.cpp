@@ -1,4 +1,4 @@
-#include "knead/tool/describe_shape.hpp"
+#include "describe_shape.hpp"
 
 namespace knead {
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numeric>
 
+#include "base/interruption.hpp"
 #include "element_hessian.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/base/interruption.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "tool_load_grip.hpp"
 #include "tool_load_sums.hpp"

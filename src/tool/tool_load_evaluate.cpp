@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "knead/base/interruption.hpp"
+#include "base/interruption.hpp"
 #include "tool_load_sums.hpp"
 #include "tool_load_sweep.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "knead/base/interruption.hpp"
+#include "base/interruption.hpp"
 #include "tool_load_sums.hpp"
 
 namespace knead {

@@ -1,4 +1,4 @@
-#include "knead/base/describe.hpp"
+#include "base/describe.hpp"
 
 #include <gtest/gtest.h>
 

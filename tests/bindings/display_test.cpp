@@ -1,4 +1,4 @@
-#include "knead/scene/display.hpp"
+#include "scene/display.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "knead/contact/active_shell.hpp"
+#include "contact/active_shell.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <numbers>
 
-#include "knead/solve/shell_statics.hpp"
+#include "solve/shell_statics.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"
 

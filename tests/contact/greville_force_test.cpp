@@ -4,7 +4,7 @@
 
 #include "knead/energy/loads.hpp"
 #include "knead/tool/tool.hpp"
-#include "spline/greville_interpolation.hpp"
+#include "spline/interpolation/greville_interpolation.hpp"
 #include "support/numbers.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"

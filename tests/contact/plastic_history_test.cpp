@@ -1,11 +1,11 @@
-#include "knead/contact/plastic_history.hpp"
+#include "contact/plastic_history.hpp"
 
 #include <gtest/gtest.h>
 
 #include "active.hpp"
 #include "groove.hpp"
-#include "knead/sculpt/tool_path.hpp"
-#include "knead/spline/site_values.hpp"
+#include "sculpt/tool_path.hpp"
+#include "spline/interpolation/site_values.hpp"
 
 namespace knead {
 namespace {

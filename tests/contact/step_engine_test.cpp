@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "active.hpp"
+#include "base/interruption.hpp"
 #include "contact/step_engine.hpp"
-#include "knead/base/interruption.hpp"
 #include "knead/base/threads.hpp"
 
 namespace knead {

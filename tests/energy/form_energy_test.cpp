@@ -1,4 +1,4 @@
-#include "knead/energy/form_energy.hpp"
+#include "energy/form_energy.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "knead/energy/formula.hpp"
+#include "energy/formula.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

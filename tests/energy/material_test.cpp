@@ -1,10 +1,8 @@
-#include "knead/energy/material.hpp"
+#include "knead/energy/energy.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
-
-#include "knead/energy/energy.hpp"
 
 namespace knead {
 namespace {

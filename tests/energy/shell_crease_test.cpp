@@ -1,4 +1,4 @@
-#include "knead/energy/shell_crease.hpp"
+#include "energy/shell_crease.hpp"
 
 #include <gtest/gtest.h>
 

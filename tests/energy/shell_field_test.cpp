@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "knead/energy/shell_energy.hpp"
-#include "knead/energy/shell_results.hpp"
 #include "support/knot_families.hpp"
 #include "support/numbers.hpp"
 #include "support/surfaces.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "spline/greville_interpolation.hpp"
+#include "spline/interpolation/greville_interpolation.hpp"
 #include "support/fields.hpp"
 
 namespace knead {

@@ -8,9 +8,9 @@
 #include "draw.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "session/commands.hpp"
+#include "session/session_state.hpp"
 
 namespace knead {
 namespace {

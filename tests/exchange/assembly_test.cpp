@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/model_mesh.hpp"
 
 namespace knead::step {
 namespace {

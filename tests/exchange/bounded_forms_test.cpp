@@ -4,10 +4,10 @@
 
 #include <numbers>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
 #include "knead/brep/face_conversion.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "support/made_step.hpp"
 
 namespace knead {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
+#include "brep/shared_edge.hpp"
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/model_mesh.hpp"
-#include "knead/brep/shared_edge.hpp"
-#include "knead/exchange/left_out.hpp"
+#include "knead/exchange/source.hpp"
 #include "support/bounded_sheets.hpp"
 
 namespace knead {

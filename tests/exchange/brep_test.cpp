@@ -1,13 +1,13 @@
 #include <random>
 
 #include "brep/face_point.hpp"
+#include "brep/shared_edge.hpp"
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/brep_square.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/face_edges.hpp"
-#include "knead/brep/model_mesh.hpp"
-#include "knead/brep/shared_edge.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/spline_refinement.hpp"
 

@@ -1,12 +1,12 @@
-#include "knead/brep/context_faces.hpp"
+#include "brep/tessellation/context_faces.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/face_builder.hpp"
 #include "exchange/mesh_measures.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "support/own_files.hpp"
 
 namespace knead {

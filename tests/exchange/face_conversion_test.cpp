@@ -4,10 +4,10 @@
 #include <functional>
 #include <numbers>
 
+#include "brep/shared_edge.hpp"
 #include "exchange/two_sheets.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/face_edges.hpp"
-#include "knead/brep/shared_edge.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::step {

@@ -4,12 +4,12 @@
 
 #include <random>
 
+#include "brep/tessellation/context_faces.hpp"
+#include "brep/trim_loops.hpp"
 #include "exchange/face_builder.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/context_faces.hpp"
-#include "knead/brep/trim_loops.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/exchange/left_out.hpp"
+#include "knead/exchange/source.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "support/long_run.hpp"
 #include "support/own_files.hpp"

@@ -4,9 +4,9 @@
 #include <set>
 #include <sstream>
 
+#include "brep/shared_edge.hpp"
 #include "exchange/iges_builder.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/shared_edge.hpp"
 #include "knead/exchange/format.hpp"
 
 namespace knead {

@@ -1,8 +1,8 @@
 #include <numbers>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "support/made_iges_solids.hpp"
 
 namespace knead {

@@ -3,10 +3,10 @@
 #include <random>
 #include <sstream>
 
+#include "brep/tessellation/model_mesh.hpp"
+#include "brep/trim_loops.hpp"
 #include "exchange/iges_builder.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/model_mesh.hpp"
-#include "knead/brep/trim_loops.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/spline_refinement.hpp"

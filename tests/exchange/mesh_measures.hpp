@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <span>
 
-#include "knead/brep/context_faces.hpp"
+#include "brep/tessellation/context_faces.hpp"
 
 namespace knead::testing {
 

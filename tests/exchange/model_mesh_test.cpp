@@ -1,4 +1,4 @@
-#include "knead/brep/model_mesh.hpp"
+#include "brep/tessellation/model_mesh.hpp"
 
 #include "knead/exchange/save_model.hpp"
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <sstream>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/new_surfaces.hpp"
 #include "exchange/step/colours.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/format.hpp"
 #include "support/surfaces.hpp"
 

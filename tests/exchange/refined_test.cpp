@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "exchange/support.hpp"
-#include "knead/spline/knot_removal.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
 namespace knead {

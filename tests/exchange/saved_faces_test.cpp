@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/brep_square.hpp"
 #include "exchange/face_builder.hpp"
 #include "exchange/iges_builder.hpp"
 #include "exchange/mesh_measures.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/save_faces.hpp"
 #include "support/made_files.hpp"
 #include "support/made_iges_solids.hpp"

@@ -1,6 +1,6 @@
 // Edges that faces share, and how they are written after the faces have moved.
 
-#include "knead/brep/shared_edge.hpp"
+#include "brep/shared_edge.hpp"
 #include "exchange/two_sheets.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"

@@ -1,14 +1,14 @@
-#include "knead/brep/tessellated.hpp"
+#include "knead/brep/face_mesh.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 
+#include "brep/tessellation/context_faces.hpp"
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/context_faces.hpp"
-#include "knead/brep/model_mesh.hpp"
-#include "knead/exchange/left_out.hpp"
 #include "knead/exchange/save_model.hpp"
+#include "knead/exchange/source.hpp"
 #include "support/made_step.hpp"
 
 namespace knead {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <random>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "brep/tessellation/orientation.hpp"
 #include "exchange/face_builder.hpp"
 #include "exchange/mesh_measures.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "support/long_run.hpp"
 
 namespace knead {

@@ -1,4 +1,4 @@
-#include "knead/brep/trim_loops.hpp"
+#include "brep/trim_loops.hpp"
 
 #include <cmath>
 #include <numbers>

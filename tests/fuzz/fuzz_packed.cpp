@@ -1,6 +1,6 @@
 // gzip and ZIP: a compressed file, or one that is compressed here.
 #include "fuzz.hpp"
-#include "knead/exchange/compression.hpp"
+#include "knead/exchange/file_io.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace knead;

@@ -6,14 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "brep/tessellation/context_faces.hpp"
+#include "brep/tessellation/model_mesh.hpp"
+#include "brep/trim_loops.hpp"
 #include "fuzz.hpp"
-#include "knead/brep/context_faces.hpp"
 #include "knead/brep/face_edges.hpp"
-#include "knead/brep/model_mesh.hpp"
-#include "knead/brep/trim_loops.hpp"
-#include "knead/exchange/compression.hpp"
+#include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/left_out.hpp"
+#include "knead/exchange/source.hpp"
 
 namespace knead::fuzz {
 

@@ -6,8 +6,8 @@
 
 #include "fuzz.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "session/commands.hpp"
+#include "session/session_state.hpp"
 
 namespace knead::fuzz {
 

@@ -7,9 +7,9 @@
 #include "exchange/face_builder.hpp"
 #include "exchange/iges_builder.hpp"
 #include "exchange/support.hpp"
-#include "knead/exchange/compression.hpp"
+#include "knead/exchange/file_io.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
+#include "session/session_state.hpp"
 #include "support/made_iges_solids.hpp"
 
 namespace knead {

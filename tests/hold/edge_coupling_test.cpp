@@ -1,13 +1,13 @@
 // Patches that stay together along curves, whatever their nets.
 
-#include "knead/hold/edge_coupling.hpp"
+#include "hold/edge_coupling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <random>
 
-#include "knead/hold/seam_coupling.hpp"
+#include "knead/hold/seams.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "solve/constraint_space.hpp"
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "knead/hold/seam_coupling.hpp"
+#include "knead/hold/seams.hpp"
 #include "solve/constraint_space.hpp"
 #include "support/surfaces.hpp"
 

@@ -1,4 +1,4 @@
-#include "knead/hold/trim_hold.hpp"
+#include "hold/trim_hold.hpp"
 
 #include <cmath>
 #include <numbers>

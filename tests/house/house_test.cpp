@@ -151,6 +151,29 @@ TEST_F(Tree, PublicHeaderThatThePageDoesNotListIsFound) {
   expect_only("include/knead/spline/spline.hpp: docs/api.md does not list this header");
 }
 
+TEST_F(Tree, InternalHeaderInTheCommandLineIsFound) {
+  write("src/spline/detail.hpp", "#pragma once\n");
+  write("examples/draw.hpp", "#pragma once\n");
+  write("examples/draw.cpp", "#include \"draw.hpp\"\n#include \"knead/spline/basis.hpp\"\n");
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+  write("apps/knead/info.cpp", "#include \"knead/base/error.hpp\"\n#include \"spline/detail.hpp\"\n");
+  expect_only("apps/knead/info.cpp:2: \"spline/detail.hpp\" is no public header");
+}
+
+TEST_F(Tree, TooManyPublicHeadersAreFound) {
+  std::string list;
+  for (const char* name : {"base/error", "spline/basis"}) {
+    list += std::string("(../include/knead/") + name + ".hpp)\n";
+  }
+  for (int k = 0; k < 100; ++k) {
+    const std::string name = "knead/spline/basis_" + std::to_string(k) + ".hpp";
+    write("include/" + name, "#pragma once\n");
+    list += "(../include/" + name + ")\n";
+  }
+  write("docs/api.md", list);
+  expect_only("include/knead: 102 public headers; 66 are allowed");
+}
+
 TEST_F(Tree, ListedHeaderThatDoesNotExistIsFound) {
   fs::remove(root_ / "include/knead/base/error.hpp");
   write("include/knead/spline/basis.hpp", "#pragma once\n");

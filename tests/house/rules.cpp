@@ -25,6 +25,8 @@ constexpr std::array<std::string_view, 2> files_of_long_functions = {"src/gramia
                                                                      "src/gramian/simd/recurrence_fixed.hpp"};
 
 constexpr std::size_t most_files = 45;  // in one folder
+/// Few doors: what programs need, and nothing that only the rooms say to each other.
+constexpr std::size_t most_public_headers = 66;
 constexpr std::array<std::string_view, 2> large_folders = {"src/session", "src/session/commands"};
 
 /// Namespaces of file formats, each known in its folder of src/exchange alone.
@@ -115,6 +117,7 @@ class Inspection {
     for (const Room& room : rooms_) inspect_folders(root_ / "src" / room.name);
     for (const char* page : {"README.md", "CONTRIBUTING.md"}) inspect_table_of_rooms(root_ / page);
     inspect_list_of_headers();
+    inspect_public_headers();
     return std::move(found_);
   }
 
@@ -260,6 +263,28 @@ class Inspection {
     for (const fs::path& header : sources_below(root_ / "include")) {
       const std::string name = fs::relative(header, root_).generic_string();
       if (std::ranges::find(listed, name) == listed.end()) report(header, 0, "docs/api.md does not list this header");
+    }
+  }
+
+  /// Public headers are few, and all that the command line and the examples are written against.
+  void inspect_public_headers() {
+    const std::size_t count = sources_below(root_ / "include").size();
+    if (count > most_public_headers) {
+      report(root_ / "include/knead", 0,
+             std::to_string(count) + " public headers; " + std::to_string(most_public_headers) + " are allowed");
+    }
+    static const std::regex include("^#include \"([^\"]+)\"");
+    for (const char* part : {"apps/knead", "examples"}) {
+      for (const fs::path& file : sources_below(root_ / part)) {
+        const auto lines = lines_of(file);
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+          std::smatch match;
+          if (std::regex_search(lines[i], match, include) && !fs::exists(file.parent_path() / match[1].str()) &&
+              !fs::exists(root_ / "include" / match[1].str())) {
+            report(file, i + 1, "\"" + match[1].str() + "\" is no public header");
+          }
+        }
+      }
     }
   }
 

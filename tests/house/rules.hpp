@@ -12,7 +12,8 @@ namespace knead::house {
 ///  - a room includes itself and rooms below it in the list (base first), public headers as "knead/ROOM/x.hpp" and
 ///    internals as "ROOM/x.hpp" alike, nothing of the programs on top of it, and quoted includes name a file
 ///    that exists;
-///  - a public header includes no internal one;
+///  - a public header includes no internal one, and neither do apps/knead and the examples; there are no more public
+///    headers than rules.cpp says;
 ///  - x.cpp includes its own header first, so that every header with a source is compiled on its own;
 ///  - file formats are named in their folders of src/exchange alone;
 ///  - the folders of src/brep and src/exchange hold 40 source files at most;

@@ -13,12 +13,12 @@
 
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "oracle/brep_files.hpp"
 #include "oracle/occt_held.hpp"
 #include "oracle/press.hpp"
 #include "oracle/step_oracle.hpp"
+#include "session/session_state.hpp"
 #include "support/long_run.hpp"
 
 namespace knead::oracle {

@@ -13,11 +13,11 @@
 #include <map>
 #include <numeric>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/length_units.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
 #include "knead/brep/assembly.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "oracle/body_files.hpp"
 #include "oracle/occt_bodies.hpp"

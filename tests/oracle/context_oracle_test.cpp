@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "brep/tessellation/context_faces.hpp"
+#include "brep/trim_loops.hpp"
 #include "exchange/mesh_measures.hpp"
-#include "knead/brep/context_faces.hpp"
-#include "knead/brep/trim_loops.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "oracle/occt_shapes.hpp"
 #include "oracle/step_oracle.hpp"

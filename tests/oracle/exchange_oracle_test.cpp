@@ -16,11 +16,11 @@
 #include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/session/session.hpp"
 #include "oracle/exchange_table.hpp"
 #include "oracle/occt_gaps.hpp"
 #include "oracle/press.hpp"
 #include "oracle/step_oracle.hpp"
+#include "session/session_state.hpp"
 #include "support/long_run.hpp"
 
 namespace knead::oracle {

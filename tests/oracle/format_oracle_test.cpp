@@ -6,16 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "oracle/brep_files.hpp"
 #include "oracle/occt_file.hpp"
 #include "oracle/press.hpp"
+#include "session/session_state.hpp"
 #include "support/long_run.hpp"
 #include "support/own_files.hpp"
 

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "knead/brep/assembly.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "oracle/occt_shapes.hpp"
 #include "oracle/step_oracle.hpp"
 #include "support/long_run.hpp"

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "oracle/occt_places.hpp"
 

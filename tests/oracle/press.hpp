@@ -7,8 +7,8 @@
 #include "exchange/step/file.hpp"
 #include "knead/brep/face_edges.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "session/session_state.hpp"
 
 namespace knead::oracle {
 

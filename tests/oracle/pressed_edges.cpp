@@ -11,13 +11,13 @@
 #include <set>
 #include <sstream>
 
+#include "brep/shared_edge.hpp"
 #include "knead/brep/face_edges.hpp"
-#include "knead/brep/shared_edge.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "oracle/occt_gaps.hpp"
+#include "session/session_state.hpp"
 #include "support/long_run.hpp"
 
 namespace knead::oracle {

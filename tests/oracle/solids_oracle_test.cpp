@@ -1,8 +1,8 @@
 // IGES solids and rings as triangles, held against the areas and volumes that Open CASCADE finds.
 
+#include "brep/tessellation/model_mesh.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "oracle/occt_file.hpp"
 #include "support/made_iges_solids.hpp"

@@ -1,4 +1,4 @@
-#include "knead/sculpt/lattice.hpp"
+#include "sculpt/lattice.hpp"
 
 #include <gtest/gtest.h>
 

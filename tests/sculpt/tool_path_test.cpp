@@ -1,4 +1,4 @@
-#include "knead/sculpt/tool_path.hpp"
+#include "sculpt/tool_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
+#include "session/session_state.hpp"
 
 namespace knead {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "knead/brep/shared_edge.hpp"
+#include "brep/shared_edge.hpp"
 #include "knead/exchange/format.hpp"
 #include "session/running.hpp"
 #include "support/bounded_plates.hpp"

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "brushes.hpp"
-#include "knead/scene/trims.hpp"
+#include "scene/trims.hpp"
 #include "support/long_run.hpp"
 
 namespace knead::testing {

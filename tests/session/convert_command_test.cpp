@@ -2,10 +2,10 @@
 
 #include <set>
 
-#include "knead/brep/shared_edge.hpp"
-#include "knead/scene/followed.hpp"
-#include "knead/scene/trims.hpp"
-#include "knead/session/fixes.hpp"
+#include "brep/shared_edge.hpp"
+#include "scene/followed.hpp"
+#include "scene/trims.hpp"
+#include "session/fixes.hpp"
 #include "session/running.hpp"
 #include "support/error_codes.hpp"
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "knead/exchange/format.hpp"
-#include "knead/session/fixes.hpp"
 #include "knead/session/session_info.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "session/fixes.hpp"
 #include "support.hpp"
 #include "support/error_codes.hpp"
 

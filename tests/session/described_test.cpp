@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../src/session/described_text.hpp"
-#include "knead/tool/describe_shape.hpp"
+#include "tool/describe_shape.hpp"
 
 namespace knead::testing {
 

@@ -9,8 +9,8 @@
 #include "exchange/two_sheets.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "knead/session/session_info.hpp"
+#include "session/session_state.hpp"
 
 namespace knead {
 namespace {

@@ -1,9 +1,9 @@
-#include "knead/scene/energy_density.hpp"
+#include "scene/energy_density.hpp"
 
 #include <cmath>
 
 #include "base/gauss_legendre.hpp"
-#include "knead/scene/held_points.hpp"
+#include "scene/held_points.hpp"
 #include "sheet.hpp"
 
 namespace knead {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "knead/session/fixes.hpp"
 #include "knead/session/session_info.hpp"
+#include "session/fixes.hpp"
 #include "sheet.hpp"
 #include "support/error_codes.hpp"
 

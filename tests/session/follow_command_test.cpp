@@ -1,7 +1,7 @@
 // Edges that follow their faces: what moves, what is written, what is refused, and what is said.
 
-#include "knead/brep/shared_edge.hpp"
-#include "knead/scene/followed.hpp"
+#include "brep/shared_edge.hpp"
+#include "scene/followed.hpp"
 #include "session/running.hpp"
 #include "support/error_codes.hpp"
 

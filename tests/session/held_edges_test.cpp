@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "knead/scene/followed.hpp"
-#include "knead/scene/parted_edges.hpp"
-#include "knead/scene/trims.hpp"
+#include "scene/followed.hpp"
+#include "scene/parted_edges.hpp"
+#include "scene/trims.hpp"
 #include "session/running.hpp"
 #include "support/error_codes.hpp"
 #include "support/made_files.hpp"

@@ -1,6 +1,6 @@
 // What is stopped within a step, and lists of surfaces that states share.
 
-#include "knead/base/interruption.hpp"
+#include "base/interruption.hpp"
 
 #include <gtest/gtest.h>
 

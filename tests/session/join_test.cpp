@@ -1,8 +1,8 @@
 // Many commands as one entry of the history.
 #include <gtest/gtest.h>
 
-#include "knead/session/session.hpp"
 #include "session/commands.hpp"
+#include "session/session_state.hpp"
 
 namespace knead {
 namespace {

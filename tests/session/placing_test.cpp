@@ -1,6 +1,6 @@
 // Commands that place control points obey what holds the surfaces, whichever command it is.
 #include "knead/hold/seams.hpp"
-#include "knead/session/fixes.hpp"
+#include "session/fixes.hpp"
 #include "knead/spline/extremum.hpp"
 #include "sheet.hpp"
 #include "support/error_codes.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "knead/session/script_error.hpp"
+#include "knead/session/command_json.hpp"
 #include "knead/session/session_info.hpp"
 #include "support.hpp"
 
@@ -47,7 +47,7 @@ TEST(Outcome, AddsUpTheStepsAndWhatTheyMoved) {
 TEST(Report, GivesTheReadingOfEachProbeInItsList) {
   Session session(Document::fresh("sheet"));
   run(session, {sheet, R"({"do":"measure","name":"a","at":[0.5,0.25]})", R"({"do":"measure","name":"b","at":[1,1]})"});
-  const auto text = report_json(session.state(), outcome_of(session, 0));
+  const auto text = report_json(session, outcome_of(session, 0));
   ASSERT_TRUE(text);
   const auto probes = nlohmann::json::parse(*text).at("measurements");
   ASSERT_EQ(probes.size(), 2u);
@@ -62,10 +62,10 @@ TEST(Report, GivesTheReadingOfEachProbeInItsList) {
 TEST(Report, HasEveryFigureThatTheDescriptionOfAStepHas) {
   Session session(Document::fresh("sheet"));
   run(session, {sheet, R"({"do":"step"})"});
-  const auto text = report_json(session.state(), outcome_of(session, 0));
+  const auto text = report_json(session, outcome_of(session, 0));
   ASSERT_TRUE(text);
   const auto step = nlohmann::json::parse(*text).at("steps").at(0);
-  const auto page = nlohmann::json::parse(steps_json(session.state(), 0)).at(0);
+  const auto page = nlohmann::json::parse(steps_json(session, 0)).at(0);
   for (const auto& [name, value] : page.items()) {
     if (name != "surface" && name != "iterations") {
       EXPECT_EQ(step.at(name), value) << name;
@@ -78,22 +78,56 @@ TEST(ReportEdges, SaysHowTheEdgesOfFacesAreHeld) {
   auto document = Document::open(bonnet);
   ASSERT_TRUE(document);
   Session session(*std::move(document));
-  EXPECT_TRUE(report_edges(session.state()).empty()) << "nothing moved, and nothing is held";
+  EXPECT_TRUE(report_edges(session).empty()) << "nothing moved, and nothing is held";
   run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"trim-g1"})"});
-  const auto edges = report_edges(session.state());
+  const auto edges = report_edges(session);
   ASSERT_EQ(edges.size(), 1u);
   const SceneSurface& s = session.state().surfaces[static_cast<std::size_t>(edges[0].surface)];
   EXPECT_EQ(s.id, "#285");
-  const TrimReport& trims = edges[0].trims;
-  ASSERT_FALSE(trims.edges.empty());
-  for (const TrimReport::Edge& edge : trims.edges) EXPECT_EQ(hold_of(edge), "clamped") << edge.held.id;
-  EXPECT_EQ(trims.largest, 0) << "it is as it was opened";
-  EXPECT_LT(trims.free, s.current->size());
-  TrimReport::Edge other = trims.edges.front();
-  other.held.order = -1;
-  EXPECT_EQ(hold_of(other), "free");
-  other.follows = true;
-  EXPECT_EQ(hold_of(other), "follow");
+  const EdgesReport& report = edges[0];
+  ASSERT_FALSE(report.edges.empty());
+  for (const EdgeReport& edge : report.edges) {
+    EXPECT_EQ(edge.hold, "clamped") << edge.id;
+    EXPECT_TRUE(edge.held) << edge.id;
+    EXPECT_FALSE(edge.angles) << edge.id;
+  }
+  EXPECT_EQ(report.largest_gap, 0) << "it is as it was opened";
+  EXPECT_LT(report.free, s.current->size());
+}
+
+TEST(ReportEdges, SaysWhichAreFree) {
+  auto document = Document::open(bonnet);
+  ASSERT_TRUE(document);
+  Session session(*std::move(document));
+  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"trim"})"});
+  const auto held = report_edges(session);
+  ASSERT_EQ(held.size(), 1u);
+  ASSERT_FALSE(held[0].edges.empty());
+  const EdgeReport& first = held[0].edges.front();
+  EXPECT_EQ(first.hold, "position");
+  run(session, {R"({"do":"edge","hold":"open","edge":")" + first.id + "\"}"});
+  const auto opened = report_edges(session);
+  ASSERT_EQ(opened.size(), 1u);
+  EXPECT_EQ(opened[0].edges.front().id, first.id);
+  EXPECT_EQ(opened[0].edges.front().hold, "free");
+  EXPECT_FALSE(opened[0].edges.front().held);
+}
+
+TEST(Session, GivesItsSurfacesAndToolsAsValues) {
+  Session session(Document::fresh("sheet"));
+  EXPECT_TRUE(session.surfaces().empty());
+  EXPECT_TRUE(session.selection().empty());
+  run(session,
+      {sheet, R"({"do":"edge"})", R"({"do":"tool","radius":20,"position":[100,50,14]})", R"({"do":"step","count":3})"});
+  const auto surfaces = session.surfaces();
+  ASSERT_EQ(surfaces.size(), 1u);
+  EXPECT_EQ(surfaces[0].id, "#1");
+  EXPECT_EQ(surfaces[0].current, session.state().surfaces[0].current) << "shared, not copied";
+  EXPECT_NE(surfaces[0].current, surfaces[0].opened);
+  EXPECT_EQ(session.selection(), std::vector<int>{0});
+  ASSERT_EQ(session.tools().size(), 1u);
+  EXPECT_EQ(session.steps().size(), 3u);
+  EXPECT_EQ(in_words(session.tools()[0].shape.shape()), "sphere of radius 20");
 }
 
 TEST(ResultGrids, HaveTheDisplacementAndTheModes) {
@@ -101,7 +135,7 @@ TEST(ResultGrids, HaveTheDisplacementAndTheModes) {
   run(session, {R"({"do":"new","size":[100,100],"net":[9,9]})",
                 R"({"do":"material","model":"shell","young":70000,"thickness":1,"poisson":0.3,"density":1e-6})",
                 R"({"do":"edge","hold":"clamped"})", R"({"do":"modes","count":2})"});
-  const auto grids = result_grids(session.state(), 5);
+  const auto grids = result_grids(session, 5);
   ASSERT_TRUE(grids);
   ASSERT_EQ(grids->size(), 1u);
   EXPECT_EQ(grids->front().name, "#1");
@@ -110,7 +144,7 @@ TEST(ResultGrids, HaveTheDisplacementAndTheModes) {
   for (const char* name : {"displacement", "membrane", "moment", "von_mises", "bending_strain", "mode_1", "mode_2"}) {
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
   }
-  EXPECT_EQ(result_grids(session.state(), 1).error().where.substr(0, 2), "#1");
+  EXPECT_EQ(result_grids(session, 1).error().where.substr(0, 2), "#1");
 }
 
 TEST(ScriptErrors, NameScriptCommandAndFile) {

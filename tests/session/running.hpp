@@ -5,7 +5,7 @@
 #include "exchange/two_sheets.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
+#include "session/session_state.hpp"
 
 namespace knead::testing {
 

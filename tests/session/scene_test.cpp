@@ -1,10 +1,10 @@
 // What a scene keeps is told once, and follows the net and the patches it belongs to.
-#include "knead/scene/scene.hpp"
+#include "scene/scene.hpp"
 #include "knead/session/session_info.hpp"
 
 #include <gtest/gtest.h>
 
-#include "knead/scene/model.hpp"
+#include "scene/model/model.hpp"
 #include "sheet.hpp"
 
 namespace knead {

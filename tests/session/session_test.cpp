@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "knead/scene/model.hpp"
 #include "knead/spline/extremum.hpp"
+#include "scene/model/model.hpp"
 #include "support.hpp"
 #include "support/own_files.hpp"
 

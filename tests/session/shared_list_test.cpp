@@ -1,4 +1,4 @@
-#include "knead/base/shared_list.hpp"
+#include "base/shared_list.hpp"
 
 #include <gtest/gtest.h>
 

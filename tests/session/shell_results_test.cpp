@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "knead/scene/shell_fields.hpp"
+#include "scene/shell_fields.hpp"
 #include "sheet.hpp"
 
 namespace knead {

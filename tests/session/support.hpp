@@ -9,8 +9,8 @@
 
 #include "exchange/support.hpp"
 #include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "session/commands.hpp"
+#include "session/session_state.hpp"
 
 namespace knead::testing {
 

@@ -1,10 +1,10 @@
 // Faces that are cut by trimming edges: what holds them, what is refined for it, and what is said.
 
 #include "exchange/face_builder.hpp"
-#include "knead/scene/held_points.hpp"
-#include "knead/scene/trims.hpp"
-#include "knead/session/fixes.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "scene/held_points.hpp"
+#include "scene/trims.hpp"
+#include "session/fixes.hpp"
 #include "session/running.hpp"
 #include "support/error_codes.hpp"
 

@@ -1,4 +1,4 @@
-#include "knead/solve/dissection.hpp"
+#include "solve/dissection.hpp"
 
 #include <gtest/gtest.h>
 

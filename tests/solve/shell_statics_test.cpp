@@ -1,4 +1,4 @@
-#include "knead/solve/shell_statics.hpp"
+#include "solve/shell_statics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "spline/chebyshev_interpolation.hpp"
+#include "spline/interpolation/chebyshev_interpolation.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "spline/greville_interpolation.hpp"
+#include "spline/interpolation/greville_interpolation.hpp"
 #include "support/knot_families.hpp"
 #include "support/long_run.hpp"
 

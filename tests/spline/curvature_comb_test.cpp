@@ -1,4 +1,4 @@
-#include "knead/spline/curvature_comb.hpp"
+#include "spline/curvature_comb.hpp"
 
 #include <gtest/gtest.h>
 

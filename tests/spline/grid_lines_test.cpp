@@ -1,4 +1,4 @@
-#include "knead/spline/grid_lines.hpp"
+#include "spline/grid_lines.hpp"
 
 #include <gtest/gtest.h>
 

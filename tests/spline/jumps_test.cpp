@@ -1,4 +1,4 @@
-#include "knead/spline/jumps.hpp"
+#include "knead/spline/basis.hpp"
 
 #include <gtest/gtest.h>
 

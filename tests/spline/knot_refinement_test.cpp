@@ -1,4 +1,4 @@
-#include "knead/spline/knot_refinement.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
-#include "knead/spline/knot_removal.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 
-#include "knead/spline/spline_refinement.hpp"
 #include "spline/sample_splines.hpp"
 
 namespace knead {

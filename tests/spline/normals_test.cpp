@@ -1,4 +1,4 @@
-#include "knead/spline/normals.hpp"
+#include "knead/spline/evaluate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "knead/spline/curvature.hpp"
-#include "knead/spline/evaluator.hpp"
 #include "knead/spline/revolution.hpp"
 #include "sample_splines.hpp"
 #include "support/thread_counts.hpp"

@@ -1,4 +1,4 @@
-#include "knead/spline/section_comb.hpp"
+#include "spline/section_comb.hpp"
 
 #include <gtest/gtest.h>
 

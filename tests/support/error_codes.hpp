@@ -4,7 +4,7 @@
 #include <span>
 
 #include "knead/base/error_code.hpp"
-#include "knead/session/note.hpp"
+#include "knead/session/session.hpp"
 
 namespace knead::testing {
 

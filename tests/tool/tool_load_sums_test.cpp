@@ -7,7 +7,7 @@
 
 #include "contact/active.hpp"
 #include "contact/patch_potential.hpp"
-#include "knead/sculpt/lattice.hpp"
+#include "sculpt/lattice.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "knead/base/interruption.hpp"
-#include "knead/sculpt/lattice.hpp"
+#include "base/interruption.hpp"
+#include "sculpt/lattice.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"
 

@@ -4,13 +4,12 @@
 #include <limits>
 
 #include "grids.hpp"
-#include "knead/exchange/compression.hpp"
+#include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/save_model.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/report.hpp"
-#include "knead/session/save_faces.hpp"
-#include "knead/session/script_error.hpp"
+#include "knead/session/session.hpp"
 #include "knead/session/session_info.hpp"
 #include "sparse.hpp"
 

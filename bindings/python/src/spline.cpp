@@ -4,9 +4,8 @@
 #include "knead/spline/closest_point.hpp"
 #include "knead/spline/curvature.hpp"
 #include "knead/spline/evaluate_into.hpp"
-#include "knead/spline/knot_removal.hpp"
-#include "knead/spline/normals.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "knead/spline/evaluate.hpp"
 
 namespace knead::python {
 namespace {

@@ -97,7 +97,7 @@ void describe(StepsQuery& q, Fields& fields) {
 }
 
 Expected<std::string> ask(Session& session, const StepsQuery& q) {
-  return steps_json(session.state(), static_cast<std::size_t>(std::max(0, q.first)));
+  return steps_json(session, static_cast<std::size_t>(std::max(0, q.first)));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // Curves and volumes, and the block of the command `lattice`.
-#include "knead/scene/lattice.hpp"
-#include "knead/scene/shape.hpp"
 #include "knead/spline/evaluate.hpp"
-#include "knead/spline/grid_lines.hpp"
 #include "query.hpp"
+#include "scene/lattice.hpp"
+#include "scene/shape.hpp"
+#include "spline/grid_lines.hpp"
 
 namespace knead::studio {
 namespace {

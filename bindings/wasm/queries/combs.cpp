@@ -1,7 +1,7 @@
 // Curvature combs of surfaces, of their parameter lines and of plane sections.
-#include "knead/spline/curvature_comb.hpp"
-#include "knead/spline/section_comb.hpp"
 #include "query.hpp"
+#include "spline/curvature_comb.hpp"
+#include "spline/section_comb.hpp"
 
 namespace knead::studio {
 namespace {

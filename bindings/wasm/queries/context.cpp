@@ -2,11 +2,11 @@
 #include <cmath>
 #include <map>
 
-#include "knead/brep/context_faces.hpp"
+#include "brep/tessellation/context_faces.hpp"
 #include "knead/brep/face_conversion.hpp"
-#include "knead/exchange/left_out.hpp"
-#include "knead/session/document_regions.hpp"
+#include "knead/exchange/source.hpp"
 #include "query.hpp"
+#include "session/document_regions.hpp"
 #include "studio_context.hpp"
 
 namespace knead::studio {

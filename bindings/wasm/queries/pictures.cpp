@@ -1,6 +1,6 @@
 // Pictures of surfaces and tools, and what colours them.
-#include "knead/scene/display_range.hpp"
 #include "query.hpp"
+#include "scene/display_range.hpp"
 #include "tool_picture.hpp"
 
 namespace knead {

@@ -11,7 +11,7 @@
 
 #include "knead/base/error.hpp"
 #include "knead/brep/assembly.hpp"
-#include "knead/brep/tessellated.hpp"
+#include "knead/brep/face_mesh.hpp"
 #include "knead/spline/spline.hpp"
 
 /// The boundary representation of a file: what readers of every format fill, and what everything about faces and

@@ -7,7 +7,7 @@
 
 #include "knead/brep/visible_region.hpp"
 #include "knead/energy/domain_scaling.hpp"
-#include "knead/energy/edge_moment.hpp"
+#include "knead/energy/loads.hpp"
 #include "knead/energy/material_field.hpp"
 #include "knead/gramian/gramian.hpp"
 #include "knead/solve/eigenmodes.hpp"

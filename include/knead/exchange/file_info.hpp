@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/base/describe.hpp"
+#include "base/describe.hpp"
 #include "knead/exchange/source.hpp"
 
 namespace knead {

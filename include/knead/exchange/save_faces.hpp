@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/left_out.hpp"
 #include "knead/exchange/source.hpp"
 
 namespace knead {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/brep/model_mesh.hpp"
+#include "knead/brep/face_mesh.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/source.hpp"
 
@@ -19,10 +19,11 @@ struct ModelFile {
   std::vector<std::string> warnings;  ///< of the assembly
 };
 
-/// `model_faces` as a file of a format that holds triangles, one mesh per face: named by its B-spline surface or
-/// tessellated item, or, if that has no name, by its id. The unit is the model's; `options.unit` and `options.detail`
-/// are not used. Errors: those of `model_faces`; a file without faces (input); a format of surfaces (usage); no face
-/// could be made triangles (input); a coordinate too large for the format (numerical).
+/// All faces of a model as triangles that meet, within a tolerance (`model_faces`,
+/// src/brep/tessellation/model_mesh.hpp), as a file of a format that holds triangles, one mesh per face: named by its
+/// B-spline surface or tessellated item, or, if that has no name, by its id. The unit is the model's; `options.unit`
+/// and `options.detail` are not used. Errors: those of `model_faces`; a file without faces (input); a format of
+/// surfaces (usage); no face could be made triangles (input); a coordinate too large for the format (numerical).
 [[nodiscard]] Expected<ModelFile> save_model(const Source& source, const Format& format, double tolerance = 0,
                                              SaveOptions options = {});
 

@@ -4,17 +4,23 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "knead/brep/model.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/source.hpp"
-#include "knead/scene/shape.hpp"
 
 namespace knead {
 
 /// A surface of a document as opened.
 using DocumentSurface = SourceSurface;
+
+/// A curve or a volume of a session, which stands for itself.
+struct DocumentBody {
+  std::string id, name, unit;
+  std::variant<std::shared_ptr<const Curve>, std::shared_ptr<const Volume>> shape;
+};
 
 /// What a session works on: an opened file, in any format that stores surfaces, or none yet. Immutable; copies
 /// share the data.
@@ -49,13 +55,13 @@ class Document {
   /// one, and with these curves and volumes. `followed`: as for `Source::save`.
   [[nodiscard]] Expected<std::string> save(std::span<const DocumentSurface> surfaces,
                                            std::span<const std::string> followed = {},
-                                           std::span<const SceneBody> bodies = {}) const;
+                                           std::span<const DocumentBody> bodies = {}) const;
   /// The bytes of a new file with these surfaces, whole, the curves, and the six sides of each volume as surfaces.
   /// Errors (input): the format cannot be written, or holds no curves; the opened file has faces, which a new one would
   /// lose; a volume whose ends are not clamped.
   /// `how`: schema and faces; what else it has comes from the document.
   [[nodiscard]] Expected<std::string> save_as(const Format& format, std::span<const DocumentSurface> surfaces,
-                                              std::span<const SceneBody> bodies = {}, SaveOptions how = {}) const;
+                                              std::span<const DocumentBody> bodies = {}, SaveOptions how = {}) const;
 
  private:
   Document() = default;

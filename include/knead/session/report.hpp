@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -7,10 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "knead/energy/shell_energy.hpp"
 #include "knead/exchange/field_grid.hpp"
-#include "knead/scene/followed.hpp"
-#include "knead/scene/shell_fields.hpp"
-#include "knead/scene/trims.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead {
@@ -40,39 +39,81 @@ struct Outcome {
 /// Cost: an evaluation of the energy, and of every moved shape.
 [[nodiscard]] Outcome outcome_of(Session& session, std::size_t opened);
 
+/// The state of an edge of the faces on a surface.
+struct EdgeReport {
+  std::string id;
+  std::string_view hold;           ///< "follow", or what of it is held: "free", "position", "clamped", "curvature"
+  bool held = false;               ///< its place, at least
+  bool along_lines = true;         ///< it runs along knot lines or ends of the domain only: no more is held
+  int control_points = 0;          ///< that it was the first edge to hold
+  double deviation = 0;            ///< max |S − S_opened| along it, file units
+  std::vector<std::string> faces;  ///< on the other side
+  /// The largest angle between the tangent planes of its faces, radians, now and as opened: of one that follows and was
+  /// smooth.
+  std::optional<std::array<double, 2>> angles = {};
+};
+
 /// The edges of the faces on one surface: how they are held, how far the surface is from them.
 struct EdgesReport {
-  int surface = 0;  ///< index
-  TrimReport trims;
+  int surface = 0;  ///< an index into `Session::surfaces`
+  std::vector<EdgeReport> edges;
+  int free = 0, visible = 0;    ///< control points: those that may move, those that act on what is visible
+  std::array<int, 2> net = {};  ///< control points by direction
+  int samples = 0;              ///< points on all edges at which deviations were measured
+  double largest_gap = 0;       ///< largest deviation of any edge that does not follow, file units
 };
 
 /// Of every surface with known edges that moved, or that holds them, in order. Surfaces whose edges cannot be measured
-/// are left out. Cost: that of `trim_report`.
-[[nodiscard]] std::vector<EdgesReport> report_edges(const SessionState& state);
+/// are left out. Cost: linear in the corners of the courses of all edges, and `report_followed`.
+[[nodiscard]] std::vector<EdgesReport> report_edges(const Session& session);
 
-/// "follow", or what of an edge is held: "free", "position", "clamped", "curvature".
-[[nodiscard]] std::string_view hold_of(const TrimReport::Edge& edge);
+/// An edge that follows its faces and was smooth as opened.
+struct FollowedReport {
+  std::string id;
+  double angle = 0, angle_before = 0;  ///< the largest between its tangent planes, radians, now and as opened
+};
 
-/// The angles between the tangent planes at an edge that follows and was smooth as opened; none for other edges. Cost:
-/// that of `parting`.
-[[nodiscard]] std::optional<Parting> angles_at(const SessionState& state, const std::string& edge);
+/// Those whose angles can be measured, in the order in which they were let go. Cost: evaluates all faces at the samples
+/// of each edge and at seven points in every span that it crosses.
+[[nodiscard]] std::vector<FollowedReport> report_followed(const Session& session);
 
-/// "none", "C0", "G1", "periodic".
-[[nodiscard]] std::string_view name_of(SeamContinuity continuity);
-/// "#12 u0": a side of a surface.
-[[nodiscard]] std::string name_of(const SessionState& state, const PatchEdge& edge);
+/// A seam of the last step, or why there is none.
+struct SeamSummary {
+  std::string a, b;             ///< "#12 u0": a side of a surface
+  std::string_view continuity;  ///< "none", "C0", "G1", "periodic"
+  double gap = 0;               ///< the largest distance of the two sides, file units
+  std::string reason;           ///< why it is not smoother
+};
+[[nodiscard]] std::vector<SeamSummary> report_seams(const Session& session);
 
 /// What a script has made, as `knead sculpt --report` writes it (docs/command-line.md): every figure of every step, the
-/// outcome, edges, places, seams, notes, modes, and the readings of the scene's probes in the lists that they name.
-/// Errors: those of `read_probe` and `read_shell`. Cost: one evaluation for each probe, and `report_edges`.
-[[nodiscard]] Expected<std::string> report_json(const SessionState& state, const Outcome& outcome);
+/// outcome, edges, places, seams, notes, modes, and the readings of the probes in the lists that they name. Errors: a
+/// probe outside of its domain (input), a rational denominator that is not positive (numerical). Cost: one evaluation
+/// for each probe, and `report_edges`.
+[[nodiscard]] Expected<std::string> report_json(const Session& session, const Outcome& outcome);
 
-/// The results of an analysis: `result_grid` of each selected surface, with the shapes `mode_1`, …, `buckling_1`, … of
-/// its modes and buckling modes. Errors: those of `result_grid`, at the id of the surface.
-[[nodiscard]] Expected<std::vector<FieldGrid>> result_grids(const SessionState& state, int samples);
+/// The selected curve or volume.
+struct BodyReport {
+  std::string_view kind;  ///< "curve", "volume"
+  std::string id, name, unit;
+  std::vector<int> degrees, net;  ///< by direction; numbers of control points
+};
+[[nodiscard]] std::optional<BodyReport> report_body(const Session& session);
 
-/// The same as `knead analyse --results` writes them: with the reactions of a shell and the modes. Errors: those of
-/// `hold_reactions`.
-[[nodiscard]] Expected<std::string> analysis_json(const SessionState& state, std::span<const FieldGrid> grids);
+/// The material of a surface that is a shell. Requires: an index into `Session::surfaces`.
+[[nodiscard]] std::optional<ShellMaterial> shell_of(const Session& session, int surface);
+
+/// "box of sizes 10 x 20 x 5, rounding 2".
+[[nodiscard]] std::string in_words(const Shape& shape);
+
+/// The results of an analysis: each selected surface on `samples` × `samples` points, uniform in its parameters, its
+/// present points with the fields `displacement` (from the rest shape), of shells `membrane`, `moment`, `von_mises` (as
+/// in `ShellPointResults`) and `bending_strain`, and the shapes `mode_1`, …, `buckling_1`, … of its modes and buckling
+/// modes. Errors, at the id of the surface: fewer than 2 samples (input), those of `shell_results`.
+[[nodiscard]] Expected<std::vector<FieldGrid>> result_grids(const Session& session, int samples);
+
+/// The same as `knead analyse --results` writes them: with the modes, and of a shell the reactions of all holds, which
+/// in equilibrium sum to zero with the loads. Errors: those of a static step of a shell.
+[[nodiscard]] Expected<std::string> analysis_json(const Session& session, std::span<const FieldGrid> grids);
 
 }  // namespace knead

@@ -8,14 +8,25 @@
 #include <string_view>
 #include <vector>
 
-#include "knead/hold/seam_coupling.hpp"
-#include "knead/scene/parted_edges.hpp"
-#include "knead/scene/scene.hpp"
+#include "knead/base/error.hpp"
+#include "knead/exchange/save_faces.hpp"
 #include "knead/session/command.hpp"
 #include "knead/session/document.hpp"
-#include "knead/session/note.hpp"
+#include "knead/tool/tool.hpp"
 
 namespace knead {
+
+/// What a command did besides what it was asked for: a text for people, and what a program reads of it, null if nothing
+/// but the text is known. Notes with the same text are the same; snapshots keep both.
+struct Note : std::string {
+  std::shared_ptr<const Diagnostic> diagnostic;
+
+  Note() = default;
+  Note(std::string text) : std::string(std::move(text)) {}  // NOLINT: a text is a note
+  Note(std::string text, Diagnostic read) : std::string(std::move(text)) {
+    if (read.code != ErrorCode{}) diagnostic = std::make_shared<const Diagnostic>(std::move(read));
+  }
+};
 
 /// The record of one step.
 struct StepRecord {
@@ -45,20 +56,16 @@ struct ModeRecord {
   Points shape = {};    ///< displacements of the control points, of largest length 1
 };
 
-/// The record of a session so far.
-struct SessionRecord {
-  SharedList<StepRecord> steps;           ///< shared by the states of a history
-  std::vector<SeamReport> seam_reports;   ///< of the model of the last step; patches are indices of surfaces
-  std::vector<Note> notes;                ///< side effects of commands: refinements, lines kept smooth
-  std::optional<double> energy_before;    ///< energy before the first step
-  std::vector<ModeRecord> modes = {};     ///< of the last command `modes`, lowest first
-  std::vector<ModeRecord> buckling = {};  ///< of the last command `buckling`, likewise
+/// A surface of a session: what the file or a command calls it, and its shapes.
+struct SessionSurface {
+  std::string id, name, unit;
+  std::shared_ptr<const Surface> opened;   ///< by the document, or as it was made
+  std::shared_ptr<const Surface> rest;     ///< where its energy is measured from
+  std::shared_ptr<const Surface> current;  ///< as it is now
 };
 
-/// The whole state at one moment. A value: undo restores an earlier one, bit for bit.
-struct SessionState : Scene, SessionRecord {
-  std::shared_ptr<const Document> document = {};  ///< with the surfaces converted so far; null: as opened
-};
+struct PartedEdge;
+struct SessionState;
 
 /// How an act enters the history.
 struct ActOptions {
@@ -127,7 +134,20 @@ class Session {
   void join();
 
   /// With the surfaces that are converted in the present state.
-  [[nodiscard]] const Document& document() const { return document_of(state()); }
+  [[nodiscard]] const Document& document() const;
+  /// All surfaces: those of the document in its order, then those that commands have converted or made.
+  [[nodiscard]] std::vector<SessionSurface> surfaces() const;
+  /// The selected ones, as indices into `surfaces`, the first one first; none where a curve or a volume is selected.
+  [[nodiscard]] std::vector<int> selection() const;
+  /// Lengths in file units.
+  [[nodiscard]] const std::vector<Tool>& tools() const;
+  [[nodiscard]] std::vector<StepRecord> steps() const;
+  /// What the last commands `modes` and `buckling` found, lowest first.
+  [[nodiscard]] const std::vector<ModeRecord>& modes() const;
+  [[nodiscard]] const std::vector<ModeRecord>& buckling() const;
+  /// Side effects of commands: refinements, lines kept smooth.
+  [[nodiscard]] const std::vector<Note>& notes() const;
+  /// All that commands have made, a value that is the library's own (src/session/session_state.hpp).
   [[nodiscard]] const SessionState& state() const { return *states_[position_]; }
   /// The commands in effect, in order: together with the document, the whole session.
   [[nodiscard]] std::vector<Command> journal() const;
@@ -142,7 +162,7 @@ class Session {
   /// them if its knots differ.
   [[nodiscard]] int moved_control_points(int surface) const;
   /// The edges of faces on surfaces that moved which do not meet their faces any more, as `save` would write them.
-  /// Cost: that of `edge_contacts` where a surface has moved.
+  /// Cost: linear in the edges of the surfaces that have moved, each sampled (src/brep/edge_contacts.hpp).
   [[nodiscard]] Expected<std::vector<PartedEdge>> parted_edges() const;
   /// The document's file with the present surfaces. Errors (numerical): one of `parted_edges` that was not freed.
   [[nodiscard]] Expected<std::string> save() const;
@@ -168,9 +188,7 @@ class Session {
   [[nodiscard]] Before before_act(std::span<const Command> commands, bool join) const;
   void go_back(Before before);
 
-  [[nodiscard]] const Document& document_of(const SessionState& state) const {
-    return state.document ? *state.document : document_;
-  }
+  [[nodiscard]] const Document& document_of(const SessionState& state) const;
   /// Restores the visible regions of surfaces whose edges are held, which a snapshot leaves to the document.
   void know_faces();
 
@@ -183,5 +201,11 @@ class Session {
   bool stops_at_faces_ = false;
   std::unique_ptr<ModelCache> cache_;  // the last model: its factorisation is reused until a setting changes
 };
+
+/// The faces of a session's document as they are now, as a new file of another format: what `Session::save` writes,
+/// with the edges that follow where they have moved, read again. Lengths of a file without a unit are those of
+/// `options`. Errors: those of `Session::save` and of `save_faces` of that file.
+[[nodiscard]] Expected<FacesFile> save_faces(const Session& session, const Format& format,
+                                             const SaveOptions& options = {}, bool convert = false);
 
 }  // namespace knead

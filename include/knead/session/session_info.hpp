@@ -16,7 +16,7 @@ class TypeScript;
 [[nodiscard]] std::string session_json(const Session& session);
 
 /// The steps from index `first` on, [{energy, stretch, …}, …].
-[[nodiscard]] std::string steps_json(const SessionState& state, std::size_t first);
+[[nodiscard]] std::string steps_json(const Session& session, std::size_t first);
 
 /// How large a tool the visible part of a surface has room for: the distance of its visible middle from the nearest
 /// edge of a face, file units. "null" if no edges of faces are known. Cost: that of `visible_middle`.

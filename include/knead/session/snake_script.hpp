@@ -7,11 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "knead/base/describe.hpp"
 #include "knead/image/blobs.hpp"
 #include "knead/image/snake.hpp"
 
 namespace knead {
+
+struct Choice;
+class Fields;
 
 std::span<const Choice> choices(ImageChannel);
 

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "knead/energy/stiffness.hpp"
-#include "knead/solve/dissection.hpp"
 
 namespace knead {
+
+struct Dissection;
+struct GridPlaces;
 
 /// A = L Lᵀ of a sparse symmetric positive definite matrix, with a fill-reducing ordering; factor once, solve many.
 class SparseCholesky {

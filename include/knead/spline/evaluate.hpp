@@ -72,4 +72,74 @@ template <int D>
 template <int D>
 [[nodiscard]] Expected<Point> evaluate_point(const Spline<D>& spline, std::array<double, D> u);
 
+/// `evaluate` for bases that were tabulated before (to `order` at least): point k is row k of every table, all of one
+/// size. Memory that `result` holds is used again. After a failure the content of `result` is unspecified. Errors: a
+/// denominator that is not positive (numerical).
+template <int D>
+[[nodiscard]] Expected<void> evaluate(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables,
+                                      int order, Evaluation<D>& result);
+
+/// The basis functions at parameters that stay while control points change: evaluation without tabulating them anew.
+/// The same bits as `evaluate` and `evaluate_grid`. Immutable, independent of the spline it was made for.
+template <int D>
+class Evaluator {
+ public:
+  /// On the grid of all combinations of the given parameters, last direction fastest, to derivatives of total order
+  /// `order`. At a knot the limit from `side`. Errors: a parameter outside the domain or not finite, named by direction
+  /// and index (input); a negative order (usage). Cost: O(p²) per parameter of each direction.
+  [[nodiscard]] static Expected<Evaluator> on_grid(const std::array<KnotVector, D>& knots,
+                                                   const std::array<std::span<const double>, D>& parameters,
+                                                   int order = 0, Side side = Side::right);
+
+  /// At scattered points. Likewise; cost: O(D p²) per point, about as much as evaluating points once.
+  [[nodiscard]] static Expected<Evaluator> at_points(const std::array<KnotVector, D>& knots,
+                                                     const Parameters<D>& parameters, int order = 0,
+                                                     Side side = Side::right);
+
+  [[nodiscard]] int order() const { return tables_[0].order; }
+  /// Number of points.
+  [[nodiscard]] Eigen::Index size() const;
+
+  /// S and its derivatives for a spline with these knots, rational or not. Memory that `result` holds is used again;
+  /// after a failure its content is unspecified.
+  /// Errors: other knots (usage); a denominator that is not positive (numerical).
+  [[nodiscard]] Expected<void> evaluate(const Spline<D>& spline, Evaluation<D>& result) const;
+  [[nodiscard]] Expected<Evaluation<D>> evaluate(const Spline<D>& spline) const;
+
+ private:
+  Evaluator(std::array<KnotVector, D> knots, std::array<BasisTable, D> tables, bool grid)
+      : knots_(std::move(knots)), tables_(std::move(tables)), grid_(grid) {}
+  [[nodiscard]] static Expected<Evaluator> create(const std::array<KnotVector, D>& knots,
+                                                  const std::array<std::span<const double>, D>& parameters, int order,
+                                                  Side side, bool grid);
+
+  std::array<KnotVector, D> knots_;
+  std::array<BasisTable, D> tables_;
+  bool grid_;
+};
+
+/// Unit normals of a surface from its first derivatives,
+///   n = S_u × S_v / |S_u × S_v|      (do Carmo, Differential Geometry of Curves and Surfaces, 2.4; The NURBS
+///   Book, 3.5),
+/// one per row of an evaluation of order 1 at least; those of rational surfaces too, whose derivatives these are.
+///
+/// Where the derivatives span no plane the normal is (0, 0, 0), never a neighbour's or a limit's: where
+///   |S_u × S_v| <= 1e-9 (|S_u|² + |S_v|²),
+/// as at poles, where an edge is one point; at cusps; and where S_u and S_v are parallel. This depends on the units of
+/// the parameters: directions whose speeds differ by more than 1e9 have no normals. Accuracy elsewhere: 4 ulp of 1
+/// times |S_u| |S_v| / |S_u × S_v| beside what the derivatives err by. Speeds from 1e-75 to 1e75. Requires: order >= 1
+/// (asserted). Memory that `result` holds is used again. Uses several threads where it pays.
+void unit_normals(const Evaluation<2>& evaluation, Points& result);
+[[nodiscard]] Points unit_normals(const Evaluation<2>& evaluation);
+
+/// The same of a surface at scattered parameter points. At a knot the derivatives are limits from `side`.
+/// Errors: as of `evaluate`. `Evaluator` keeps the basis where the net changes from call to call.
+[[nodiscard]] Expected<Points> unit_normals(const Surface& surface, const Parameters<2>& parameters,
+                                            Side side = Side::right);
+
+/// And on a grid, last direction fastest, bit for bit as at scattered points. Errors: as of `evaluate_grid`.
+[[nodiscard]] Expected<Points> unit_normals_on_grid(const Surface& surface,
+                                                    const std::array<std::span<const double>, 2>& parameters,
+                                                    Side side = Side::right);
+
 }  // namespace knead

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "charted_surface.hpp"
-#include "knead/spline/grid_lines.hpp"
+#include "spline/grid_lines.hpp"
 #include "surface_foot.hpp"
 
 namespace knead::brep {

@@ -1,4 +1,4 @@
-#include "knead/brep/context_faces.hpp"
+#include "context_faces.hpp"
 
 #include <array>
 

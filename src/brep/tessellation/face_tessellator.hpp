@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "context_faces.hpp"
 #include "face_chart.hpp"
-#include "knead/brep/context_faces.hpp"
 
 namespace knead::brep {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "knead/base/error.hpp"
-#include "knead/spline/grid_lines.hpp"
 #include "knead/spline/spline.hpp"
+#include "spline/grid_lines.hpp"
 
 namespace knead::brep {
 

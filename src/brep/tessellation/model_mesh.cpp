@@ -1,4 +1,4 @@
-#include "knead/brep/model_mesh.hpp"
+#include "model_mesh.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "face_tessellator.hpp"
 #include "grid_mesh.hpp"
 #include "knead/brep/assembly.hpp"
-#include "knead/spline/grid_lines.hpp"
+#include "spline/grid_lines.hpp"
 
 namespace knead {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/left_out.hpp"
 #include "knead/exchange/source.hpp"
 #include "prepared_model.hpp"
 #include "written_shells.hpp"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "knead/brep/context_faces.hpp"
+#include "brep/tessellation/context_faces.hpp"
 #include "knead/brep/model.hpp"
 
 namespace knead::detail {

@@ -5,7 +5,7 @@
 
 #include "file.hpp"
 #include "knead/brep/model.hpp"
-#include "knead/exchange/left_out.hpp"
+#include "knead/exchange/source.hpp"
 
 namespace knead::iges {
 

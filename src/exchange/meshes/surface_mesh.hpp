@@ -10,7 +10,7 @@
 
 #include "brep/tessellation/grid_mesh.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/spline/grid_lines.hpp"
+#include "spline/grid_lines.hpp"
 
 namespace knead::detail {
 

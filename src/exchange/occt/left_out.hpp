@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "file.hpp"
-#include "knead/exchange/left_out.hpp"
+#include "knead/exchange/source.hpp"
 
 namespace knead::occt {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "entity.hpp"
-#include "knead/brep/tessellated.hpp"
+#include "knead/brep/face_mesh.hpp"
 
 namespace knead::step {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knead/scene/display.hpp"
+#include "scene/display.hpp"
 
 namespace knead {
 

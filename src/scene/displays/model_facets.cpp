@@ -6,7 +6,7 @@
 #include <map>
 
 #include "knead/spline/evaluate.hpp"
-#include "knead/spline/grid_lines.hpp"
+#include "spline/grid_lines.hpp"
 
 namespace knead {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "knead/scene/display.hpp"
+#include "scene/display.hpp"
 #include "spline/box_tree.hpp"
 
 namespace knead {

@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "all.hpp"
-#include "knead/energy/shell_results.hpp"
+#include "knead/energy/shell_energy.hpp"
 
 namespace knead {
 namespace {

@@ -5,11 +5,11 @@
 #include <functional>
 #include <numeric>
 
-#include "knead/scene/held_points.hpp"
-#include "knead/scene/trims.hpp"
 #include "knead/spline/extremum.hpp"
+#include "scene/held_points.hpp"
 #include "scene/mask.hpp"
 #include "scene/places.hpp"
+#include "scene/trims.hpp"
 
 namespace knead {
 namespace {

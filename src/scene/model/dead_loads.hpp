@@ -1,7 +1,7 @@
 #pragma once
 
 #include "knead/energy/domain_scaling.hpp"
-#include "knead/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace knead {
 

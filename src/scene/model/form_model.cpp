@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "contact/active_form.hpp"
 #include "joined_shapes.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/contact/active_form.hpp"
 #include "knead/energy/loads.hpp"
 #include "shell_model.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knead/scene/model.hpp"
+#include "model.hpp"
 
 namespace knead {
 

@@ -5,7 +5,7 @@
 #include "dead_loads.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/energy/loads.hpp"
-#include "knead/scene/model.hpp"
+#include "model.hpp"
 #include "scene/formula_field.hpp"
 #include "scene/places.hpp"
 #include "scene/scene_settings.hpp"

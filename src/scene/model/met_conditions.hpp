@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "knead/scene/model.hpp"
+#include "model.hpp"
 #include "solve/constraint_elimination.hpp"
 
 namespace knead {

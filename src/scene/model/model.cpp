@@ -1,4 +1,4 @@
-#include "knead/scene/model.hpp"
+#include "model.hpp"
 
 #include <fmt/format.h>
 
@@ -6,14 +6,14 @@
 #include <cmath>
 
 #include "constraints.hpp"
+#include "hold/edge_coupling.hpp"
 #include "joined_shapes.hpp"
 #include "knead/energy/loads.hpp"
-#include "knead/hold/edge_coupling.hpp"
-#include "knead/scene/followed.hpp"
-#include "knead/scene/trims.hpp"
 #include "met_conditions.hpp"
+#include "scene/followed.hpp"
 #include "scene/mask.hpp"
 #include "scene/scene_settings.hpp"
+#include "scene/trims.hpp"
 #include "smooth_seams.hpp"
 
 namespace knead {

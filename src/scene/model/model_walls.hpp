@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/scene/display.hpp"
+#include "scene/display.hpp"
 #include "scene/span_grid.hpp"
 
 namespace knead {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "form_model.hpp"
-#include "knead/scene/model.hpp"
+#include "model.hpp"
 #include "scene/anchors.hpp"
 #include "shell_model.hpp"
 

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "constraints.hpp"
+#include "contact/active_shell.hpp"
 #include "dead_loads.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/contact/active_shell.hpp"
 #include "knead/energy/loads.hpp"
-#include "knead/solve/shell_statics.hpp"
 #include "scene/anchors.hpp"
+#include "solve/shell_statics.hpp"
 
 namespace knead {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <span>
 
+#include "energy/shell_structure.hpp"
 #include "joined_shapes.hpp"
-#include "knead/energy/edge_moment.hpp"
-#include "knead/energy/shell_structure.hpp"
-#include "knead/scene/model.hpp"
+#include "knead/energy/loads.hpp"
 #include "knead/solve/linear_constraint.hpp"
+#include "model.hpp"
 
 namespace knead {
 

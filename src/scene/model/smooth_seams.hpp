@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "knead/hold/edge_coupling.hpp"
-#include "knead/hold/seam_coupling.hpp"
+#include "hold/edge_coupling.hpp"
+#include "knead/hold/seams.hpp"
 
 namespace knead {
 

@@ -1,9 +1,9 @@
 #include "structural_modes.hpp"
 
 #include "knead/base/error_code.hpp"
-#include "knead/scene/model.hpp"
-#include "knead/solve/shell_statics.hpp"
+#include "model.hpp"
 #include "shell_model.hpp"
+#include "solve/shell_statics.hpp"
 
 namespace knead {
 namespace {

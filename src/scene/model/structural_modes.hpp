@@ -1,7 +1,7 @@
 #pragma once
 
-#include "knead/scene/scene.hpp"
 #include "knead/solve/eigenmodes.hpp"
+#include "scene/scene.hpp"
 
 namespace knead {
 

@@ -2,13 +2,13 @@
 
 #include <optional>
 
-#include "knead/scene/model.hpp"
-#include "knead/session/document_regions.hpp"
-#include "knead/session/session.hpp"
 #include "motion_law.hpp"
 #include "scene/model/met_conditions.hpp"
+#include "scene/model/model.hpp"
+#include "session/document_regions.hpp"
 #include "session/gestures/brush_run.hpp"
 #include "session/gestures/stroke_model.hpp"
+#include "session/session_state.hpp"
 #include "through_walls.hpp"
 
 namespace knead {

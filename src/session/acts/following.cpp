@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "brep/shared_edge.hpp"
 #include "holding.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/brep/face_conversion.hpp"
-#include "knead/brep/shared_edge.hpp"
-#include "knead/scene/followed.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "refining.hpp"
+#include "scene/followed.hpp"
 #include "selection.hpp"
 #include "session/command_fields.hpp"
 #include "session/gestures/stroking.hpp"

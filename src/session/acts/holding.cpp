@@ -9,7 +9,7 @@
 
 #include "following.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/scene/trims.hpp"
+#include "scene/trims.hpp"
 #include "selection.hpp"
 #include "trimming.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "knead/base/error.hpp"
-#include "knead/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace knead {
 

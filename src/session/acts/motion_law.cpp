@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "act.hpp"
-#include "knead/scene/trims.hpp"
 #include "knead/spline/extremum.hpp"
 #include "notes.hpp"
 #include "scene/model/shell_model.hpp"
+#include "scene/trims.hpp"
 #include "session/gestures/stroking.hpp"
 #include "trimming.hpp"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "knead/scene/model.hpp"
-#include "knead/session/session.hpp"
+#include "scene/model/model.hpp"
 #include "session/gestures/stroke_model.hpp"
+#include "session/session_state.hpp"
 
 namespace knead {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/scene/trims.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 #include "scene/anchors.hpp"
+#include "scene/trims.hpp"
 #include "spline/basis_terms.hpp"
 
 namespace knead {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "knead/session/session.hpp"
+#include "session/session_state.hpp"
 
 namespace knead {
 

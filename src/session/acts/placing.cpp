@@ -11,7 +11,7 @@
 #include "holding.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/hold/seams.hpp"
-#include "knead/scene/model.hpp"
+#include "scene/model/model.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 #include "scene/places.hpp"

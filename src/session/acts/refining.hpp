@@ -4,8 +4,8 @@
 #include <string>
 
 #include "act.hpp"
-#include "knead/scene/trims.hpp"
 #include "scene/reshape.hpp"
+#include "scene/trims.hpp"
 
 namespace knead {
 

@@ -6,15 +6,15 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/interruption.hpp"
 #include "following.hpp"
 #include "holding.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/base/interruption.hpp"
-#include "knead/scene/followed.hpp"
 #include "knead/spline/extremum.hpp"
 #include "notes.hpp"
 #include "refining.hpp"
 #include "scene/anchors.hpp"
+#include "scene/followed.hpp"
 #include "scene/model/shell_model.hpp"
 #include "selection.hpp"
 #include "trimming.hpp"

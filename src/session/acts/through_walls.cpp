@@ -8,13 +8,13 @@
 #include <variant>
 
 #include "act.hpp"
+#include "brep/trim_loops.hpp"
 #include "knead/base/error_code.hpp"
-#include "knead/brep/trim_loops.hpp"
-#include "knead/scene/display.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 #include "notes.hpp"
 #include "refining.hpp"
+#include "scene/display.hpp"
 #include "scene/model/model_walls.hpp"
 #include "session/commands.hpp"
 #include "session/gestures/stroking.hpp"

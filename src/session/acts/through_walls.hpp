@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "knead/session/session.hpp"
+#include "session/session_state.hpp"
 
 namespace knead {
 

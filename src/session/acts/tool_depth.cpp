@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "knead/spline/evaluate.hpp"
-#include "knead/spline/grid_lines.hpp"
 #include "motion_law.hpp"
+#include "spline/grid_lines.hpp"
 
 namespace knead {
 namespace {

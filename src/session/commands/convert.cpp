@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "knead/brep/face_conversion.hpp"
-#include "knead/session/document_regions.hpp"
 #include "session/acts/selection.hpp"
 #include "session/acts/trimming.hpp"
+#include "session/document_regions.hpp"
 
 namespace knead {
 namespace {

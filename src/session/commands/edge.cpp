@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "../components.hpp"
-#include "knead/scene/trims.hpp"
+#include "scene/trims.hpp"
 #include "session/acts/following.hpp"
 #include "session/acts/holding.hpp"
 #include "session/acts/selection.hpp"

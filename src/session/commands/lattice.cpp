@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/scene/lattice.hpp"
+#include "scene/lattice.hpp"
 #include "session/acts/limits.hpp"
 #include "session/acts/placing.hpp"
 #include "session/acts/refining.hpp"

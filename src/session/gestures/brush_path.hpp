@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "knead/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace knead {
 

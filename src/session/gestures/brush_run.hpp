@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/scene/model.hpp"
+#include "scene/model/model.hpp"
 
 namespace knead {
 

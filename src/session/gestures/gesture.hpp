@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "knead/base/error.hpp"
-#include "knead/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace knead {
 

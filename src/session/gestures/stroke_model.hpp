@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "knead/scene/model.hpp"
-#include "knead/spline/site_values.hpp"
+#include "scene/model/model.hpp"
 #include "sculpt/travelled.hpp"
+#include "spline/interpolation/site_values.hpp"
 
 namespace knead {
 
