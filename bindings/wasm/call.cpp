@@ -4,10 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "describe/record_json.hpp"
 #include "knead/session/session_info.hpp"
 #include "queries.hpp"
 #include "session/commands.hpp"
-#include "session/described_json.hpp"
 
 namespace knead::studio {
 namespace {

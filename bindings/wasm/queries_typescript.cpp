@@ -2,8 +2,8 @@
 
 #include <cctype>
 
+#include "describe/text.hpp"
 #include "queries.hpp"
-#include "session/described_text.hpp"
 
 namespace knead::studio {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "session/json.hpp"
+#include "describe/json.hpp"
 #include "studio.hpp"
 #include "values.hpp"
 

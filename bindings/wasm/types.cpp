@@ -3,10 +3,10 @@
 
 #include <string>
 
+#include "describe/text.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/session_info.hpp"
 #include "queries.hpp"
-#include "session/described_text.hpp"
 
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/describe.hpp"
+#include "describe/describe.hpp"
 #include "knead/session/command.hpp"
 
 namespace knead::studio {

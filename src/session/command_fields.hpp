@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "base/describe.hpp"
+#include "describe/describe.hpp"
 #include "session_state.hpp"
 
 namespace knead {

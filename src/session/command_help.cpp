@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "described_text.hpp"
+#include "describe/text.hpp"
 #include "knead/session/command_json.hpp"
 
 namespace knead {

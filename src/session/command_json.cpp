@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "commands.hpp"
-#include "described_json.hpp"
+#include "describe/record_json.hpp"
 
 namespace knead {
 

@@ -2,8 +2,8 @@
 
 #include <unordered_set>
 
-#include "base/describe.hpp"
-#include "cbor.hpp"
+#include "describe/cbor.hpp"
+#include "describe/describe.hpp"
 #include "knead/spline/spline.hpp"
 
 namespace knead {

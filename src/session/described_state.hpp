@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/describe.hpp"
+#include "describe/describe.hpp"
 #include "session_state.hpp"
 
 namespace knead {

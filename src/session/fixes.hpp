@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/describe.hpp"
+#include "describe/describe.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/session/command.hpp"
 

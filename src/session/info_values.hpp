@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "described_json.hpp"
+#include "describe/record_json.hpp"
 #include "described_state.hpp"
 #include "session_state.hpp"
 

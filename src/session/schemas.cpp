@@ -1,5 +1,5 @@
 #include "commands.hpp"
-#include "described_text.hpp"
+#include "describe/text.hpp"
 #include "knead/session/command_json.hpp"
 
 namespace knead {

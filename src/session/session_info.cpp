@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "commands.hpp"
+#include "describe/text.hpp"
 #include "described_state.hpp"
-#include "described_text.hpp"
 #include "diagnostic_info.hpp"
 #include "info_values.hpp"
 #include "restated.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "acts/selection.hpp"
-#include "described_json.hpp"
+#include "describe/record_json.hpp"
 #include "tool/describe_shape.hpp"
 
 namespace knead {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "described_json.hpp"
+#include "describe/record_json.hpp"
 
 namespace knead {
 

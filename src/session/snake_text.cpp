@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "described_json.hpp"
+#include "describe/record_json.hpp"
 #include "knead/session/volume_snake_script.hpp"
 
 namespace knead {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "described_json.hpp"
+#include "describe/record_json.hpp"
 
 namespace knead {
 namespace {

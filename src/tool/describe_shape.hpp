@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/describe.hpp"
+#include "describe/describe.hpp"
 #include "knead/tool/shape.hpp"
 
 namespace knead {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/describe.hpp"
+#include "describe/describe.hpp"
 #include "searched_solid.hpp"
 #include "separable_patch.hpp"
 

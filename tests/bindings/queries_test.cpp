@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "session/described_text.hpp"
+#include "describe/text.hpp"
 
 namespace knead::studio {
 namespace {

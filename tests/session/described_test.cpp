@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "../src/session/described_text.hpp"
+#include "describe/text.hpp"
 #include "tool/describe_shape.hpp"
 
 namespace knead::testing {

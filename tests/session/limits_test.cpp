@@ -5,8 +5,8 @@
 
 #include <chrono>
 
+#include "describe/json.hpp"
 #include "exchange/step/file.hpp"
-#include "session/json.hpp"
 #include "support.hpp"
 
 namespace knead {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/describe.hpp"
+#include "describe/describe.hpp"
 #include "knead/exchange/source.hpp"
 
 namespace knead {

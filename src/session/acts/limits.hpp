@@ -15,7 +15,6 @@ inline constexpr std::int64_t max_net_size = 4000000;        ///< control points
 inline constexpr std::int64_t max_document_size = 20000000;  ///< control points of all that a document holds
 inline constexpr int max_steps = 1000000;                    ///< of one command
 inline constexpr int most_modes = 100;                       ///< or factors of buckling, of one command
-inline constexpr std::size_t max_json_depth = 64;            ///< lists and objects inside each other; commands need six
 
 /// An error about `net` if a net of these counts (0 or more) is larger than `max_net_size`.
 [[nodiscard]] Expected<void> check_net_size(const std::array<int, 2>& counts);

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "describe/record_json.hpp"
 #include "knead/energy/paint.hpp"
 #include "scene/formula_field.hpp"
 #include "scene/places.hpp"
 #include "session/acts/selection.hpp"
-#include "session/described_json.hpp"
 
 namespace knead {
 namespace {

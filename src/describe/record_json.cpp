@@ -1,4 +1,4 @@
-#include "described_json.hpp"
+#include "record_json.hpp"
 
 #include <fmt/format.h>
 

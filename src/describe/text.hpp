@@ -1,6 +1,6 @@
 #pragma once
 
-#include "described_json.hpp"
+#include "record_json.hpp"
 
 namespace knead {
 

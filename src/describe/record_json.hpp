@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/describe.hpp"
+#include "describe.hpp"
 #include "json.hpp"
 
 namespace knead {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "described_text.hpp"
+#include "text.hpp"
 
 namespace knead {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/describe.hpp"
+#include "describe/describe.hpp"
 
 #include <gtest/gtest.h>
 

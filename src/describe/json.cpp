@@ -9,7 +9,6 @@
 #include <optional>
 #include <set>
 
-#include "acts/limits.hpp"
 #include "knead/base/printable.hpp"
 
 namespace knead {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,10 @@ struct Json {
   /// The member of that name; null if there is none.
   [[nodiscard]] const Json* find(std::string_view name) const;
 };
+
+/// Lists and objects inside each other; commands need six. Far beyond use, it keeps what a few bytes can ask for within
+/// the stack.
+inline constexpr std::size_t max_json_depth = 64;
 
 /// Errors: what is not JSON, with its line; a name given twice in an object; more than `max_json_depth` levels.
 [[nodiscard]] Expected<Json> parse_json(std::string_view text);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "described_text.hpp"
+#include "text.hpp"
 
 namespace knead {
 namespace {

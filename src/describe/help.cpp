@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "described_text.hpp"
+#include "text.hpp"
 
 namespace knead {
 namespace {
