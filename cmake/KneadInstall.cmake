@@ -1,12 +1,15 @@
 # `cmake --install` leaves a package that `find_package(knead)` finds: headers, library, licence; the command
-# line installs itself. The imported target is knead::knead, as inside the build.
+# line installs itself. The imported targets are knead::knead and
+# knead::image, as inside the build; the second is the component `image`.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/knead)
 
-target_include_directories(knead PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-install(TARGETS knead EXPORT knead-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+foreach(library knead knead_image)
+  target_include_directories(${library} PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endforeach()
+install(TARGETS knead knead_image EXPORT knead-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/knead DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(EXPORT knead-targets NAMESPACE knead:: DESTINATION ${package_dir})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -8,7 +8,7 @@ preset=${1:-noexcept}
 scripts/setup.sh build
 scripts/configure.sh "$preset"
 cmake --build "build/$preset"
-if nm "build/$preset/libknead.a" 2>/dev/null | grep -E '__cxa_(throw|begin_catch|allocate_exception)$'; then
+if nm "build/$preset/libknead.a" "build/$preset/src/image/libknead_image.a" 2>/dev/null | grep -E '__cxa_(throw|begin_catch|allocate_exception)$'; then
   echo "noexcept: the core refers to the C++ exception runtime" >&2
   exit 1
 fi

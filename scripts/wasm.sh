@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the whole library for WebAssembly: build/wasm/libknead.a
+# Builds the whole library for WebAssembly: build/wasm/libknead.a and src/image/libknead_image.a
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "answers.hpp"
-#include "knead/session/snake_text.hpp"
+#include "knead/image/snake_script.hpp"
 #include "snake_room.hpp"
 
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "knead/session/snake_script.hpp"
+#include "knead/image/snake_script.hpp"
 
 namespace knead::snakes {
 

@@ -7,7 +7,7 @@
 
 #include "knead/image/surface_snake.hpp"
 #include "knead/spline/evaluate.hpp"
-#include "surface_checks.hpp"
+#include "snake_settings.hpp"
 #include "surface_net.hpp"
 
 namespace knead {
@@ -62,49 +62,8 @@ SurfaceSpace space_for(const SurfaceStart& start, const SurfaceSnakeSettings& se
 
 }  // namespace
 
-Expected<void> check_surface_settings(const SurfaceSnakeSettings& s) {
-  const double fewest = s.degree + 1.0;
-  const struct {
-    const char* name;
-    double value, least, most;
-  } numbers[] = {{"degree", double(s.degree), 2, 7},
-                 {"control_points", double(s.control_points[0]), fewest, 1000},
-                 {"control_points", double(s.control_points[1]), fewest, 1000},
-                 {"units", s.units, 0, 1e9},
-                 {"alpha", s.alpha, 0, 1e12},
-                 {"beta", s.beta, 0, 1e12},
-                 {"gamma", s.gamma, 1e-12, 1e12},
-                 {"band", s.band, 0, 1e6},
-                 {"redistribute", double(s.redistribute), 0, 1e7},
-                 {"balloon", s.balloon, -1e12, 1e12},
-                 {"max_move", s.max_move, 1e-6, 1e6},
-                 {"max_iterations", double(s.max_iterations), 1, 1e7},
-                 {"motion", s.motion, 0, 1e6},
-                 {"refine", s.refine, 0, 1e6},
-                 {"max_control_points", double(s.max_control_points), 1, 100000}};
-  for (const auto& [name, value, least, most] : numbers) {
-    if (value >= least && value <= most) continue;
-    return input_error(fmt::format("{} is out of range", value), name, fmt::format("use {} to {}", least, most));
-  }
-  for (const SurfaceSpring& spring : s.springs) {
-    const auto beyond = [](double at) { return !(at >= 0 && at <= 1); };
-    if (beyond(spring.at[0]) || beyond(spring.at[1])) {
-      return input_error("it is beyond the surface", "springs", "use at 0 to 1");
-    }
-    if (!spring.to.allFinite()) return input_error("the place is not finite", "springs");
-    if (!(spring.strength >= 0)) return input_error("the strength is negative", "springs", "use 0 or more");
-  }
-  for (const SurfaceVolcano& volcano : s.volcanoes) {
-    if (!volcano.at.allFinite() || !std::isfinite(volcano.strength)) {
-      return input_error("it is not finite", "volcanoes");
-    }
-    if (!(volcano.radius > 0)) return input_error("the radius is not positive", "volcanoes", "use more than 0");
-  }
-  return {};
-}
-
 Expected<ClosedSurface> closed_surface(const SurfaceStart& start, const SurfaceSnakeSettings& settings) {
-  if (auto checked = check_surface_settings(settings); !checked) return std::unexpected(checked.error());
+  if (auto checked = check_settings(settings); !checked) return std::unexpected(checked.error());
   if (auto checked = check_start(start); !checked) return std::unexpected(checked.error());
   if (start.form == SurfaceForm::sphere && settings.control_points[1] < fewest_from_pole_to_pole) {
     return input_error(fmt::format("{} from pole to pole are too few", settings.control_points[1]), "control_points",

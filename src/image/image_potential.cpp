@@ -1,4 +1,4 @@
-#include "knead/image/image_potential.hpp"
+#include "knead/image/image.hpp"
 
 #include <fmt/format.h>
 

@@ -5,15 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "knead/image/image_potential.hpp"
+#include "knead/image/image.hpp"
 #include "knead/image/snake.hpp"
 #include "snake_motion.hpp"
 #include "snake_net.hpp"
+#include "snake_settings.hpp"
 
 namespace knead {
-
-/// Errors (input): settings outside their ranges.
-[[nodiscard]] Expected<void> check_settings(const SnakeSettings& settings);
 
 /// Σ over the area inside by Green's theorem.
 struct Inside {

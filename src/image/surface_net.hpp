@@ -11,7 +11,7 @@
 namespace knead {
 
 /// What the parameters of a closed surface are of, and their functions: `counts` as in
-/// `SurfaceSnakeSettings::control_points`, `lengths` those of the domain in u and v.
+/// `SnakeSettingsOf<2>::control_points`, `lengths` those of the domain in u and v.
 struct SurfaceSpace {
   SurfaceForm form = SurfaceForm::sphere;
   int degree = 3;

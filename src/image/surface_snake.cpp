@@ -11,7 +11,7 @@
 #include "base/decompositions.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "snake_motion.hpp"
-#include "surface_checks.hpp"
+#include "snake_settings.hpp"
 #include "surface_net.hpp"
 
 namespace knead {
@@ -305,7 +305,7 @@ Expected<std::vector<SurfaceSnakeResult>> run_surface_snakes(const VolumePotenti
   std::vector<MovingSurface> snakes;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const auto in = [k](const Error& error) { return std::unexpected(error.within(fmt::format("snakes[{}]", k))); };
-    if (auto checked = check_surface_settings(settings[k]); !checked) return in(checked.error());
+    if (auto checked = check_settings(settings[k]); !checked) return in(checked.error());
     const auto space = space_of(starts[k]);
     if (!space) return in(space.error());
     auto active = activated(settings[k], *space, Points::Zero(space->unknowns(), 3), 0);

@@ -1,4 +1,4 @@
-#include "knead/image/volume_potential.hpp"
+#include "knead/image/volume.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/nrrd.hpp"
 
 namespace knead {
 namespace {
@@ -14,7 +13,7 @@ std::string kind_of_file(std::string_view bytes) {
   using namespace std::string_view_literals;
   if (bytes.find_first_not_of(" \t\r\n") == bytes.npos) return "an empty file";
   if (bytes.starts_with("\x89PNG"sv) || bytes.starts_with("\xFF\xD8\xFF"sv)) return "an image";
-  if (is_nrrd(bytes)) return "an NRRD file";
+  if (bytes.starts_with("NRRD")) return "an NRRD file";
   if (compression_of(bytes) != Compression::none) return "a compressed file";
   if (bytes[0] == '{' || bytes[0] == '[') return {};
   for (const Format& format : formats()) {

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/nrrd.hpp"
+#include "knead/image/volume.hpp"
 #include "program.hpp"
 
 namespace knead::testing {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "knead/image/image_potential.hpp"
-
 namespace knead {
 namespace {
 

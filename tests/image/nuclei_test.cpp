@@ -8,10 +8,10 @@
 #include <map>
 #include <numbers>
 
-#include "knead/image/blobs.hpp"
+#include "knead/image/image.hpp"
 #include "knead/image/snake.hpp"
+#include "knead/image/snake_script.hpp"
 #include "knead/image_file.hpp"
-#include "knead/session/snake_script.hpp"
 #include "support/foreign_files.hpp"
 
 namespace knead {

@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "knead/image/snake.hpp"
+#include "knead/image/snake_script.hpp"
 #include "knead/image_file.hpp"
-#include "knead/session/snake_script.hpp"
 #include "support/foreign_files.hpp"
 
 namespace knead {

@@ -9,7 +9,6 @@
 #include <random>
 
 #include "image/volume_fixtures.hpp"
-#include "knead/image/volume_potential.hpp"
 
 namespace knead {
 namespace {

@@ -1,8 +1,7 @@
 #include <algorithm>
 
 #include "binding.hpp"
-#include "knead/session/snake_script.hpp"
-#include "knead/session/volume_snake_script.hpp"
+#include "knead/image/snake_script.hpp"
 #include "working.hpp"
 
 namespace knead::python {

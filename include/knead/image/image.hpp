@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "knead/base/error.hpp"
@@ -73,5 +75,84 @@ class ImageSpline {
   int width_, height_;
   std::vector<double> coefficients_;  ///< (width + 2) × (height + 2), one beyond each border
 };
+
+/// What of an image attracts a contour. A positive weight draws it to what is bright, has edges, is curved, is near.
+struct ImagePotentialSettings {
+  double smoothing = 1;          ///< σ of the Gaussian that everything but the mask is taken at, pixels; 0: none
+  double line = 0;               ///< weight of the intensity (thesis Eq. 2.29, whose P is minus this)
+  double edge = 1;               ///< weight of the gradient's magnitude (`sobel`)
+  double termination = 0;        ///< weight of the curvature of lines of equal grey (`termination`)
+  double flow = 0;               ///< weight of the gradient vector flow of the gradient's magnitude, directions only
+  double flow_smoothness = 0.2;  ///< its μ
+  int flow_iterations = 200;
+  double region = 0;  ///< weight of the region term: grey values inside and outside like their means
+  /// Divides the region term by (μ_in − μ_out)² and limits it to ±1: the same force for what is pale and what is
+  /// bright.
+  bool relative_region = false;
+  double distance = 0;  ///< weight of the nearness to the mask
+
+  friend bool operator==(const ImagePotentialSettings&, const ImagePotentialSettings&) = default;
+};
+
+/// Errors (input): weights that are no numbers; negative smoothing, μ or iterations; too much of them.
+[[nodiscard]] Expected<void> check_potential_settings(const ImagePotentialSettings& settings);
+
+/// The external energy of snakes in one image: −P of thesis Eqs. 2.28 to 2.30 as a C2 function, and forces that are no
+/// gradient.
+///
+/// Q = line · I + edge · |∇I| + termination · κ − distance · d at pixels, between them the bicubic spline through
+/// these; the force is ∇Q. With `flow` the unit vectors of the gradient vector flow are added, interpolated as splines.
+/// The region term (T. Chan and L. Vese, *Active contours without edges*, 2001) acts along the normal of a closed
+/// contour with (I − μ_out)² − (I − μ_in)², the means over its inside and outside. Copies share the images.
+class ImagePotential {
+ public:
+  /// `mask` is needed for `distance`. Cost: O(pixels · (smoothing + flow iterations)). Errors (input): those of
+  /// `check_image`; no mask, one of another size or without a pixel of 0.5 or more; settings that are no numbers,
+  /// negative smoothing, μ or iterations.
+  [[nodiscard]] static Expected<ImagePotential> create(const Image& image, const ImagePotentialSettings& settings = {},
+                                                       const std::optional<Image>& mask = {});
+
+  [[nodiscard]] const ImagePotentialSettings& settings() const;
+  [[nodiscard]] int width() const;
+  [[nodiscard]] int height() const;
+
+  /// Q at a place.
+  [[nodiscard]] double value(double x, double y) const;
+  /// ∇Q and the flow's force.
+  [[nodiscard]] std::array<double, 2> force(double x, double y) const;
+
+  /// The smoothed intensity.
+  [[nodiscard]] double intensity(double x, double y) const;
+  /// ∫ I dx from the left border to x at height y: by Green's theorem its integral along a closed contour, dy, is the
+  /// sum of the intensity inside. Where the region term has no weight, 0.
+  [[nodiscard]] double intensity_to_the_left(double x, double y) const;
+  /// Of the smoothed image over its pixels.
+  [[nodiscard]] double total_intensity() const;
+
+ private:
+  struct Fields;
+  explicit ImagePotential(std::shared_ptr<const Fields> fields) : fields_(std::move(fields)) {}
+  std::shared_ptr<const Fields> fields_;
+};
+
+/// A place that is brighter, or darker, than what is around it.
+struct Blob {
+  double x = 0, y = 0;  ///< its centre, a pixel's
+  double radius = 0;    ///< of the disc that answers most alike, pixels
+  double contrast = 0;  ///< of that disc with what is around
+};
+
+struct BlobSettings {
+  std::array<double, 2> radii = {5, 20};  ///< least and largest, pixels
+  double contrast = 0.05;                 ///< least
+  bool dark = false;                      ///< darker than what is around them
+};
+
+/// Blobs of an image, by decreasing contrast: the local maxima, over places and scales, of −σ² ∇²(G_σ * I), which at
+/// the centre of a disc of radius r is largest, 2/e of its contrast, at σ = r / √2 (T. Lindeberg, *Feature detection
+/// with automatic scale selection*, 1998). Scales grow by 15 %. Of two whose centres are nearer than the larger radius
+/// the one with more contrast is kept. Cost: O(scales · pixels · radius). Errors (input): those of `check_image`; radii
+/// that are not positive, descending or above 100; a contrast that is negative.
+[[nodiscard]] Expected<std::vector<Blob>> find_blobs(const Image& image, const BlobSettings& settings = {});
 
 }  // namespace knead

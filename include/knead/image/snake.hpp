@@ -3,59 +3,91 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
-#include "knead/image/image_potential.hpp"
+#include "knead/image/image.hpp"
 #include "knead/spline/spline.hpp"
 
 namespace knead {
 
-/// A force of the user's hand on a snake (Kass, Witkin and Terzopoulos; thesis Fig. 2.24).
-struct SnakeSpring {
-  double at = 0;                  ///< which point of the snake: the fraction of its parameter, 0 to 1
-  std::array<double, 2> to = {};  ///< where it is drawn, pixels
-  double strength = 1;            ///< force per distance
+/// A place in the image of a curve (D = 1), pixels, or in the space of a surface (D = 2).
+template <int D>
+using SnakePlace = std::conditional_t<D == 1, std::array<double, 2>, Point>;
+template <int D>
+[[nodiscard]] SnakePlace<D> snake_origin() {
+  if constexpr (D == 1) return {};
+  if constexpr (D == 2) return Point::Zero();
+}
+
+/// The control points that a snake has by default: 40 around a curve; 24 around a surface and 14 from pole to pole.
+template <int D>
+[[nodiscard]] constexpr auto usual_snake_net() {
+  if constexpr (D == 1) return 40;
+  if constexpr (D == 2) return std::array{24, 14};
+}
+
+/// Forces of the user's hand on a snake of D parameters (Kass, Witkin and Terzopoulos; thesis Fig. 2.24).
+template <int D>
+struct SnakeSpringOf {
+  std::conditional_t<D == 1, double, std::array<double, 2>> at = {};  ///< which point: fractions of its parameters
+  SnakePlace<D> to = snake_origin<D>();                               ///< where it is drawn
+  double strength = 1;                                                ///< force per distance
 };
-struct SnakeVolcano {
-  std::array<double, 2> at = {};  ///< from where the snake is pushed away, pixels
-  double strength = 1;            ///< force at the radius; it falls with the square of the distance
-  double radius = 1;              ///< within which it grows no more, pixels
+template <int D>
+struct SnakeVolcanoOf {
+  SnakePlace<D> at = snake_origin<D>();  ///< from where the snake is pushed away
+  double strength = 1;                   ///< force at the radius; it falls with the square of the distance
+  double radius = 1;                     ///< within which it grows no more
 };
 
-/// How a snake is made and moves. The energy is ½ ∫ α |v'|² + β |v''|² ds − ∫ Q(v) ds (thesis Eqs. 2.26 to 2.30, with
-/// the factor ½ of Kass, Witkin and Terzopoulos), s counted in `units`.
-struct SnakeSettings {
-  bool closed = true;
-  int degree = 3;
-  int control_points = 40;  ///< of a closed snake those that are different
-  double units = 0;         ///< length of the parameter s; 0: the length of the start in pixels
-  double alpha = 0.015, beta = 10;
-  double gamma = 0.001;  ///< viscosity: force per velocity, pixels per iteration
-  /// Width of the outside that the region term compares with, pixels: the median of what is so near the snake and in no
-  /// other. The insides of others and what is beyond the image push it back. 0: all of the image, by its mean.
+/// How a snake is made and moves: a curve in an image (D = 1) or a closed surface in a volume (D = 2). The energy is
+/// ½ ∫ α |∇v|² + β |Δv|² ds − ∫ Q(v) ds (thesis Eqs. 2.26 to 2.30, 2.33, 2.34, with the factor ½ of Kass, Witkin and
+/// Terzopoulos) over what the parameters are of: a line or circle, counted in `units`; a round sphere or a flat torus.
+/// Lengths are pixels in images, those of space in volumes.
+template <int D>
+struct SnakeSettingsOf {
+  bool closed = true;  ///< of curves; surfaces are
+  int degree = 3;      ///< 2 to 7
+  /// Those that differ of a closed curve; in u those of a surface that differ, in v from pole to pole, or that differ.
+  std::conditional_t<D == 1, int, std::array<int, 2>> control_points = usual_snake_net<D>();
+  /// Length of the parameter, of surfaces the way around in u; 0: that of the start (for an ellipsoid of a sphere of
+  /// its mean radius). From pole to pole it is half of that; around the tube of a torus as much less as the start's
+  /// tube is.
+  double units = 0;
+  double alpha = D == 1 ? 0.015 : 0.01, beta = D == 1 ? 10 : 0.1;
+  double gamma = D == 1 ? 0.001 : 0.1;  ///< viscosity: force per velocity, length per iteration
+  /// Width of the outside that the region term compares with; 0: all of the image, by its mean. Of curves the median of
+  /// what is so near the snake and in no other; the insides of others and what is beyond the image push it back.
   double band = 0;
-  /// Share of the outside, with a band, that is taken along the normal of each place alone: the darkest grey value on
-  /// the way outwards to the end of the band or the next snake (the brightest, where the inside is darker than the
-  /// band). A snake does not flow through a bridge between two bright places that is darker than both.
+  /// Of curves the share of the outside, with a band, that is taken along the normal of each place alone: the darkest
+  /// grey value on the way outwards to the end of the band or the next snake (the brightest, where the inside is darker
+  /// than the band). A snake does not flow through a bridge between two bright places that is darker than both.
   double local = 0.5;
-  /// Every so many iterations a closed snake that is driven along its normal, by regions or pressure, and has no
-  /// springs is spread evenly where it is stretched more than twice as much in some places as in others; 0: never.
+  /// Every so many iterations a closed snake that is driven along its normal, by regions, flow or pressure, and has no
+  /// springs is spread evenly within itself where its length is stretched more than twice, its area more than four
+  /// times as much in some places as in others; 0: never.
   int redistribute = 10;
-  double balloon = 0;     ///< pressure along the outward normal of a closed snake, force per length
-  bool hold_ends = true;  ///< of an open snake
-  /// Free ends are pulled outwards along the snake by this share of the stretch at the start, α |v'|. With 0 they obey
-  /// the natural conditions of the energy, v'' = 0 and β v''' = α v', and an open snake contracts; with 1 it keeps its
-  /// length but for what the image does.
+  double balloon = 0;     ///< pressure along the outward normal of a closed snake, force per length or area
+  bool hold_ends = true;  ///< of an open curve
+  /// Free ends of a curve are pulled outwards along it by this share of the stretch at the start, α |v'|. With 0 they
+  /// obey the natural conditions of the energy, v'' = 0 and β v''' = α v', and an open snake contracts; with 1 it keeps
+  /// its length but for what the image does.
   double end_tension = 0;
-  double max_move = 1;  ///< pixels that a control point moves in an iteration at most: |d| becomes m tanh(|d| / m)
+  double max_move = 1;  ///< that a control point moves in an iteration at most: |d| becomes m tanh(|d| / m)
   int max_iterations = 2500;
-  double motion =
-      0.1;            ///< ends when no control point is farther from one of ten earlier places, in |dx| + |dy|, pixels
-  double refine = 0;  ///< halves spans where a finer net would change the contour by more, pixels; 0: never
-  int max_control_points = 1000;  ///< up to which spans are halved
-  std::vector<SnakeSpring> springs = {};
-  std::vector<SnakeVolcano> volcanoes = {};
+  /// Ends when no control point is farther from one of ten earlier places, in |dx| + |dy| + |dz|.
+  double motion = D == 1 ? 0.1 : 0.01;
+  /// Halves spans of a curve where a finer net would change it by more, all of a surface where that would move it by
+  /// more, across itself; 0: never.
+  double refine = 0;
+  int max_control_points = D == 1 ? 1000 : 4000;  ///< up to which spans are halved
+  std::vector<SnakeSpringOf<D>> springs = {};
+  std::vector<SnakeVolcanoOf<D>> volcanoes = {};
 };
+using SnakeSpring = SnakeSpringOf<1>;
+using SnakeVolcano = SnakeVolcanoOf<1>;
+using SnakeSettings = SnakeSettingsOf<1>;
 
 /// A contour in an image: a B-spline curve in the plane z = 0, x to the right and y down, in pixels.
 struct SnakeResult {

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "knead/image/volume_potential.hpp"
+#include "knead/image/snake.hpp"
+#include "knead/image/volume.hpp"
 #include "knead/spline/spline.hpp"
 
 namespace knead {
@@ -24,43 +25,9 @@ struct SurfaceStart {
   Point axis = Point::UnitZ();  ///< through the poles, or through the hole; any length above 0
 };
 
-/// A force of the user's hand on an active surface.
-struct SurfaceSpring {
-  std::array<double, 2> at = {};  ///< which point: the fractions of its parameters, 0 to 1
-  Point to = Point::Zero();
-  double strength = 1;  ///< force per distance
-};
-struct SurfaceVolcano {
-  Point at = Point::Zero();  ///< from where the surface is pushed away
-  double strength = 1;       ///< force at the radius; it falls with the square of the distance
-  double radius = 1;         ///< within which it grows no more
-};
-
-/// How an active surface is made and moves. The energy is ½ ∫ α |∇v|² + β |Δv|² dΩ − ∫ Q(v) dΩ (thesis Eqs. 2.33, 2.34
-/// with the factor ½) over the surface Ω that the parameters are of: a round sphere or a flat torus. Lengths are those
-/// of space.
-struct SurfaceSnakeSettings {
-  int degree = 3;                                ///< in both directions, 2 to 7
-  std::array<int, 2> control_points = {24, 14};  ///< in u those that differ; in v from pole to pole, or that differ
-  /// The way around Ω in u; 0: that of the start (for an ellipsoid of a sphere of its mean radius). From pole to pole
-  /// it is half of that; around the tube of a torus as much less as the start's tube is.
-  double units = 0;
-  double alpha = 0.01, beta = 0.1;
-  double gamma = 0.1;  ///< viscosity: force per velocity, length per iteration
-  double band = 0;     ///< width of the outside that the region term compares with; 0: all of the volume
-  /// Every so many iterations a surface that is driven by regions, flow or pressure and has no springs is spread evenly
-  /// within itself where its area is stretched more than four times as much in some places as in others; 0: never.
-  int redistribute = 10;
-  double balloon = 0;   ///< pressure along the outward normal, force per area of Ω
-  double max_move = 1;  ///< that a control point moves in an iteration at most: |d| becomes m tanh(|d| / m)
-  int max_iterations = 2500;
-  double motion =
-      0.01;           ///< ends when no control point is farther from one of ten earlier places, in |dx| + |dy| + |dz|
-  double refine = 0;  ///< halves all spans where that would move the surface by more, across itself; 0: never
-  int max_control_points = 4000;  ///< up to which spans are halved
-  std::vector<SurfaceSpring> springs = {};
-  std::vector<SurfaceVolcano> volcanoes = {};
-};
+using SurfaceSpring = SnakeSpringOf<2>;
+using SurfaceVolcano = SnakeVolcanoOf<2>;
+using SurfaceSnakeSettings = SnakeSettingsOf<2>;
 
 /// A closed surface and what its parameters are of.
 ///

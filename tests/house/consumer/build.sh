@@ -15,3 +15,4 @@ cmake -S "$source_dir" -B "$work_dir/build" -G Ninja -DCMAKE_CXX_COMPILER="$comp
   -DCMAKE_CXX_FLAGS="$*" >/dev/null
 cmake --build "$work_dir/build"
 "$work_dir/build/consumer"
+"$work_dir/build/image_consumer"

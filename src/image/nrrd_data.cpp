@@ -9,7 +9,7 @@
 
 #include "knead/base/printable.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/exchange/nrrd.hpp"
+#include "knead/image/volume.hpp"
 
 namespace knead {
 namespace {

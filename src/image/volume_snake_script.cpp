@@ -1,4 +1,4 @@
-#include "knead/session/volume_snake_script.hpp"
+#include "knead/image/snake_script.hpp"
 
 #include <fmt/format.h>
 
@@ -56,52 +56,6 @@ std::span<const Choice> choices(SurfaceForm) {
   static constexpr Choice list[] = {{"sphere", SurfaceForm::sphere, "or an ellipsoid where the radii differ"},
                                     {"torus", SurfaceForm::torus, "radii: the ring's and the tube's"}};
   return list;
-}
-
-void describe(SurfaceSpring& s, Fields& fields) {
-  fields.name("spring", "draws a point of the surface");
-  fields.add("at", s.at, {.help = "of its parameters", .unit = Unit::fraction, .range = between(0, 1)});
-  fields.add("to", s.to, {.help = "where to, in space", .presence = Presence::required});
-  fields.add("strength", s.strength, {.help = "force per distance", .range = at_least(0)});
-}
-
-void describe(SurfaceVolcano& v, Fields& fields) {
-  fields.name("volcano", "pushes surfaces away");
-  fields.add("at", v.at, {.help = "from where, in space", .presence = Presence::required});
-  fields.add("strength", v.strength, {.help = "force at the radius; it falls with the square of the distance"});
-  fields.add("radius", v.radius, {.help = "within which it grows no more, in space", .range = above(0)});
-}
-
-void describe(SurfaceSnakeSettings& s, Fields& fields) {
-  fields.name("settings", "how active surfaces are made and move; lengths in voxels, the shortest step between two");
-  fields.add("degree", s.degree, {.range = between(2, 7)});
-  fields.add("control_points", s.control_points,
-             {.help = "around, and from pole to pole or around the tube", .range = between(3, 1000)});
-  fields.add("units", s.units,
-             {.help = "the way around that `alpha` and `beta` count in, voxels",
-              .range = at_least(0),
-              .fallback = "that of the start"});
-  fields.add("alpha", s.alpha, {.help = "stretch", .range = at_least(0)});
-  fields.add("beta", s.beta, {.help = "bend", .range = at_least(0)});
-  fields.add("gamma", s.gamma, {.help = "force per velocity, voxels per iteration", .range = above(0)});
-  fields.add("band", s.band,
-             {.help = "width of the outside that the region term compares with, voxels",
-              .range = at_least(0),
-              .fallback = "all of the volume"});
-  fields.add("redistribute", s.redistribute,
-             {.help = "after so many iterations a surface driven along its normal that is stretched unevenly is spread "
-                      "evenly; 0: never",
-              .range = at_least(0)});
-  fields.add("balloon", s.balloon, {.help = "pressure outwards"});
-  fields.add("max_move", s.max_move, {.help = "voxels in an iteration", .range = above(0)});
-  fields.add("max_iterations", s.max_iterations, {.range = between(1, 1e7)});
-  fields.add("motion", s.motion,
-             {.help = "a surface rests when its control points are within this of one of ten earlier places, voxels",
-              .range = at_least(0)});
-  fields.add("refine", s.refine,
-             {.help = "halves all spans where that moves the surface by more, voxels; 0: never", .range = at_least(0)});
-  fields.add("max_control_points", s.max_control_points, {.help = "up to which", .range = between(1, 100000)});
-  fields.add("volcanoes", s.volcanoes);
 }
 
 void describe(VolumeSnakeStart& s, Fields& fields) {

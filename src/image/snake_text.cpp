@@ -1,4 +1,4 @@
-#include "knead/session/snake_text.hpp"
+#include "knead/image/snake_script.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "describe/record_json.hpp"
-#include "knead/session/volume_snake_script.hpp"
 
 namespace knead {
 

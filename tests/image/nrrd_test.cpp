@@ -1,4 +1,4 @@
-#include "knead/exchange/nrrd.hpp"
+#include "knead/image/volume.hpp"
 
 #include <gtest/gtest.h>
 

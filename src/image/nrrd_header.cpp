@@ -11,7 +11,7 @@
 
 #include "base/read_double.hpp"
 #include "knead/base/printable.hpp"
-#include "knead/exchange/nrrd.hpp"
+#include "knead/image/volume.hpp"
 
 namespace knead {
 namespace {

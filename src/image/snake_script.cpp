@@ -1,4 +1,4 @@
-#include "knead/session/snake_script.hpp"
+#include "knead/image/snake_script.hpp"
 
 #include <fmt/format.h>
 
@@ -41,59 +41,96 @@ void describe(ImagePotentialSettings& s, Fields& fields) {
   fields.add("distance", s.distance, {.help = "weight of the nearness to the mask"});
 }
 
-void describe(SnakeSpring& s, Fields& fields) {
-  fields.name("spring", "draws a point of the snake");
-  fields.add("at", s.at, {.help = "of its parameter", .unit = Unit::fraction, .range = between(0, 1)});
-  fields.add("to", s.to, {.help = "where to, pixels", .presence = Presence::required});
+template <int D>
+void describe(SnakeSpringOf<D>& s, Fields& fields) {
+  constexpr bool curve = D == 1;
+  fields.name("spring", curve ? "draws a point of the snake" : "draws a point of the surface");
+  fields.add(
+      "at", s.at,
+      {.help = curve ? "of its parameter" : "of its parameters", .unit = Unit::fraction, .range = between(0, 1)});
+  fields.add("to", s.to, {.help = curve ? "where to, pixels" : "where to, in space", .presence = Presence::required});
   fields.add("strength", s.strength, {.help = "force per distance", .range = at_least(0)});
 }
+template void describe(SnakeSpringOf<1>&, Fields&);
+template void describe(SnakeSpringOf<2>&, Fields&);
 
-void describe(SnakeVolcano& v, Fields& fields) {
-  fields.name("volcano", "pushes snakes away");
-  fields.add("at", v.at, {.help = "from where, pixels", .presence = Presence::required});
+template <int D>
+void describe(SnakeVolcanoOf<D>& v, Fields& fields) {
+  constexpr bool curve = D == 1;
+  fields.name("volcano", curve ? "pushes snakes away" : "pushes surfaces away");
+  fields.add("at", v.at,
+             {.help = curve ? "from where, pixels" : "from where, in space", .presence = Presence::required});
   fields.add("strength", v.strength, {.help = "force at the radius; it falls with the square of the distance"});
-  fields.add("radius", v.radius, {.help = "within which it grows no more, pixels", .range = above(0)});
+  fields.add("radius", v.radius,
+             {.help = curve ? "within which it grows no more, pixels" : "within which it grows no more, in space",
+              .range = above(0)});
 }
+template void describe(SnakeVolcanoOf<1>&, Fields&);
+template void describe(SnakeVolcanoOf<2>&, Fields&);
 
-void describe(SnakeSettings& s, Fields& fields) {
-  fields.name("settings", "how snakes are made and move");
+template <int D>
+void describe(SnakeSettingsOf<D>& s, Fields& fields) {
+  constexpr bool curve = D == 1;
+  const auto of = [](std::string_view curves, std::string_view surfaces) { return curve ? curves : surfaces; };
+  fields.name("settings",
+              of("how snakes are made and move",
+                 "how active surfaces are made and move; lengths in voxels, the shortest step between two"));
   fields.add("degree", s.degree, {.range = between(2, 7)});
-  fields.add("control_points", s.control_points, {.help = "of each snake", .range = between(3, 100000)});
+  fields.add("control_points", s.control_points,
+             {.help = of("of each snake", "around, and from pole to pole or around the tube"),
+              .range = between(3, curve ? 100000 : 1000)});
   fields.add("units", s.units,
-             {.help = "length of the parameter s that `alpha` and `beta` count in",
+             {.help = of("length of the parameter s that `alpha` and `beta` count in",
+                         "the way around that `alpha` and `beta` count in, voxels"),
               .range = at_least(0),
-              .fallback = "the length of the start in pixels"});
+              .fallback = of("the length of the start in pixels", "that of the start")});
   fields.add("alpha", s.alpha, {.help = "stretch", .range = at_least(0)});
   fields.add("beta", s.beta, {.help = "bend", .range = at_least(0)});
-  fields.add("gamma", s.gamma, {.help = "force per velocity, pixels per iteration", .range = above(0)});
+  fields.add("gamma", s.gamma,
+             {.help = of("force per velocity, pixels per iteration", "force per velocity, voxels per iteration"),
+              .range = above(0)});
   fields.add("band", s.band,
-             {.help = "width of the outside that the region term compares with, pixels",
+             {.help = of("width of the outside that the region term compares with, pixels",
+                         "width of the outside that the region term compares with, voxels"),
               .range = at_least(0),
-              .fallback = "all of the image"});
-  fields.add("local", s.local,
-             {.help = "share of that outside that each place takes along its own normal alone, its darkest grey value",
-              .unit = Unit::fraction,
-              .range = between(0, 1)});
-  fields.add(
-      "redistribute", s.redistribute,
-      {.help = "after so many iterations a closed snake driven along its normal that is stretched unevenly is spread "
-               "evenly; 0: never",
-       .range = at_least(0)});
-  fields.add("balloon", s.balloon, {.help = "pressure outwards, of closed snakes"});
-  fields.add("end_tension", s.end_tension,
-             {.help = "share of the stretch at the start that pulls free ends outwards; 0: they are drawn in, 1: the "
-                      "length is kept",
+              .fallback = of("all of the image", "all of the volume")});
+  if constexpr (curve) {
+    fields.add(
+        "local", s.local,
+        {.help = "share of that outside that each place takes along its own normal alone, its darkest grey value",
+         .unit = Unit::fraction,
+         .range = between(0, 1)});
+  }
+  fields.add("redistribute", s.redistribute,
+             {.help = of("after so many iterations a closed snake driven along its normal that is stretched unevenly "
+                         "is spread evenly; 0: never",
+                         "after so many iterations a surface driven along its normal that is stretched unevenly is "
+                         "spread evenly; 0: never"),
               .range = at_least(0)});
-  fields.add("max_move", s.max_move, {.help = "pixels in an iteration", .range = above(0)});
+  fields.add("balloon", s.balloon, {.help = of("pressure outwards, of closed snakes", "pressure outwards")});
+  if constexpr (curve) {
+    fields.add("end_tension", s.end_tension,
+               {.help = "share of the stretch at the start that pulls free ends outwards; 0: they are drawn in, 1: the "
+                        "length is kept",
+                .range = at_least(0)});
+  }
+  fields.add("max_move", s.max_move,
+             {.help = of("pixels in an iteration", "voxels in an iteration"), .range = above(0)});
   fields.add("max_iterations", s.max_iterations, {.range = between(1, 1e7)});
-  fields.add("motion", s.motion,
-             {.help = "a snake rests when its control points are within this of one of ten earlier places, pixels",
-              .range = at_least(0)});
+  fields.add(
+      "motion", s.motion,
+      {.help = of("a snake rests when its control points are within this of one of ten earlier places, pixels",
+                  "a surface rests when its control points are within this of one of ten earlier places, voxels"),
+       .range = at_least(0)});
   fields.add("refine", s.refine,
-             {.help = "halves spans where that changes the contour by more, pixels; 0: never", .range = at_least(0)});
+             {.help = of("halves spans where that changes the contour by more, pixels; 0: never",
+                         "halves all spans where that moves the surface by more, voxels; 0: never"),
+              .range = at_least(0)});
   fields.add("max_control_points", s.max_control_points, {.help = "up to which", .range = between(1, 100000)});
   fields.add("volcanoes", s.volcanoes);
 }
+template void describe(SnakeSettingsOf<1>&, Fields&);
+template void describe(SnakeSettingsOf<2>&, Fields&);
 
 void describe(SnakeStart& s, Fields& fields) {
   fields.name("snake", "where it starts");
