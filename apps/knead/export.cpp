@@ -8,7 +8,7 @@
 #include "cli.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/save_faces.hpp"
+#include "knead/exchange/save_model.hpp"
 #include "knead/exchange/source.hpp"
 #include "left_out_lines.hpp"
 #include "outputs.hpp"

@@ -13,7 +13,7 @@
 #include "knead/base/printable.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/save_faces.hpp"
+#include "knead/exchange/save_model.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/report.hpp"
 #include "knead/session/session.hpp"

@@ -46,7 +46,8 @@ struct EdgeCoupling {
 ///   one.
 ///
 /// and likewise for the derivatives Σ ∂R_ij X_ij in the directions `across`, which keep tangent planes common: with
-/// position, the differentials of all displacements then agree on the plane that the patches shared (docs/design/trims.md).
+/// position, the differentials of all displacements then agree on the plane that the patches shared
+/// (docs/design/trims.md).
 ///
 /// Two nets have few displacements along a curve exactly in common. Hence conditions are not taken at all points: first
 /// everything is expressed by the unknowns that the constraints so far leave independent; then the best independent

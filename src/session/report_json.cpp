@@ -5,9 +5,9 @@
 
 #include "diagnostic_info.hpp"
 #include "info_values.hpp"
-#include "session_state.hpp"
 #include "knead/session/report.hpp"
 #include "knead/session/session_info.hpp"
+#include "session_state.hpp"
 
 namespace knead {
 
@@ -100,11 +100,10 @@ std::vector<ReportedEdges> reported_edges(const Session& session) {
   const std::vector<SessionSurface> surfaces = session.surfaces();
   for (const EdgesReport& r : report_edges(session)) {
     const std::string& id = surfaces[static_cast<std::size_t>(r.surface)].id;
-    ReportedEdges& info =
-        list.emplace_back(ReportedEdges{id, r.net, r.free, r.visible, r.largest_gap, r.samples});
+    ReportedEdges& info = list.emplace_back(ReportedEdges{id, r.net, r.free, r.visible, r.largest_gap, r.samples});
     for (const EdgeReport& edge : r.edges) {
-      info.edges.push_back({edge.id, std::string(edge.hold), edge.along_lines, edge.control_points, edge.deviation,
-                            edge.faces});
+      info.edges.push_back(
+          {edge.id, std::string(edge.hold), edge.along_lines, edge.control_points, edge.deviation, edge.faces});
       if (!edge.angles) continue;
       info.edges.back().angle = (*edge.angles)[0] * degrees;
       info.edges.back().angle_before = (*edge.angles)[1] * degrees;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "knead/spline/evaluate_into.hpp"
+#include "knead/spline/evaluate.hpp"
 #include "quotient_rule.hpp"
 
 namespace knead::detail {

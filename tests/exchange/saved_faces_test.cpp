@@ -8,7 +8,7 @@
 #include "exchange/face_builder.hpp"
 #include "exchange/iges_builder.hpp"
 #include "exchange/mesh_measures.hpp"
-#include "knead/exchange/save_faces.hpp"
+#include "knead/exchange/save_model.hpp"
 #include "support/made_files.hpp"
 #include "support/made_iges_solids.hpp"
 

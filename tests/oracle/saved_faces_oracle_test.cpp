@@ -12,7 +12,7 @@
 #include "exchange/length_units.hpp"
 #include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/exchange/save_faces.hpp"
+#include "knead/exchange/save_model.hpp"
 #include "oracle/body_files.hpp"
 #include "oracle/occt_bodies.hpp"
 #include "oracle/occt_held.hpp"

@@ -52,8 +52,10 @@ TEST(Limits, StepsAreCountedBeforeTheyAreTaken) {
   const std::pair<std::string, std::string> refused[] = {
       {R"({"do":"step","count":2000000000})", "2000000000 is out of range"},
       {R"({"do":"drag","by":[0,0,1],"steps":2000000000})", "2000000000 is out of range"},
-      {R"({"do":"stroke","path":[[0,0,0],[1,1,1]],"steps":2000000000})", "2000000000 is out of range"},
-      {R"({"do":"stroke","path":[[0,0,0],[1,1,1],[2,2,2]],"steps":500001})", "1000002 steps are too many"},
+      {R"({"do":"stroke","path":[[0,0,0],[1,1,1]],"steps":2000000000})",
+       "2000000000 steps at each of 2 positions are too many"},
+      {R"({"do":"stroke","path":[[0,0,0],[1,1,1]],"steps":500001})",
+       "500001 steps at each of 2 positions are too many"},
       {R"({"do":"lattice","steps":2000000000})", "2000000000 is out of range"}};
   for (const auto& [command, what] : refused) {
     Session session = sheet_and({R"({"do":"tool","at":[0.5,0.5],"radius":0.2})"});

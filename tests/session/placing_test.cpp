@@ -1,7 +1,7 @@
 // Commands that place control points obey what holds the surfaces, whichever command it is.
 #include "knead/hold/seams.hpp"
-#include "session/fixes.hpp"
 #include "knead/spline/extremum.hpp"
+#include "session/fixes.hpp"
 #include "sheet.hpp"
 #include "support/error_codes.hpp"
 

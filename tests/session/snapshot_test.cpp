@@ -204,7 +204,6 @@ TEST(Snapshot, RefusesNumbersOutOfTheRangesOfTheCommandsThatAreKept) {
         Kept{R"({"do":"pin","at":[0.3125,0.3125]})", 0.3125, 1.3125},
         Kept{R"({"do":"freeze","region":[[0.8125,1],[0.8125,1]]})", 0.8125, -0.8125},
         Kept{R"({"do":"keep","u":0.40625})", 0.40625, 1.40625},
-        Kept{R"({"do":"load","vector":[0,0,1],"ramp":0.40625})", 0.40625, -1},
         Kept{R"({"do":"force","name":"pull","at":[0.34375,0.5],"to":[5,5,2],"strength":3})", 0.34375, 1.34375}}) {
     const Session session = on_sheet({command});
     const std::string good = session.snapshot();

@@ -1,4 +1,4 @@
-#include "knead/spline/evaluate_into.hpp"
+#include "knead/spline/evaluate.hpp"
 
 #include <gtest/gtest.h>
 

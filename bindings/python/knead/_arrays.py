@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ._errors import InputError
 
-Array = npt.NDArray[np.float64]
-ArrayLike = npt.ArrayLike
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+else:  # numpy.typing takes longer to import than this package
+    Array = ArrayLike = Any
+
+__all__ = ["Array", "ArrayLike", "chosen", "count_of_derivatives", "described", "number", "numbers", "whole", "wrong_shape"]
 
 
 def numbers(value: Any, name: str) -> Array:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from importlib import import_module
 from typing import Any, Iterator, Mapping, NamedTuple
 
@@ -69,6 +68,8 @@ class Analysis(Field):
 
     def to_pyvista(self) -> Any:
         """The same as a grid of PyVista, where that is installed."""
+        import tempfile
+
         pyvista: Any = import_module("pyvista")
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "analysis.vtu")

@@ -9,8 +9,8 @@
 #include "knead/exchange/save_model.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/report.hpp"
-#include "knead/session/session.hpp"
 #include "knead/session/session_info.hpp"
+#include "session/session_state.hpp"
 #include "sparse.hpp"
 
 namespace knead::python {
@@ -179,7 +179,7 @@ std::string PySession::report() {
   return value_of(alone([&] {
     const std::size_t opened = source_ ? source_->surfaces().size() : 0;
     const Outcome outcome = outcome_of(session_, opened);
-    return report_json(session_.state(), outcome);
+    return report_json(session_, outcome);
   }));
 }
 

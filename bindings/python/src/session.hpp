@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "binding.hpp"
-#include "knead/session/session.hpp"
+#include "session/session_state.hpp"
 #include "working.hpp"
 
 namespace knead::python {

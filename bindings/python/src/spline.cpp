@@ -3,9 +3,8 @@
 #include "binding.hpp"
 #include "knead/spline/closest_point.hpp"
 #include "knead/spline/curvature.hpp"
-#include "knead/spline/evaluate_into.hpp"
-#include "knead/spline/spline_refinement.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 namespace knead::python {
 namespace {

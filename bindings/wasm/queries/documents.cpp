@@ -108,7 +108,7 @@ struct SavedFile {
 };
 
 void describe(SavedFile& saved, Fields& fields) {
-  fields.name("saved file");
+  fields.name("saved file", "The document as a file.");
   fields.add("file", saved.file);
   fields.add("edges", saved.edges, {.help = "of the faces on every surface that has moved"});
 }

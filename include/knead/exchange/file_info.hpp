@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "describe/describe.hpp"
 #include "knead/exchange/source.hpp"
 
 namespace knead {
+
+class Fields;
 
 // What is in a CAD file, as plain values with descriptions: what programs list of it.
 

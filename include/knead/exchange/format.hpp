@@ -76,7 +76,7 @@ struct Format {
   Expected<std::shared_ptr<const Source>> (*open)(std::string bytes, std::string name) = nullptr;
   /// The bytes of a new file of these surfaces. Null for formats of triangles.
   Expected<std::string> (*save)(std::span<const NamedSurface> surfaces, const SaveOptions& options) = nullptr;
-  /// The bytes of a new file of faces with their trims (save_faces.hpp). Null for formats that hold none.
+  /// The bytes of a new file of faces with their trims (save_model.hpp). Null for formats that hold none.
   Expected<std::string> (*save_faces)(const detail::FacePlan& plan, const SaveOptions& options) = nullptr;
   /// The bytes of a new file of these meshes. Null for formats of surfaces.
   Expected<std::string> (*save_meshes)(std::span<const NamedMesh> meshes, const SaveOptions& options) = nullptr;

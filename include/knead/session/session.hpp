@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "knead/base/error.hpp"
-#include "knead/exchange/save_faces.hpp"
+#include "knead/exchange/save_model.hpp"
 #include "knead/session/command.hpp"
 #include "knead/session/document.hpp"
 #include "knead/tool/tool.hpp"

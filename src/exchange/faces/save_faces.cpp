@@ -1,4 +1,4 @@
-#include "knead/exchange/save_faces.hpp"
+#include "knead/exchange/save_model.hpp"
 
 #include <fmt/format.h>
 

@@ -11,9 +11,9 @@
 #include "holding.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/hold/seams.hpp"
-#include "scene/model/model.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
+#include "scene/model/model.hpp"
 #include "scene/places.hpp"
 
 namespace knead {
