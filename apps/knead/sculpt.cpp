@@ -120,9 +120,10 @@ class Besides {
   Expected<void> first;  ///< error
 };
 
-Expected<std::string> picture_of(const SessionState& state) {
-  if (!state.selected) return input_error("no surface is selected, so there is nothing to draw", {}, "select one");
-  const SceneSurface& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
+Expected<std::string> picture_of(const Session& session) {
+  const std::vector<int> selection = session.selection();
+  if (selection.empty()) return input_error("no surface is selected, so there is nothing to draw", {}, "select one");
+  const SessionSurface s = session.surfaces()[static_cast<std::size_t>(selection.front())];
   return displacement_picture(*s.opened, *s.current, "Displacement of " + (s.name.empty() ? s.id : s.name), s.unit);
 }
 

@@ -10,8 +10,13 @@ namespace {
 
 template <class T>
 std::vector<double> numbers_of(const T& values) {
-  if constexpr (std::is_arithmetic_v<T>) return {double(values)};
-  if constexpr (!std::is_arithmetic_v<T>) return {values.begin(), values.end()};
+  std::vector<double> list;
+  if constexpr (std::is_arithmetic_v<T>) {
+    list.push_back(double(values));
+  } else {
+    for (const auto value : values) list.push_back(double(value));
+  }
+  return list;
 }
 
 bool finite(const std::vector<double>& values) {

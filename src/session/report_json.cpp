@@ -7,6 +7,7 @@
 #include "info_values.hpp"
 #include "knead/session/report.hpp"
 #include "knead/session/session_info.hpp"
+#include "scene/shell_fields.hpp"
 #include "session_state.hpp"
 
 namespace knead {

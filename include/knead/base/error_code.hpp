@@ -4,8 +4,8 @@
 
 namespace knead {
 
-// What errors and notes say to programs. Their names, and those of their values, stand in `knead/session/fixes.hpp`,
-// with what may be done about them; docs/errors.md lists all of them.
+// What errors and notes say to programs. What may be done about them is a `Fix`
+// (`knead/session/command.hpp`); docs/errors.md lists all of them with their names and values.
 
 enum class ErrorCode : unsigned short {
   none,  ///< nothing but the text is known

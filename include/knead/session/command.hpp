@@ -2,6 +2,9 @@
 
 #include <memory>
 #include <string_view>
+#include <vector>
+
+#include "knead/base/error.hpp"
 
 namespace knead {
 
@@ -21,5 +24,40 @@ class Command {
  private:
   std::shared_ptr<const AnyCommand> any_;
 };
+
+/// What a fix does, for programs that write its words.
+enum class FixCode {
+  hold_edges,
+  hold_rows,
+  hold_nothing,
+  release_all,
+  release_pins,
+  thaw,
+  refine,
+  permit_refining,
+  keep_net,
+  let_follow,
+  let_go,
+  let_open,
+  let_part,
+  convert_and_follow,
+  select_and_follow,
+  select,
+  convert,
+  end_limit,
+  normalise,
+  set_rest_shape,
+  keep_smooth,
+};
+
+/// Something that can be done about an error or a note: commands, to be carried out in this order.
+struct Fix {
+  FixCode code = FixCode::hold_edges;
+  std::vector<Command> commands;
+};
+
+/// What can be done, the most likely first; empty where nothing is known that would help. After it what was refused may
+/// be asked for again.
+[[nodiscard]] std::vector<Fix> fixes_for(const Diagnostic& diagnostic);
 
 }  // namespace knead
