@@ -37,9 +37,9 @@ struct Pair {
 [[nodiscard]] Pair chain_of(const brep::Model& file, const Point& place);
 
 /// Moves the edge of a file at `path`, saves it in `directory`, and lets Open CASCADE measure: the topology, faults,
-/// gaps and angles. The row of the table in docs/evidence/trims.md is printed, and appended to the file that KNEAD_FOLLOW_TABLE
-/// names. \param least_reached share of the depth that the place must reach; 0: motions may also be refused
-/// `file`: the one at `path`, or what a reader of IGES has made of it.
+/// gaps and angles. The row of the table in docs/evidence/trims.md is printed, and appended to the file that
+/// KNEAD_FOLLOW_TABLE names. \param least_reached share of the depth that the place must reach; 0: motions may also be
+/// refused `file`: the one at `path`, or what a reader of IGES has made of it.
 void move(const fs::path& path, const brep::Model& file, const Pair& pair, Motion motion, const fs::path& directory,
           double least_reached);
 
