@@ -77,7 +77,8 @@ Expected<void> set_body_material(Act& act, const MaterialCommand& c) {
                 {"preset", c.preset.has_value()},       {"plasticity", c.plasticity.has_value()},
                 {"yield", c.yield.has_value()},         {"locality", c.locality.has_value()},
                 {"young", c.young.has_value()},         {"poisson", c.poisson.has_value()},
-                {"thickness", c.thickness.has_value()}, {"density", c.density.has_value()}};
+                {"thickness", c.thickness.has_value()}, {"density", c.density.has_value()},
+                {"rigidity", c.rigidity.has_value()}};
   for (const auto& [name, given] : fields) {
     if (given) return of_surfaces(act, name, "use alpha, beta, mass and damping");
   }

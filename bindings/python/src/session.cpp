@@ -10,6 +10,7 @@
 #include "knead/session/command_json.hpp"
 #include "knead/session/report.hpp"
 #include "knead/session/session_info.hpp"
+#include "scene/shell_fields.hpp"
 #include "session/session_state.hpp"
 #include "sparse.hpp"
 
@@ -281,7 +282,7 @@ py::tuple PySession::analysis(int samples) {
   auto made = alone([&]() -> Expected<std::pair<std::vector<FieldGrid>, std::vector<HoldReaction>>> {
     const SessionState& state = session_.state();
     if (!state.selected) return input_error("no surface is selected", {}, "select one");
-    auto grids = result_grids(state, samples);
+    auto grids = result_grids(session_, samples);
     if (!grids) return std::unexpected(grids.error());
     std::vector<HoldReaction> reactions;
     if (is_nonlinear(state.surfaces[static_cast<std::size_t>(*state.selected)].elasticity)) {

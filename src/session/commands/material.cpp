@@ -59,7 +59,7 @@ Expected<MaterialFieldOf<2>> varied(const MaterialCommand& c, const SceneSurface
 MaterialFieldOf<2> everywhere(const MaterialCommand& c, const SceneSurface& s) {
   MaterialFieldOf<2> next = s.material;
   if (c.model == MaterialModel::plate) {
-    next = MaterialFieldOf<2>(thin_plate(c.rigidity, c.poisson.value_or(0)));
+    next = MaterialFieldOf<2>(thin_plate(c.rigidity.value_or(0.01), c.poisson.value_or(0)));
     next.mass = s.material.mass;
     next.damping = s.material.damping;
   } else if (c.beta || c.model) {
@@ -129,7 +129,8 @@ bool names_shell(const MaterialCommand& c) {
 
 bool names_something(const MaterialCommand& c) {
   return c.alpha || c.beta || c.mass || c.damping || c.coefficient || c.preset || c.plasticity || c.yield ||
-         c.locality || c.model || names_shell(c) || c.w1 || c.w2 || c.reset || c.formula || !c.samples.empty();
+         c.locality || c.model || c.rigidity || names_shell(c) || c.w1 || c.w2 || c.reset || c.formula ||
+         !c.samples.empty();
 }
 
 /// The model that a surface has after the command.
@@ -210,6 +211,9 @@ Expected<void> check_fields(const MaterialCommand& c) {
   }
   if (c.tolerance && !c.formula) {
     return input_error("a tolerance is given without a formula", "tolerance", "leave it out");
+  }
+  if (c.rigidity && c.model != MaterialModel::plate) {
+    return input_error("only a plate has a rigidity", "rigidity", R"(add "model":"plate")");
   }
   if (c.model == MaterialModel::plate && (c.alpha || c.beta || c.preset || c.region || c.coefficient)) {
     return input_error("the coefficients of a plate are those of its rigidity and Poisson's ratio", "model",
@@ -292,8 +296,6 @@ std::optional<MaterialPreset> preset_of(const SceneSurface& s) {
   return std::nullopt;
 }
 
-static constexpr std::string_view of_plate[] = {"plate"};
-
 void describe(MaterialCommand& c, Fields& fields) {
   fields.name("material", "resistance to stretching and bending, in the order 11, 12, 22; fields not given stay");
   fields.add(
@@ -355,7 +357,7 @@ void describe(MaterialCommand& c, Fields& fields) {
               .range = at_least(0),
               .fallback = "as it was, at first 0"});
   fields.add("rigidity", c.rigidity,
-             {.help = "of a plate, in the units of `beta`", .range = above(0), .only = {"model", of_plate}});
+             {.help = "of a plate, in the units of `beta`", .range = above(0), .fallback = "`0.01`"});
   fields.add(
       "w1", c.w1,
       {.help = "of `fundamental`: weights of the first form, 11, 12, 22, or one number for all; per du dv of the "

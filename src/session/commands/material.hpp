@@ -50,7 +50,7 @@ struct MaterialCommand {
   std::optional<LengthUnit> lengths;  ///< default: radii
   std::optional<MaterialModel> model;
   std::optional<double> young, poisson, thickness, density;  ///< of a shell, in units of the file; poisson of a plate
-  double rigidity = 0.01;                                    ///< of a plate, in units of beta
+  std::optional<double> rigidity;                            ///< of a plate, in units of beta
   std::optional<std::array<double, 3>> w1, w2;               ///< of the fundamental forms, in the order 11, 12, 22
   bool reset = false;                                        ///< first, all is as of a new surface
 };
