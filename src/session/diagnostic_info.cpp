@@ -29,8 +29,9 @@ void describe(ErrorInfo& e, Fields& fields) {
   fields.add("kind", e.kind, {.help = "usage, input or numerical"});
   fields.add("what", e.what);
   fields.add("where", e.where);
-  fields.add("place", e.place,
-             {.help = "`where`, unless that names a field of a command and what is wrong with it is said without"});
+  fields.add(
+      "place", e.place,
+      {.help = "`where`, unless that names a field of a command and what is wrong with it is stated without it"});
   fields.add("remedy", e.remedy);
   fields.add("message", e.message, {.help = "all of it as one line"});
   fields.add("code", e.code);
