@@ -63,7 +63,11 @@ void expect_type(const Type& type, const JsonValue& value, const std::string& at
 
 void expect_member(const Field& field, const JsonValue& object, const std::string& at) {
   const std::string name(field.name);
-  if (object.contains(name)) return expect_type(*field.type, object[name], at + "." + name);
+  if (object.contains(name)) {
+    // Numbers that are all the same may be one.
+    const bool one = field.uniform && object[name].is_number();
+    return expect_type(one ? *field.type->element : *field.type, object[name], at + "." + name);
+  }
   EXPECT_TRUE(field.omit_empty) << at << "." << name << " is missing";
 }
 
