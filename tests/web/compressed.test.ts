@@ -112,7 +112,7 @@ describe('the download of a compressed file', () => {
     vi.stubGlobal('document', { createElement: () => ({ href: '', download: '', click() { names.push(this.download); } }) });
     vi.stubGlobal('URL', { createObjectURL: (blob: Blob) => { blobs.push(blob); return 'blob:'; }, revokeObjectURL: () => undefined });
     const host = {
-      client: { query: async (name: string) => (name === 'edges' ? [] : changed) }, state: { tools: [], last: null, surfaces: [] },
+      client: { query: async () => ({ file: changed, edges: [] }) }, state: { tools: [], last: null, surfaces: [] },
       notify: () => undefined, attempt: async (act: () => Promise<void>) => { await act(); return true as const; },
     };
     const documents = { name: 'hood.step.gz', file: { kind: 'step', name: 'hood.step.gz', bytes: gzip }, place: null, saved: () => undefined };

@@ -12,7 +12,7 @@ function desk(): { saving: Saving; saved: () => number; names: string[] } {
   vi.stubGlobal('document', { createElement: link });
   vi.stubGlobal('URL', { createObjectURL: () => 'blob:', revokeObjectURL: () => undefined });
   const client = {
-    query: async (name: string) => (name === 'edges' ? [] : new Uint8Array(1)),
+    query: async (name: string) => (name === 'save' ? { file: new Uint8Array(1), edges: [] } : new Uint8Array(1)),
     snapshot: async () => ({ snapshot: new Uint8Array(1), journal: '[]' }),
   };
   const host = {

@@ -115,7 +115,6 @@ export function session(engine, scenes, file) {
     engine.query('restore', { source: scene.file ? file : null, name: scene.document, snapshot: engine.query('snapshot', { history_bytes: 2 ** 20 }) });
     look(engine);
     engine.query('save');
-    engine.query('edges');
     engine.query('surface', { surface: 0 });
   }
   refused(engine, { do: 'nothing' });
