@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "knead/spline/evaluate.hpp"
+#include "places.hpp"
 
 namespace knead {
 namespace {
@@ -51,16 +52,10 @@ std::vector<Sample> fine_samples(const SharedEdge& edge, std::span<const Surface
   return result;
 }
 
-const SceneSurface* find_surface(const Scene& scene, const std::string& id) {
-  const auto found = std::ranges::find(scene.surfaces, id, &SceneSurface::id);
-  return found == scene.surfaces.end() ? nullptr : &*found;
-}
-
 double tolerance_of(const Scene& scene, const SharedEdge& edge) {
   double size = 0;
   for (const std::string& id : edge.surfaces()) {
-    const Points& net = find_surface(scene, id)->opened->control_points();
-    size = std::max(size, (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm());
+    size = std::max(size, net_size(*find_surface(scene, id)->opened));
   }
   return std::max(share_of_uncertainty * edge.uncertainty(), least_distance * size);
 }

@@ -8,6 +8,7 @@
 #include "brep/shared_edge.hpp"
 #include "knead/base/error_code.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "places.hpp"
 #include "trims.hpp"
 
 namespace knead {
@@ -58,11 +59,6 @@ std::optional<std::vector<Vector2d>> across_seam(const std::vector<Vector2d>& fe
     return other;
   }
   return std::nullopt;
-}
-
-double net_size(const Surface& surface) {
-  const Points& net = surface.control_points();
-  return (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm();
 }
 
 /// Measures one edge.

@@ -51,4 +51,9 @@ Expected<std::array<Interval, 2>> region_at(const Surface& surface, const Fracti
   return result;
 }
 
+double net_size(const Surface& surface) {
+  const Points& net = surface.control_points();
+  return (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm();
+}
+
 }  // namespace knead

@@ -17,6 +17,9 @@ template <int D>
 [[nodiscard]] Expected<std::array<double, 2>> parameters_at(const Surface& surface, const Fractions& at,
                                                             const char* where = "at");
 
+/// The size of a surface: the diagonal of the box of its control points.
+[[nodiscard]] double net_size(const Surface& surface);
+
 /// The intervals of u and v of a rectangle in fractions. Errors (input): a number that is not from 0 to 1, a side that
 /// decreases.
 [[nodiscard]] Expected<std::array<Interval, 2>> region_at(const Surface& surface, const FractionBox& region);

@@ -25,6 +25,12 @@ template std::vector<const SceneCurve*> selected_shapes<1>(const Scene&);
 template std::vector<const SceneSurface*> selected_shapes<2>(const Scene&);
 template std::vector<const SceneVolume*> selected_shapes<3>(const Scene&);
 
+const SceneSurface* find_surface(const Scene& scene, const std::string& id, std::size_t likely) {
+  if (likely < scene.surfaces.size() && scene.surfaces[likely].id == id) return &scene.surfaces[likely];
+  const auto found = std::ranges::find(scene.surfaces, id, &SceneSurface::id);
+  return found == scene.surfaces.end() ? nullptr : &*found;
+}
+
 Expected<std::vector<Tool>> tools_and_images(const Scene& scene) {
   std::vector<Tool> tools = scene.tools;
   if (!scene.selected) return tools;

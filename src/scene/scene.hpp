@@ -177,6 +177,9 @@ struct Scene {
   [[nodiscard]] std::vector<int> selection() const;
 };
 
+/// The surface of this id; null: there is none. \param likely an index at which it is looked for first
+[[nodiscard]] const SceneSurface* find_surface(const Scene& scene, const std::string& id, std::size_t likely = 0);
+
 /// The selected shapes of so many directions, the first one first: surfaces, or the curve or volume, or none.
 template <int D>
 [[nodiscard]] std::vector<const SceneShape<D>*> selected_shapes(const Scene& scene);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "knead/spline/extremum.hpp"
+#include "places.hpp"
 
 namespace knead {
 namespace {
@@ -15,7 +16,7 @@ using Box = Eigen::AlignedBox3d;
 bool closes(const Surface& s, int direction) {
   const auto [m, n] = s.net();
   const Points& net = s.control_points();
-  const double size = (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm();
+  const double size = net_size(s);
   constexpr double same = 1e-9;  // of the size
   for (int k = 0; k < (direction == 0 ? n : m); ++k) {
     const auto first = direction == 0 ? net.row(k) : net.row(k * n);

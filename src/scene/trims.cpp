@@ -9,6 +9,7 @@
 #include "followed.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
+#include "places.hpp"
 
 namespace knead {
 namespace {
@@ -67,9 +68,7 @@ std::vector<int> trim_orders(const std::vector<KeptConstraint>& constraints, con
 }
 
 double trim_tolerance(const Surface& surface, const VisibleRegion& region) {
-  const Points& p = surface.control_points();
-  const double size = (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
-  return std::max(region.uncertainty, least_tolerance * size);
+  return std::max(region.uncertainty, least_tolerance * net_size(surface));
 }
 
 Expected<TrimHold> hold_face_edges(const Surface& reference, const std::vector<KeptConstraint>& constraints,
@@ -128,8 +127,7 @@ Expected<std::optional<Eigen::Vector2d>> first_fold(const Surface& before, const
   const auto b = evaluate_grid<2>(after, {std::span<const double>(grid[0]), grid[1]}, 1);
   if (!a) return std::unexpected(a.error());
   if (!b) return std::unexpected(b.error());
-  const double apart =
-      1e-9 * (before.control_points().colwise().maxCoeff() - before.control_points().colwise().minCoeff()).norm();
+  const double apart = 1e-9 * net_size(before);
   const auto normal = [](const Evaluation<2>& jet, Eigen::Index row) -> Point {
     return Point(jet.at({1, 0}).row(row)).cross(Point(jet.at({0, 1}).row(row)));
   };

@@ -110,7 +110,6 @@ class GridWalk {
     constexpr auto spare = static_cast<std::size_t>(detail::GridKernels::spare);
     homogeneous_.resize(task.out.size() * task.basis.stride() * 4 + spare);
     work_.resize(task.out.size() * 3 * spare);
-    divided_ = task.out;
   }
 
   /// At parameters begin … end − 1 of the first direction; all of it where that is also the last. False if a
@@ -178,7 +177,7 @@ class GridWalk {
     const auto size = static_cast<std::ptrdiff_t>(task_.basis.size());
     const std::ptrdiff_t done = task_.kernels.divide(task_.quotient.terms(), homogeneous_.data(),
                                                      static_cast<std::ptrdiff_t>(task_.basis.stride()), size,
-                                                     work_.data(), divided_.data(), static_cast<std::ptrdiff_t>(row_));
+                                                     work_.data(), task_.out.data(), static_cast<std::ptrdiff_t>(row_));
     at_[D - 1] = static_cast<std::size_t>(done);
     return done == size;
   }
@@ -187,7 +186,6 @@ class GridWalk {
   std::array<std::vector<double>, D> nets_;  ///< the net remaining after direction d, one per derivative
   std::vector<double> homogeneous_;          ///< one row of a rational spline, by derivative, coordinate and point
   std::vector<double> work_;                 ///< of the division
-  std::vector<double*> divided_;             ///< where its results go, by derivative
   std::size_t row_ = 0;
   std::array<std::size_t, D> at_{};
 };

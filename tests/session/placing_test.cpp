@@ -116,5 +116,14 @@ TEST(PlacedPoints, SeamsStayClosedUnderALattice) {
   EXPECT_LT(gap_between(session), 1e-14);
 }
 
+TEST(PlacedPoints, SymmetriesStandWhereALatticeUnitesTheKnotsOfSeams) {
+  Session session = testing::fresh();
+  run(session, two_sheets);
+  run(session, {R"({"do":"select","surface":"#1"})", R"({"do":"symmetry","mirror":"v"})",
+                R"({"do":"select","surfaces":["#1","#2"]})"});
+  const Error error = refusal(session, R"({"do":"lattice","net":[4,7,4],"which":[37,38,65,66],"by":[0.2,0.1,2]})");
+  EXPECT_NE(error.message().find("symmetry would be lost"), std::string::npos) << error.message();
+}
+
 }  // namespace
 }  // namespace knead

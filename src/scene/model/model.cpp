@@ -50,11 +50,7 @@ void set_material(const std::vector<ShapeInput<D>>& shapes, ActiveSettings<D>& s
     for (const ShapeInput<D>& s : shapes) settings.fields.push_back(s.material);
     return;
   }
-  for (std::size_t k = 0; k < material.count; ++k) {
-    settings.material.alpha[k] = std::get<double>(material.alpha[k]);
-    settings.material.beta[k] = std::get<double>(material.beta[k]);
-  }
-  settings.material.poisson = material.poisson;
+  settings.material = material.constants();
   settings.mass = std::get<double>(material.mass);
   settings.damping = std::get<double>(material.damping);
 }

@@ -133,8 +133,8 @@ Expected<void> check_held_edges(Act& act, const Scene& before) {
   std::string surface;
   for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
     const SceneSurface& present = std::as_const(act.state.surfaces)[k];
-    const auto was = std::ranges::find(before.surfaces, present.id, &SceneSurface::id);
-    if (was == before.surfaces.end() || was->current == present.current || !holds_trims(present.constraints)) continue;
+    const SceneSurface* const was = find_surface(before, present.id, k);
+    if (was == nullptr || was->current == present.current || !holds_trims(present.constraints)) continue;
     SceneSurface& s = act.state.surfaces[k];
     const auto region = visible(act, s);
     if (!region) return std::unexpected(region.error());

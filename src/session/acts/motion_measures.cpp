@@ -6,6 +6,7 @@
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 #include "scene/anchors.hpp"
+#include "scene/places.hpp"
 #include "scene/trims.hpp"
 #include "spline/basis_terms.hpp"
 
@@ -30,7 +31,7 @@ bool is_pole(const Surface& s, SurfaceEdge edge) {
     }
   };
   const Points& c = s.control_points();
-  const double size = 1e-9 * (c.colwise().maxCoeff() - c.colwise().minCoeff()).norm();
+  const double size = 1e-9 * net_size(s);
   for (int k = 1; k < count; ++k) {
     if ((c.row(row(k)) - c.row(row(0))).norm() > size) return false;
   }

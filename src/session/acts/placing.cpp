@@ -13,6 +13,7 @@
 #include "knead/hold/seams.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
+#include "refining.hpp"
 #include "scene/model/model.hpp"
 #include "scene/places.hpp"
 
@@ -28,16 +29,6 @@ bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == s
 
 bool same_bits(const Points& a, const Points& b, Eigen::Index row) {
   return same_bits(a(row, 0), b(row, 0)) && same_bits(a(row, 1), b(row, 1)) && same_bits(a(row, 2), b(row, 2));
-}
-
-double size_of(const Surface& surface) {
-  const Points& p = surface.control_points();
-  return (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
-}
-
-bool same_knots(const Surface& a, const Surface& b) {
-  return std::ranges::equal(a.knots(0).knots(), b.knots(0).knots()) &&
-         std::ranges::equal(a.knots(1).knots(), b.knots(1).knots()) && a.net() == b.net();
 }
 
 /// p + 2 places in every span of a part of a domain, its ends included.
@@ -64,7 +55,7 @@ struct Placed {
     ConstraintList list(before.size());
     const auto frozen = freeze_region(before, (*region)[0], (*region)[1], list);
     if (!frozen) return std::unexpected(frozen.error());
-    if (!same_knots(before, *now.current)) return check_frozen_points(*frozen);
+    if (before.knots() != now.current->knots()) return check_frozen_points(*frozen);
     const auto weight = [](const Surface& s, int k) {
       return s.weights().empty() ? 1.0 : s.weights()[static_cast<std::size_t>(k)];
     };
@@ -84,27 +75,27 @@ struct Placed {
 
   /// Of a surface on another basis.
   [[nodiscard]] Expected<void> check_frozen_points(const FrozenRegion& frozen) const {
-    double farthest = 0;
-    for (const double u : places_in(before.knots(0), frozen.u)) {
-      for (const double v : places_in(before.knots(1), frozen.v)) {
-        const auto a = evaluate_point<2>(before, {u, v}), b = evaluate_point<2>(*now.current, {u, v});
-        if (!a) return std::unexpected(a.error());
-        if (!b) return std::unexpected(b.error());
-        farthest = std::max(farthest, (*a - *b).norm());
-      }
-    }
-    if (farthest <= frozen_tolerance * size_of(before)) return {};
+    const std::vector<double> u = places_in(before.knots(0), frozen.u), v = places_in(before.knots(1), frozen.v);
+    const auto then = evaluate_grid<2>(before, {u, v}), is = evaluate_grid<2>(*now.current, {u, v});
+    if (!then) return std::unexpected(then.error());
+    if (!is) return std::unexpected(is.error());
+    const double farthest = (is->points() - then->points()).rowwise().norm().maxCoeff();
+    if (farthest <= frozen_tolerance * net_size(before)) return {};
     return input_error(fmt::format("{}: a frozen region would move by {:.3g}", now.id, farthest), std::string(command),
                        "release it first", {ErrorCode::region_frozen, {{"surface", now.id}, {"distance", farthest}}});
   }
 
   template <class Symmetry>
   [[nodiscard]] Expected<void> check_symmetry(const Symmetry& symmetry) const {
-    if (!same_knots(before, *now.current)) return {};  // the constraints are tried again on another basis
+    const auto base = onto_net(before, *now.current);
+    // Where the net is no finer one the constraints were tried again.
+    if (!base || base->knots() != now.current->knots()) return {};
+    const Points motion = now.current->control_points() - base->control_points();
+    const double largest = motion.cwiseAbs().maxCoeff();
+    // Knots were inserted: where their mirror images are missing, the next model inserts them or says so.
+    if (before.knots() != now.current->knots() && largest <= frozen_tolerance * net_size(before)) return {};
     ConstraintList list(now.reference->size());
     if (auto made = symmetry_constraints(*now.reference, symmetry, list); !made) return made;
-    const Points motion = now.current->control_points() - before.control_points();
-    const double largest = motion.cwiseAbs().maxCoeff();
     for (const LinearConstraint& c : list.constraints) {
       Point sum = Point::Zero();
       for (const auto& [row, coefficient] : c.terms) sum += coefficient * motion.row(row).transpose();
@@ -140,11 +131,6 @@ struct Placed {
   }
 };
 
-const SceneSurface* surface_of(const Scene& scene, const std::string& id) {
-  const auto found = std::ranges::find(scene.surfaces, id, &SceneSurface::id);
-  return found == scene.surfaces.end() ? nullptr : &*found;
-}
-
 /// Seams between the selected surfaces, and of each with itself.
 Expected<void> check_seams(const Scene& scene, const Scene& before, std::string_view command) {
   std::vector<const Surface*> then, now;
@@ -152,7 +138,7 @@ Expected<void> check_seams(const Scene& scene, const Scene& before, std::string_
   bool moved = false;
   for (const int k : scene.selection()) {
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-    const SceneSurface* const was = surface_of(before, s.id);
+    const SceneSurface* const was = find_surface(before, s.id, static_cast<std::size_t>(k));
     if (was == nullptr) return {};
     moved = moved || was->current != s.current;
     then.push_back(was->current.get());
@@ -163,7 +149,7 @@ Expected<void> check_seams(const Scene& scene, const Scene& before, std::string_
   const auto found = seams_between(scene.seams, then);
   if (!found) return std::unexpected(found.error());
   double size = 0;
-  for (const Surface* surface : now) size = std::max(size, size_of(*surface));
+  for (const Surface* surface : now) size = std::max(size, net_size(*surface));
   for (const Seam& seam : found->seams) {
     const auto gap = moved_gap(seam, then, now);
     if (!gap) return std::unexpected(gap.error());
@@ -223,8 +209,9 @@ Expected<void> put(SceneShape<D>& s, std::shared_ptr<const Spline<D>> current) {
 }
 
 Expected<void> check_placed(Act& act, const Scene& before, std::string_view command) {
-  for (const SceneSurface& s : std::as_const(act.state).surfaces) {
-    const SceneSurface* const was = surface_of(before, s.id);
+  for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
+    const SceneSurface& s = std::as_const(act.state).surfaces[k];
+    const SceneSurface* const was = find_surface(before, s.id, k);
     if (was == nullptr || was->current == s.current) continue;
     const Placed placed{s, *was->current, command};
     if (auto done = placed.check(); !done) return done;
@@ -235,6 +222,12 @@ Expected<void> check_placed(Act& act, const Scene& before, std::string_view comm
   return check_held_edges(act, before);
 }
 
+template Expected<std::shared_ptr<const Curve>> moved_along<1>(const std::shared_ptr<const Curve>&, const Curve&,
+                                                               const std::shared_ptr<const Curve>&);
+template Expected<std::shared_ptr<const Surface>> moved_along<2>(const std::shared_ptr<const Surface>&, const Surface&,
+                                                                 const std::shared_ptr<const Surface>&);
+template Expected<std::shared_ptr<const Volume>> moved_along<3>(const std::shared_ptr<const Volume>&, const Volume&,
+                                                                const std::shared_ptr<const Volume>&);
 template Expected<void> put<1>(SceneShape<1>&, std::shared_ptr<const Spline<1>>);
 template Expected<void> put<2>(SceneShape<2>&, std::shared_ptr<const Spline<2>>);
 template Expected<void> put<3>(SceneShape<3>&, std::shared_ptr<const Spline<3>>);

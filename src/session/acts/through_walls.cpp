@@ -118,10 +118,8 @@ std::vector<std::shared_ptr<const Surface>> shapes_before(const Scene& scene, co
   std::vector<std::shared_ptr<const Surface>> shapes;
   for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
     const std::string& id = std::as_const(scene.surfaces)[k].id;
-    const bool in_place = k < before.surfaces.size() && before.surfaces[k].id == id;
-    const auto found = in_place ? before.surfaces.begin() + static_cast<std::ptrdiff_t>(k)
-                                : std::ranges::find(before.surfaces, id, &SceneSurface::id);
-    shapes.push_back(found == before.surfaces.end() ? nullptr : found->current);
+    const SceneSurface* const was = find_surface(before, id, k);
+    shapes.push_back(was == nullptr ? nullptr : was->current);
   }
   const std::span<const OpenStroke::Before> open = before_gesture(scene);
   const std::vector<int> selection = scene.selection();
