@@ -11,6 +11,11 @@ Energy<D> stretch_and_bend(const MaterialOf<D>& material) {
     a[static_cast<std::size_t>(i)] = 1;
     return a;
   };
+  const auto second = [&unit](int i, int j) {
+    MultiIndex<D> a = unit(i);
+    ++a[static_cast<std::size_t>(j)];
+    return a;
+  };
   Energy<D> stretch, bend;
   for (int i = 0; i < D; ++i) {
     for (int j = i; j < D; ++j) {
@@ -20,17 +25,13 @@ Energy<D> stretch_and_bend(const MaterialOf<D>& material) {
         if (i != j) stretch.push_back({alpha, unit(j), unit(i)});
       }
       if (const double beta = material.beta[place]; beta != 0) {
-        MultiIndex<D> second = unit(i);
-        ++second[static_cast<std::size_t>(j)];
-        bend.push_back({i == j ? beta : 2 * beta, second, second});
+        bend.push_back({i == j ? beta : 2 * beta, second(i, j), second(i, j)});
       }
       if (i == j || material.poisson == 0) continue;
       const double ii = material.beta[MaterialOf<D>::place(i, i)], jj = material.beta[MaterialOf<D>::place(j, j)];
       if (const double coupled = material.poisson * std::sqrt(ii * jj); coupled != 0) {
-        MultiIndex<D> in_i{}, in_j{};
-        in_i[static_cast<std::size_t>(i)] = in_j[static_cast<std::size_t>(j)] = 2;
-        bend.push_back({coupled, in_i, in_j});
-        bend.push_back({coupled, in_j, in_i});
+        bend.push_back({coupled, second(i, i), second(j, j)});
+        bend.push_back({coupled, second(j, j), second(i, i)});
       }
     }
   }

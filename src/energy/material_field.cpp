@@ -148,6 +148,13 @@ MultiIndex<D> unit(int i) {
 }
 
 template <int D>
+MultiIndex<D> second(int i, int j) {
+  MultiIndex<D> a = unit<D>(i);
+  ++a[static_cast<std::size_t>(j)];
+  return a;
+}
+
+template <int D>
 bool is_zero(const Coefficient<D>& c) {
   return !varies<D>(c) && std::get<double>(c) == 0;
 }
@@ -175,20 +182,16 @@ FieldEnergy<D> bend_energy(const MaterialFieldOf<D>& material) {
     for (int j = i; j < D; ++j) {
       const Coefficient<D>& beta = material.beta[MaterialOf<D>::place(i, j)];
       if (is_zero<D>(beta)) continue;
-      MultiIndex<D> second = unit<D>(i);
-      ++second[static_cast<std::size_t>(j)];
-      result.push_back({i == j ? 1.0 : 2.0, beta, second, second});
+      result.push_back({i == j ? 1.0 : 2.0, beta, second<D>(i, j), second<D>(i, j)});
     }
   }
   for (int i = 0; i < D && material.poisson != 0; ++i) {
     for (int j = i + 1; j < D; ++j) {
       const Coefficient<D>&ii = beta_ii(material, i), &jj = beta_ii(material, j);
       if (is_zero<D>(ii) || is_zero<D>(jj)) continue;
-      MultiIndex<D> in_i{}, in_j{};
-      in_i[static_cast<std::size_t>(i)] = in_j[static_cast<std::size_t>(j)] = 2;
       const Coefficient<D> coupled = varies<D>(ii) ? ii : std::sqrt(std::get<double>(ii) * std::get<double>(jj));
-      result.push_back({material.poisson, coupled, in_i, in_j});
-      result.push_back({material.poisson, coupled, in_j, in_i});
+      result.push_back({material.poisson, coupled, second<D>(i, i), second<D>(j, j)});
+      result.push_back({material.poisson, coupled, second<D>(j, j), second<D>(i, i)});
     }
   }
   return result;

@@ -11,11 +11,7 @@ namespace {
 
 template <int D>
 Expected<void> set_material(SceneShape<D>& s, const MaterialCommand& c) {
-  MaterialOf<D> next;
-  for (std::size_t k = 0; k < next.count; ++k) {
-    next.alpha[k] = std::get<double>(s.material.alpha[k]);
-    next.beta[k] = std::get<double>(s.material.beta[k]);
-  }
+  MaterialOf<D> next = s.material.constants();
   const double mass = c.mass.value_or(std::get<double>(s.material.mass));
   const double damping = c.damping.value_or(std::get<double>(s.material.damping));
   const auto set = [](const std::optional<std::vector<double>>& given, auto& to, const char* field) -> Expected<void> {

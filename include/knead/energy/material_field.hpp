@@ -27,6 +27,17 @@ struct MaterialFieldOf {
         mass(mass_constant),
         damping(damping_constant) {}
 
+  /// Its coefficients, where none of them varies: requires that (asserted).
+  [[nodiscard]] MaterialOf<D> constants() const {
+    MaterialOf<D> material;
+    for (std::size_t k = 0; k < count; ++k) {
+      material.alpha[k] = *std::get_if<double>(&alpha[k]);
+      material.beta[k] = *std::get_if<double>(&beta[k]);
+    }
+    material.poisson = poisson;
+    return material;
+  }
+
   friend bool operator==(const MaterialFieldOf&, const MaterialFieldOf&) = default;
 
  private:
