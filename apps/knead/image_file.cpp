@@ -18,21 +18,6 @@ namespace {
 
 constexpr double most_pixels = 1 << 28;
 
-/// Shares of red, green and blue.
-std::array<double, 3> weights(ImageChannel channel) {
-  switch (channel) {
-    case ImageChannel::red:
-      return {1, 0, 0};
-    case ImageChannel::green:
-      return {0, 1, 0};
-    case ImageChannel::blue:
-      return {0, 0, 1};
-    case ImageChannel::grey:
-      break;
-  }
-  return {0.2125, 0.7154, 0.0721};
-}
-
 /// Decoded pixels, whole numbers from 0 to `white`, channels together.
 struct Pixels {
   unsigned width = 0, height = 0, channels = 0, white = 255;
@@ -134,7 +119,7 @@ void decode_jpeg(std::string_view bytes, Pixels& pixels) {
 }
 
 Image grey(const Pixels& pixels, ImageChannel channel) {
-  const auto [red, green, blue] = weights(channel);
+  const auto [red, green, blue] = shares_of(channel);
   Image image{static_cast<int>(pixels.width), static_cast<int>(pixels.height), {}};
   const std::size_t count = std::size_t{pixels.width} * pixels.height;
   image.values.reserve(count);

@@ -24,7 +24,7 @@ struct Curves {
 /// The functions on the whole range of the knots, which for clamped knots is the domain.
 ///
 /// \param order  d >= 0: N_i^(d), piece by piece, with the impulses that the jumps of lower derivatives leave behind,
-///               N_i^(d) = {N_i^(d)} + Σ_ξ Σ_{k<d} [N_i^(d−1−k)]_ξ δ_ξ^(k) (spline/jumps.hpp).
+///               N_i^(d) = {N_i^(d)} + Σ_ξ Σ_{k<d} [N_i^(d−1−k)]_ξ δ_ξ^(k) (spline/basis.hpp).
 ///               d < 0: the |d|-fold integral from −∞ (`basis_integral`), drawn to the end of the range.
 /// \param pixels width of the picture, which limits the number of points.
 /// Values are those of `basis_function` and `basis_integral`, to the bit. Cost: O(n p³) and a small factor of pixels.

@@ -8,7 +8,6 @@
 namespace knead::snakes {
 namespace {
 
-constexpr double red = 0.2125, green = 0.7154, blue = 0.0721;  // as in apps/knead/image_file.cpp
 constexpr int drawn_per_span = 8;
 
 /// Whether they begin in the same place; springs may differ.
@@ -36,6 +35,7 @@ std::vector<double> breaks(const KnotVector& knots) {
 Image grey_of(std::span<const std::uint8_t> rgba, int width, int height) {
   Image image{width, height, {}};
   image.values.reserve(rgba.size() / 4);
+  const auto [red, green, blue] = shares_of(ImageChannel::grey);
   for (std::size_t k = 0; k + 3 < rgba.size(); k += 4) {
     const double r = rgba[k] / 255.0, g = rgba[k + 1] / 255.0, b = rgba[k + 2] / 255.0;
     image.values.push_back(r == g && g == b ? r : red * r + green * g + blue * b);
@@ -75,9 +75,7 @@ Expected<void> Room::restore(int kept) {
 
 Expected<Room::Moved> Room::begun(const SnakeScript& script, const SnakeStart& start) const {
   const One one{start, settings_of(script, start)};
-  const auto points = points_of(start);
-  if (!points) return std::unexpected(points.error());
-  auto curve = curve_through(*points, one.settings);
+  auto curve = curve_of(start, one.settings);
   if (!curve) return std::unexpected(curve.error());
   return Moved{one, std::move(*curve)};
 }

@@ -221,4 +221,18 @@ Expected<SplineField<2>> ImageSpline::field() const {
   return SplineField<2>::create({knots[0], knots[1]}, std::move(by_x));
 }
 
+std::array<double, 3> shares_of(ImageChannel channel) {
+  switch (channel) {
+    case ImageChannel::red:
+      return {1, 0, 0};
+    case ImageChannel::green:
+      return {0, 1, 0};
+    case ImageChannel::blue:
+      return {0, 0, 1};
+    case ImageChannel::grey:
+      break;
+  }
+  return {0.2125, 0.7154, 0.0721};
+}
+
 }  // namespace knead

@@ -233,20 +233,28 @@ SnakeScript default_snake_script(const Image& image) {
   return script;
 }
 
-Expected<std::vector<SnakeResult>> run_image_snakes(const ImagePotential& potential, const SnakeScript& script,
-                                                    const Image& image) {
+Expected<Curve> curve_of(const SnakeStart& start, const SnakeSettings& settings) {
+  const auto points = points_of(start);
+  return points ? curve_through(*points, settings) : std::unexpected(points.error());
+}
+
+Expected<SnakeBeginnings> beginnings_of(const SnakeScript& script, const Image& image) {
   const auto starts = starts_of(script, image);
   if (!starts) return std::unexpected(starts.error());
-  std::vector<Curve> curves;
-  std::vector<SnakeSettings> settings;
+  SnakeBeginnings beginnings;
   for (std::size_t k = 0; k < starts->size(); ++k) {
-    settings.push_back(settings_of(script, (*starts)[k]));
-    const auto points = points_of((*starts)[k]);
-    auto curve = points ? curve_through(*points, settings.back()) : std::unexpected(points.error());
+    beginnings.settings.push_back(settings_of(script, (*starts)[k]));
+    auto curve = curve_of((*starts)[k], beginnings.settings.back());
     if (!curve) return std::unexpected(curve.error().within(fmt::format("snakes[{}]", k)));
-    curves.push_back(std::move(*curve));
+    beginnings.curves.push_back(std::move(*curve));
   }
-  return run_snakes(potential, curves, settings);
+  return beginnings;
+}
+
+Expected<std::vector<SnakeResult>> run_image_snakes(const ImagePotential& potential, const SnakeScript& script,
+                                                    const Image& image) {
+  const auto begin = beginnings_of(script, image);
+  return begin ? run_snakes(potential, begin->curves, begin->settings) : std::unexpected(begin.error());
 }
 
 }  // namespace knead

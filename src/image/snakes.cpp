@@ -154,6 +154,16 @@ Expected<void> Snakes::replace(int snake, const Curve& curve, const SnakeSetting
   return {};
 }
 
+Expected<std::vector<SnakeResult>> Snakes::results() const {
+  std::vector<SnakeResult> all;
+  for (int k = 0; k < count(); ++k) {
+    auto one = result(k);
+    if (!one) return std::unexpected(one.error());
+    all.push_back(std::move(*one));
+  }
+  return all;
+}
+
 Expected<std::vector<SnakeResult>> run_snakes(const ImagePotential& potential, const std::vector<Curve>& starts,
                                               const std::vector<SnakeSettings>& settings) {
   auto snakes = Snakes::create(potential, starts, settings);
@@ -161,13 +171,7 @@ Expected<std::vector<SnakeResult>> run_snakes(const ImagePotential& potential, c
   while (!snakes->ended()) {
     if (auto done = snakes->advance(100); !done) return std::unexpected(done.error());
   }
-  std::vector<SnakeResult> results;
-  for (int k = 0; k < snakes->count(); ++k) {
-    auto result = snakes->result(k);
-    if (!result) return std::unexpected(result.error());
-    results.push_back(std::move(*result));
-  }
-  return results;
+  return snakes->results();
 }
 
 }  // namespace knead

@@ -88,12 +88,11 @@ def snake(picture: ArrayLike, start: Any = None, *, closed: bool = True, image: 
     script: dict[str, Any] = {"knead": 2}
     several = blobs is not None
     if start is not None:
-        script["snakes"], several = _starts(start, closed)
-        if values.ndim == 2:
-            several = several or blobs is not None
+        script["snakes"], many = _starts(start, closed)
+        several = several or many
     for name, value in (("image", image), ("blobs", blobs), ("settings", settings)):
-        if value:
-            script[name] = dict(value)
+        if value or (name == "blobs" and value is not None):
+            script[name] = dict(value or {})
     if values.ndim == 2:
         contours = [Snake(*made) for made in _core.image_snakes(values, encode("snake", script), drawn, callback(progress))]
         return contours if several else contours[0]

@@ -20,18 +20,8 @@ VolumeImage volume_of(const Doubles& voxels) {
 Expected<Snakes> started(const Image& image, const SnakeScript& script, const std::optional<Image>& mask) {
   const auto potential = ImagePotential::create(image, script.image, mask);
   if (!potential) return std::unexpected(potential.error().within("image"));
-  const auto places = starts_of(script, image);
-  if (!places) return std::unexpected(places.error());
-  std::vector<Curve> curves;
-  std::vector<SnakeSettings> settings;
-  for (const SnakeStart& place : *places) {
-    settings.push_back(settings_of(script, place));
-    const auto points = points_of(place);
-    auto curve = points ? curve_through(*points, settings.back()) : std::unexpected(points.error());
-    if (!curve) return std::unexpected(curve.error().within("snakes[" + std::to_string(curves.size()) + "]"));
-    curves.push_back(*std::move(curve));
-  }
-  return Snakes::create(*potential, curves, settings);
+  const auto begin = beginnings_of(script, image);
+  return begin ? Snakes::create(*potential, begin->curves, begin->settings) : std::unexpected(begin.error());
 }
 
 /// Until all rest, or the work is stopped: then where they are.
@@ -44,13 +34,7 @@ Expected<std::vector<SnakeResult>> run(const Image& image, const SnakeScript& sc
   for (int done = 0; !snakes->ended() && work.tell(std::min(done, most), most); done += at_a_time) {
     if (auto more = snakes->advance(at_a_time); !more) return std::unexpected(more.error());
   }
-  std::vector<SnakeResult> results;
-  for (int k = 0; k < snakes->count(); ++k) {
-    auto result = snakes->result(k);
-    if (!result) return std::unexpected(result.error());
-    results.push_back(*std::move(result));
-  }
-  return results;
+  return snakes->results();
 }
 
 py::list image_snakes(const py::object& picture, const std::string& json, const py::object& mask, py::object progress) {

@@ -29,6 +29,8 @@ struct Image {
 
 /// What of a colour image its grey values are: the luma of Rec. 709, or one of its colours.
 enum class ImageChannel { grey, red, green, blue };
+/// The shares of red, green and blue in a channel.
+[[nodiscard]] std::array<double, 3> shares_of(ImageChannel channel);
 
 /// Errors (input): no pixels, a wrong number of values, a value that is not finite.
 [[nodiscard]] Expected<void> check_image(const Image& image);

@@ -135,6 +135,8 @@ class Snakes {
 
   /// Where it is. While a finer net is tried it stays where it was.
   [[nodiscard]] Expected<SnakeResult> result(int snake) const;
+  /// Of all of them.
+  [[nodiscard]] Expected<std::vector<SnakeResult>> results() const;
   [[nodiscard]] const SnakeSettings& settings(int snake) const;
   /// Other settings, say springs that follow the pointer, for a snake where it is: it wakes, and counts its iterations
   /// anew. `control_points` and `units` are those of its net. Errors: those of `create`; there is no such snake

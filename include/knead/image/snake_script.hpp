@@ -77,6 +77,18 @@ void describe(SnakeScript& s, Fields& fields);
 /// Without a script: an ellipse as large as the image nearly, drawn together by the region term.
 [[nodiscard]] SnakeScript default_snake_script(const Image& image);
 
+/// The curve through the points of a start, on the net of its settings. Errors: those of `points_of` and
+/// `curve_through`.
+[[nodiscard]] Expected<Curve> curve_of(const SnakeStart& start, const SnakeSettings& settings);
+
+/// Where the snakes of a script start, and the settings of each. Errors: those of `starts_of`, and of `curve_of`, which
+/// name the snake.
+struct SnakeBeginnings {
+  std::vector<Curve> curves;
+  std::vector<SnakeSettings> settings;
+};
+[[nodiscard]] Expected<SnakeBeginnings> beginnings_of(const SnakeScript& script, const Image& image);
+
 /// `run_snakes` of a script from its starts. Errors: those of `starts_of`, `points_of` and `curve_through`, which name
 /// the snake, and of `run_snakes`.
 [[nodiscard]] Expected<std::vector<SnakeResult>> run_image_snakes(const ImagePotential& potential,
