@@ -45,7 +45,7 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     declare -A fedora=([g++]=gcc-c++ [libeigen3-dev]=eigen3-devel [libfmt-dev]=fmt-devel [nlohmann-json3-dev]=json-devel
       [libcli11-dev]=cli11-devel [libpng-dev]=libpng-devel [libjpeg-dev]=libjpeg-turbo-devel [zlib1g-dev]=zlib-devel [libgtest-dev]=gtest-devel
       [libgmp-dev]=gmp-devel [libbenchmark-dev]=google-benchmark-devel [libocct-data-exchange-dev]=opencascade-devel
-      [libsuitesparse-dev]=suitesparse-devel [python3-dev]=python3-devel [python3-numpy]=python3-numpy [python3-scipy]=python3-scipy
+      [libsuitesparse-dev]=suitesparse-devel [python3-dev]=python3-devel [pybind11-dev]=pybind11-devel
       [python3-venv]=python3 [python3-pip]=python3-pip [mypy]=python3-mypy [clang-format]=clang-tools-extra [npm]=nodejs-npm)
     names=() without=()
     for package in "${needed[@]}"; do

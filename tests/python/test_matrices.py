@@ -108,6 +108,11 @@ class Snakes(unittest.TestCase):
         self.assertEqual(len(several), 2)
         self.assertGreater(len(told), 1)
 
+    def test_blobs_by_default(self):
+        found = knead.snake(self.disc(), blobs={}, max_iterations=5)
+        self.assertEqual(len(found), len(knead.snake(self.disc(), blobs={"dark": False}, max_iterations=5)))
+        self.assertGreater(len(found), 0)
+
     def test_volumes(self):
         z, y, x = np.mgrid[:24, :26, :28]
         ball = ((x - 14) ** 2 + (y - 13) ** 2 + (z - 12) ** 2 < 7 ** 2).astype(float)

@@ -164,6 +164,14 @@ class Geometry(unittest.TestCase):
         self.assertEqual(removal.spline.net, s.net)
 
 
+class Arrays(unittest.TestCase):
+    def test_degrees_and_knots_may_be_arrays(self):
+        knots, points = np.array([clamped(1, 1), clamped(1, 1)]), np.zeros((2, 2, 3))
+        s = knead.Surface(np.array([1, 1]), knots, points)
+        self.assertEqual(s, knead.Surface(1, list(knots), points))
+        self.assertEqual(s, knead.Surface(np.array(1), list(knots), points))
+
+
 class Errors(unittest.TestCase):
     def test_what_is_wrong_is_named(self):
         points = np.zeros((4, 3))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -41,8 +42,8 @@ def number(value: Any, name: str) -> float:
 
 def whole(value: Any, name: str, least: int = 0) -> int:
     try:
-        result = value.__index__()
-    except AttributeError:
+        result = operator.index(value)
+    except TypeError:
         raise TypeError(f"{name} must be a whole number, not {described(value)}") from None
     if result < least:
         raise InputError(f"{result} is below {least}", where=name, remedy=f"use {least} or more")

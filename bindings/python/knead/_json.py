@@ -30,7 +30,7 @@ def encode(name: str, fields: Any) -> str:
     """TypeError and `InputError`, on one line, name the argument."""
     try:
         return _encode(fields)
-    except (TypeError, ValueError, RecursionError):
+    except (TypeError, ValueError, RecursionError) as error:
         for field, value in fields.items() if isinstance(fields, Mapping) else ():
             try:
                 _encode(value)
@@ -38,4 +38,6 @@ def encode(name: str, fields: Any) -> str:
                 raise InputError("a number that is not finite", where=f"{name}: {field}", remedy="use finite numbers") from None
             except (TypeError, RecursionError):
                 raise TypeError(f"{name}: {field} cannot be {described(value)}") from None
+        if isinstance(error, ValueError):
+            raise InputError("a number that is not finite", where=name, remedy="use finite numbers") from None
         raise TypeError(f"{name} cannot be made of {described(fields)}") from None

@@ -127,6 +127,7 @@ class Document(Commands, Display):
         commands, or one of an error's `fixes`. If a command fails none of them has had an effect, and the error's `where`
         begins with its place; at Ctrl+C the commands and steps that were whole stay."""
         name, listed = "script", False
+        text: str | bytes
         if isinstance(script, Fix):
             text, listed = encode("commands", script.commands), True
         elif isinstance(script, Mapping):
@@ -137,7 +138,7 @@ class Document(Commands, Display):
                 text = path
             else:
                 name = str(path)
-                text = _read(name).decode("utf-8", "replace")
+                text = _read(name)
         elif isinstance(script, Sequence):
             text, listed = encode("commands", list(script)), True
         else:

@@ -31,7 +31,7 @@ def _columns(parts: Any, free: Any) -> Any:
 
 
 def of_parts(parts: Any) -> Matrices:
-    stiffness, mass, damping, load, free = parts[:5]
+    stiffness, mass, damping, load, free = parts
     numbers_of_free = np.asarray(free)
     return Matrices(_columns(stiffness, numbers_of_free), _columns(mass, numbers_of_free),
                     _columns(damping, numbers_of_free), np.asarray(load), numbers_of_free)

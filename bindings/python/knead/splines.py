@@ -79,7 +79,7 @@ class Spline(Display):
 
     def _each(self, value: Any, name: str) -> tuple[Any, ...]:
         """One for every direction; a number stands for all of them."""
-        if hasattr(value, "__index__"):
+        if hasattr(value, "__index__") and np.ndim(value) == 0:
             return (value,) * self._directions
         try:
             items = tuple(value)

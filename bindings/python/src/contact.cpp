@@ -15,8 +15,7 @@ py::tuple columns_of(SparseMatrix matrix) {
 
 py::tuple matrices_of(const Surface& shape, const MaterialFieldOf<2>& material, const Point& load, int hold,
                       bool normalised, double tolerance) {
-  const auto work =
-      [&]() -> Expected<std::tuple<FieldMatrices<2>, Points, std::vector<std::int64_t>, DomainScaling<2>>> {
+  const auto work = [&]() -> Expected<std::tuple<FieldMatrices<2>, Points, std::vector<std::int64_t>>> {
     auto free = free_unknowns(shape.net(), hold);
     if (!free) return std::unexpected(free.error());
     auto scaling = normalised ? normalised_scaling<2>(shape) : Expected<DomainScaling<2>>(DomainScaling<2>{});
@@ -28,24 +27,24 @@ py::tuple matrices_of(const Surface& shape, const MaterialFieldOf<2>& material, 
     if (!made) return std::unexpected(made.error());
     auto forces = FreeSystem(shape, *free, *scaling, options).forces(load);
     if (!forces) return std::unexpected(forces.error());
-    return std::tuple(*std::move(made), *std::move(forces), *std::move(free), *scaling);
+    return std::tuple(*std::move(made), *std::move(forces), *std::move(free));
   };
   auto made = [&] {
     const py::gil_scoped_release others;
     return work();
   }();
-  auto [all, forces, free, scaling] = value_of(std::move(made));
+  auto [all, forces, free] = value_of(std::move(made));
   SparseMatrix stiffness = std::move(all.stretch);
   stiffness += all.bend;
   all.bend = {};
   const auto rows = static_cast<py::ssize_t>(forces.rows()), count = std::ssize(free);
   return py::make_tuple(columns_of(std::move(stiffness)), columns_of(std::move(all.mass)),
                         columns_of(std::move(all.damping)), view_of_own(std::move(forces), {rows, 3}),
-                        view_of_own(std::move(free), {count}), all.error_bound, scaling.length);
+                        view_of_own(std::move(free), {count}));
 }
 
 void bind_contact(py::module_& module) {
-  // (K, M, D, F, free, error bound, unit of length) of a surface, K, M and D on all unknowns.
+  // (K, M, D, F, free) of a surface, K, M and D on all unknowns.
   module.def("matrices",
              [](const Held<2>& held, const std::array<double, 3>& alpha, const std::array<double, 3>& beta, double mass,
                 double damping, const std::array<double, 3>& load, int hold, bool normalised, double tolerance) {

@@ -24,18 +24,22 @@ Expected<void> begin(Session& session) {
   return done;
 }
 
+std::shared_ptr<const Source> source_of(const py::bytes& bytes, const std::string& name, std::size_t max_unpacked) {
+  auto text = std::string(bytes);
+  auto source = [&] {
+    const py::gil_scoped_release others;
+    return open_source(std::move(text), name, {.max_unpacked = max_unpacked});
+  }();
+  return value_of(std::move(source));
+}
+
 }  // namespace
 
 PySession::PySession(std::shared_ptr<const Source> source, Session session)
     : source_(std::move(source)), session_(std::move(session)) {}
 
 std::unique_ptr<PySession> PySession::open(const py::bytes& bytes, const std::string& name, std::size_t max_unpacked) {
-  auto text = std::string(bytes);
-  auto source = [&] {
-    const py::gil_scoped_release others;
-    return open_source(std::move(text), name, {.max_unpacked = max_unpacked});
-  }();
-  auto made = value_of(std::move(source));
+  auto made = source_of(bytes, name, max_unpacked);
   auto held = std::make_unique<PySession>(made, Session(Document::from(made)));
   value_of(held->alone([&] { return begin(held->session_); }));
   return held;
@@ -81,10 +85,12 @@ py::tuple PySession::state() {
 
 std::unique_ptr<PySession> PySession::from_state(const py::tuple& state) {
   const auto name = state[3].cast<std::string>();
-  auto held = state[0].is_none()
-                  ? std::make_unique<PySession>(nullptr, Session(Document::fresh(name, state[4].cast<std::string>())))
-                  : open(state[0].cast<py::bytes>(), name, max_file_size);
-  held->session_ = value_of(held->restored(state[1].cast<std::string>(), state[2].cast<std::size_t>()));
+  auto source = state[0].is_none() ? nullptr : source_of(state[0].cast<py::bytes>(), name, max_file_size);
+  auto document = source ? Document::from(source) : Document::fresh(name, state[4].cast<std::string>());
+  auto held = std::make_unique<PySession>(std::move(source), Session(std::move(document)));
+  const auto snapshot = state[1].cast<std::string>();
+  const auto opening = state[2].cast<std::size_t>();
+  held->session_ = value_of(held->alone([&] { return held->restored(snapshot, opening); }));
   return held;
 }
 
@@ -111,17 +117,13 @@ void PySession::run(const std::string& text, const std::string& name, bool list,
           command, [&](int step, int all) { return work.tell(step, all); }, [&] { return work.go_on(); });
     };
     // A command that fails has changed nothing; what went before it is taken back.
-    const std::size_t opening = session_.opening_commands();
-    const std::string before = commands.size() > 1 ? session_.snapshot(unlimited) : std::string();
+    auto before = session_.before(commands);
     for (std::size_t k = 0; k < commands.size(); ++k) {
       auto one = carry_out(commands[k]);
       if (work.stopped()) return {};
       if (one) continue;
       Error error = error_at_command(std::move(one.error()), session_.document(), name, k);
-      if (k == 0) return std::unexpected(std::move(error));
-      auto again = restored(before, opening);
-      if (!again) return std::unexpected(std::move(again.error()));
-      session_ = *std::move(again);
+      session_.go_back(std::move(before));
       return std::unexpected(std::move(error));
     }
     return {};
@@ -240,17 +242,6 @@ FileBytes meshed(const Session& session, const Format& format, double tolerance,
   return std::pair(std::move(model->bytes), std::move(lines));
 }
 
-Expected<std::string> compressed(std::string bytes, const std::string& name) {
-  const Compression wanted = compression_of_name(name);
-  if (wanted == compression_of(bytes)) return bytes;
-  if (compression_of(bytes) != Compression::none) {
-    auto plain = uncompress(bytes, std::numeric_limits<std::size_t>::max());
-    if (!plain) return plain;
-    bytes = *std::move(plain);
-  }
-  return compress(bytes, wanted, std::filesystem::path(uncompressed_name(name)).filename().string());
-}
-
 }  // namespace
 
 py::tuple PySession::file(const std::string& name, double tolerance, int detail, const std::string& schema) {
@@ -268,7 +259,7 @@ py::tuple PySession::file(const std::string& name, double tolerance, int detail,
     how.schema = schema == "ap242" ? "ap242" : "ap214";
     auto saved = saved_as(session_, **format, how);
     if (!saved) return saved;
-    auto bytes = compressed(std::move(saved->first), name);
+    auto bytes = compress_by_name(std::move(saved->first), name);
     if (!bytes) return std::unexpected(std::move(bytes.error()));
     return std::pair(*std::move(bytes), std::move(saved->second));
   });
@@ -279,7 +270,14 @@ py::tuple PySession::file(const std::string& name, double tolerance, int detail,
 }
 
 py::tuple PySession::analysis(int samples) {
-  auto made = alone([&]() -> Expected<std::pair<std::vector<FieldGrid>, std::vector<HoldReaction>>> {
+  // Grids, reactions, modes and buckling modes of one moment.
+  using Values = std::vector<std::array<double, 2>>;
+  const auto values = [](const std::vector<ModeRecord>& records) {
+    Values list;
+    for (const ModeRecord& mode : records) list.push_back({mode.value, mode.residual});
+    return list;
+  };
+  auto made = alone([&]() -> Expected<std::tuple<std::vector<FieldGrid>, std::vector<HoldReaction>, Values, Values>> {
     const SessionState& state = session_.state();
     if (!state.selected) return input_error("no surface is selected", {}, "select one");
     auto grids = result_grids(session_, samples);
@@ -290,14 +288,13 @@ py::tuple PySession::analysis(int samples) {
       if (!found) return std::unexpected(found.error());
       reactions = *std::move(found);
     }
-    return std::pair(*std::move(grids), std::move(reactions));
+    return std::tuple(*std::move(grids), std::move(reactions), values(state.modes), values(state.buckling));
   });
-  auto [grids, reactions] = value_of(std::move(made));
+  auto [grids, reactions, vibrations, bucklings] = value_of(std::move(made));
   py::list forces, modes, buckling;
   for (const HoldReaction& r : reactions) forces.append(py::make_tuple(r.hold, r.force.x(), r.force.y(), r.force.z()));
-  const auto records = alone([&] { return std::pair(session_.state().modes, session_.state().buckling); });
-  for (const ModeRecord& mode : records.first) modes.append(py::make_tuple(mode.value, mode.residual));
-  for (const ModeRecord& mode : records.second) buckling.append(py::make_tuple(mode.value, mode.residual));
+  for (const auto& [value, residual] : vibrations) modes.append(py::make_tuple(value, residual));
+  for (const auto& [value, residual] : bucklings) buckling.append(py::make_tuple(value, residual));
   return py::make_tuple(Grids{std::make_shared<const std::vector<FieldGrid>>(std::move(grids))}, forces, modes,
                         buckling);
 }
