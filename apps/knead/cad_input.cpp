@@ -35,12 +35,7 @@ Expected<std::string> compressed_by_name(std::string bytes, const std::string& o
                                       !format_of_name(output, FormatContent::surfaces))) {
     return bytes;
   }
-  if (present != Compression::none) {
-    auto plain = uncompress(bytes, std::numeric_limits<std::size_t>::max());
-    if (!plain) return plain;
-    bytes = *std::move(plain);
-  }
-  return compress(bytes, wanted, fs::path(uncompressed_name(output)).filename().string());
+  return compress_by_name(std::move(bytes), output);
 }
 
 }  // namespace knead::cli

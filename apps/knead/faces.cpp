@@ -40,9 +40,8 @@ void print_edges(const Session& session) {
     int held = 0;
     double largest = 0;
     for (const EdgeReport& edge : report.edges) {
-      const bool holds = edge.held;
-      held += holds ? 1 : 0;
-      if (holds) largest = std::max(largest, edge.deviation);
+      held += edge.held ? 1 : 0;
+      if (edge.held) largest = std::max(largest, edge.deviation);
     }
     say("  {}: {} of {} edges held, {} of {} control points free, largest deviation along held edges {:.2g} {}", s.id,
         held, report.edges.size(), report.free, s.current->size(), largest, s.unit);

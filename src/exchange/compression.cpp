@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <limits>
+
 #include "archive.hpp"
 #include "deflate.hpp"
 #include "knead/base/printable.hpp"
@@ -63,6 +66,17 @@ Expected<std::string> compress(std::string_view bytes, Compression kind, std::st
   constexpr std::uint16_t utf8 = 1U << 11;
   archive.flags = utf8;
   return pack(bytes, archive);
+}
+
+Expected<std::string> compress_by_name(std::string bytes, std::string_view file_name) {
+  const Compression wanted = compression_of_name(file_name), present = compression_of(bytes);
+  if (wanted == present) return bytes;
+  if (present != Compression::none) {
+    auto plain = uncompress(bytes, std::numeric_limits<std::size_t>::max());
+    if (!plain) return plain;
+    bytes = *std::move(plain);
+  }
+  return compress(bytes, wanted, std::filesystem::path(uncompressed_name(file_name)).filename().string());
 }
 
 Expected<std::string> compress_like(std::string_view bytes, std::string_view like) {

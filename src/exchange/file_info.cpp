@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "describe/describe.hpp"
+#include "describe/record_json.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/face_edges.hpp"
 #include "knead/spline/extremum.hpp"
@@ -91,7 +91,7 @@ static void describe(FileVisible& v, Fields& fields) {
   fields.add("edges", v.edges);
 }
 
-void describe(FileInfo& f, Fields& fields) {
+static void describe(FileInfo& f, Fields& fields) {
   fields.name("file info", "What is in a CAD file.");
   fields.add_all("file", f.file, "format", f.format, "schema", f.schema, "units", f.units, "surfaces", f.surfaces,
                  "unreadable_surfaces", f.unreadable_surfaces, "other_surfaces", f.other_surfaces, "curves", f.curves,
@@ -264,6 +264,10 @@ FileInfo file_info(const Source& source, const FileInfoOptions& options) {
   info.assembly = assembly_of(*model);
   if (options.faces) info.visible = visible_parts(model);
   return info;
+}
+
+std::string file_json(const FileInfo& info) {
+  return indented_json(to_json(type_of<FileInfo>(), &info, Absent::null, shortest_json_number));
 }
 
 }  // namespace knead

@@ -24,19 +24,13 @@ bool may_change_nothing(const Command& command) {
 
 }  // namespace
 
-struct Session::Before {
-  std::size_t first = 0, position = 0;
-  std::vector<std::shared_ptr<const SessionState>> states;
-  std::vector<std::vector<Command>> entries;
-};
-
-Session::Before Session::before_act(std::span<const Command> commands, bool join) const {
+Session::Before Session::before(std::span<const Command> commands, bool joined) const {
   // As far back as the act can reach: what it joins, what it undoes. An entry is not copied for less.
   const auto undone = static_cast<std::size_t>(
       std::ranges::count_if(commands, [](const Command& c) { return fields_of<UndoCommand>(c) != nullptr; }));
   Before before;
   before.position = position_;
-  before.first = position_ - std::min(position_ - floor_, undone + (join ? 1 : 0));
+  before.first = position_ - std::min(position_ - floor_, undone + (joined ? 1 : 0));
   const auto from = static_cast<std::ptrdiff_t>(before.first);
   before.states.assign(states_.begin() + from, states_.end());
   before.entries.assign(entries_.begin() + from, entries_.end());
@@ -53,7 +47,7 @@ void Session::go_back(Before before) {
 
 Expected<bool> Session::act(std::span<const Command> commands, const ActOptions& options, const Progress& progress,
                             const GoOn& go_on) {
-  Before before = before_act(commands, options.join);
+  Before before = this->before(commands, options.join);
   bool joins = options.join;
   for (const Command& command : commands) {
     const std::size_t place = position_;

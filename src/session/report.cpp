@@ -82,24 +82,6 @@ std::optional<Parting> angles_at(const SessionState& state, const std::string& e
 
 }  // namespace
 
-const Document& Session::document_of(const SessionState& state) const {
-  return state.document ? *state.document : document_;
-}
-const Document& Session::document() const { return document_of(state()); }
-
-std::vector<SessionSurface> Session::surfaces() const {
-  std::vector<SessionSurface> list;
-  for (const SceneSurface& s : state().surfaces) list.push_back({s.id, s.name, s.unit, s.opened, s.rest, s.current});
-  return list;
-}
-
-std::vector<int> Session::selection() const { return state().selection(); }
-const std::vector<Tool>& Session::tools() const { return state().tools; }
-std::vector<StepRecord> Session::steps() const { return {state().steps.begin(), state().steps.end()}; }
-const std::vector<ModeRecord>& Session::modes() const { return state().modes; }
-const std::vector<ModeRecord>& Session::buckling() const { return state().buckling; }
-const std::vector<Note>& Session::notes() const { return state().notes; }
-
 Outcome outcome_of(Session& session, std::size_t opened) {
   const SessionState& state = session.state();
   Outcome o;
@@ -156,10 +138,8 @@ std::vector<EdgesReport> report_edges(const Session& session) {
     report.samples = trims->samples;
     report.largest_gap = trims->largest;
     for (const TrimReport::Edge& edge : trims->edges) {
-      const auto angles = edge.follows ? angles_at(state, edge.held.id) : std::nullopt;
       report.edges.push_back({edge.held.id, hold_of(edge), edge.held.order >= 0, edge.held.along_lines,
-                              edge.held.points, edge.deviation, edge.neighbours,
-                              angles ? std::optional(std::array{angles->angle, angles->angle_before}) : std::nullopt});
+                              edge.held.points, edge.deviation, edge.neighbours});
     }
   }
   return list;
@@ -182,7 +162,7 @@ std::vector<SeamSummary> report_seams(const Session& session) {
   std::vector<SeamSummary> list;
   for (const SeamReport& s : state.seam_reports) {
     const auto continuity = choices(s.continuity)[static_cast<std::size_t>(s.continuity)].name;
-    list.push_back({side(s.seam.a), side(s.seam.b), continuity, s.seam.gap, s.reason});
+    list.push_back({side(s.seam.a), side(s.seam.b), std::string(continuity), s.seam.gap, s.reason});
   }
   return list;
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 
@@ -54,13 +55,7 @@ static void describe(ReportedEdges& e, Fields& fields) {
                  "samples", e.samples, "edges", e.edges);
 }
 
-struct ReportedSeam {
-  std::string a, b;
-  std::string continuity;
-  double gap = 0;
-  std::string reason;
-};
-static void describe(ReportedSeam& s, Fields& fields) {
+static void describe(SeamSummary& s, Fields& fields) {
   fields.add_all("a", s.a, "b", s.b, "continuity", s.continuity, "gap", s.gap, "reason", s.reason);
 }
 
@@ -98,16 +93,17 @@ std::string modes_json(const SessionState& state) {
 std::vector<ReportedEdges> reported_edges(const Session& session) {
   constexpr double degrees = 180 / std::numbers::pi;
   std::vector<ReportedEdges> list;
-  const std::vector<SessionSurface> surfaces = session.surfaces();
+  const std::vector<FollowedReport> followed = report_followed(session);
   for (const EdgesReport& r : report_edges(session)) {
-    const std::string& id = surfaces[static_cast<std::size_t>(r.surface)].id;
+    const std::string& id = session.state().surfaces[static_cast<std::size_t>(r.surface)].id;
     ReportedEdges& info = list.emplace_back(ReportedEdges{id, r.net, r.free, r.visible, r.largest_gap, r.samples});
     for (const EdgeReport& edge : r.edges) {
       info.edges.push_back(
           {edge.id, std::string(edge.hold), edge.along_lines, edge.control_points, edge.deviation, edge.faces});
-      if (!edge.angles) continue;
-      info.edges.back().angle = (*edge.angles)[0] * degrees;
-      info.edges.back().angle_before = (*edge.angles)[1] * degrees;
+      const auto angles = std::ranges::find(followed, edge.id, &FollowedReport::id);
+      if (edge.hold != "follow" || angles == followed.end()) continue;
+      info.edges.back().angle = angles->angle * degrees;
+      info.edges.back().angle_before = angles->angle_before * degrees;
     }
   }
   return list;
@@ -119,10 +115,6 @@ Expected<std::string> report_json(const Session& session, const Outcome& outcome
   const SessionState& state = session.state();
   std::vector<ReportedStep> steps;
   for (const StepRecord& step : state.steps) steps.push_back({step});
-  std::vector<ReportedSeam> seams;
-  for (const SeamSummary& s : report_seams(session)) {
-    seams.push_back({s.a, s.b, std::string(s.continuity), s.gap, s.reason});
-  }
   std::vector<std::string> notes(outcome.notes.begin(), outcome.notes.end());
   std::vector<NoteInfo> coded;
   for (const Note& note : outcome.notes) {
@@ -139,7 +131,7 @@ Expected<std::string> report_json(const Session& session, const Outcome& outcome
   text.back() = ',';  // the outcome's figures stand among the others
   text +=
       "\n\"edges\":" + to_json(type_of<std::vector<ReportedEdges>>(), &edges, Absent::left_out, shortest_json_number);
-  text += ",\n\"places\":" + json_of(outcome.places) + ",\n\"seams\":" + rows(seams);
+  text += ",\n\"places\":" + json_of(outcome.places) + ",\n\"seams\":" + rows(report_seams(session));
   text += ",\n\"notes\":" + rows(notes) + rows_unless_empty("coded_notes", coded) + modes_json(state);
   for (const auto& [name, readings] : probes) text += rows_unless_empty(name, readings);
   return text + "}\n";
@@ -156,16 +148,12 @@ Expected<std::string> analysis_json(const Session& session, std::span<const Fiel
     text += "}";
   }
   text = "{\"surfaces\":[" + text + "]";
-  if (is_nonlinear(state.surfaces[static_cast<std::size_t>(*state.selected)].elasticity)) {
+  if (state.selected && is_nonlinear(state.surfaces[static_cast<std::size_t>(*state.selected)].elasticity)) {
     const auto reactions = hold_reactions(state);
     if (!reactions) return std::unexpected(reactions.error());
     text += ",\n\"reactions\":" + rows(*reactions);
   }
   return text + modes_json(state) + "}\n";
-}
-
-std::string file_json(const FileInfo& info) {
-  return indented_json(to_json(type_of<FileInfo>(), &info, Absent::null, shortest_json_number));
 }
 
 }  // namespace knead

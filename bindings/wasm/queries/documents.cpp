@@ -134,19 +134,21 @@ void describe(MeshQuery& q, Fields& fields) {
 Expected<std::string> ask(Session& session, const MeshQuery& q) {
   const Format* format = find_format(q.format);
   if (format == nullptr || format->content != FormatContent::triangles) return usage_error("there is no such format");
-  std::vector<NamedSurface> surfaces;
-  SaveOptions options;
-  options.detail = q.detail;
-  for (const SceneSurface& s : session.state().surfaces) {
-    surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
-    options.unit = s.unit;
+  if (session.document().model() == nullptr) {
+    std::vector<NamedSurface> surfaces;
+    SaveOptions options;
+    options.detail = q.detail;
+    for (const SceneSurface& s : session.state().surfaces) {
+      surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
+      options.unit = s.unit;
+    }
+    return save_surfaces(surfaces, *format, options);
   }
-  if (session.document().model() == nullptr) return save_surfaces(surfaces, *format, options);
   auto saved = session.save();
   if (!saved) return std::unexpected(saved.error());
   const auto file = open_source(*std::move(saved), session.document().name());
   if (!file) return std::unexpected(file.error());
-  auto model = save_model(**file, *format, 0, options);
+  auto model = save_model(**file, *format);
   if (!model) return std::unexpected(model.error());
   return std::move(model->bytes);
 }

@@ -10,8 +10,6 @@
 
 namespace knead {
 
-class Fields;
-
 // What is in a CAD file, as plain values with descriptions: what programs list of it.
 
 using Corner = std::array<double, 3>;
@@ -127,8 +125,6 @@ struct FileInfo {
   std::vector<FileVisible> visible;  ///< of surfaces with edges of faces, if asked for
 };
 
-void describe(FileInfo& f, Fields& fields);
-
 /// What `file_info` computes besides reading.
 struct FileInfoOptions {
   bool conversions = false;  ///< whether other surfaces can be converted
@@ -140,5 +136,8 @@ struct FileInfoOptions {
 /// Cost: a bounding box of every surface and `left_out_of_list`; conversions: `brep::exact_splines`; faces:
 /// `VisibleRegions` and `left_out_of_faces`.
 [[nodiscard]] FileInfo file_info(const Source& source, const FileInfoOptions& options = {});
+
+/// It as JSON, over several lines (docs/command-line.md).
+[[nodiscard]] std::string file_json(const FileInfo& info);
 
 }  // namespace knead

@@ -59,6 +59,10 @@ enum class Compression { none, gzip, zip };
 /// of the entry of a ZIP archive. `none`: the bytes. Error (input): more than 4 GiB - 1.
 [[nodiscard]] Expected<std::string> compress(std::string_view bytes, Compression kind, std::string_view entry);
 
+/// The bytes compressed as the ending of the name asks, from whatever they are: as they are where that is so already.
+/// Errors: those of `uncompress`, without a limit, and `compress`.
+[[nodiscard]] Expected<std::string> compress_by_name(std::string bytes, std::string_view file_name);
+
 /// The bytes compressed as the file `like` is: under the header of its gzip, or in an archive whose entry has the same
 /// name, date and attributes; stored if that is. If they are what `like` holds, `like` itself. Errors: those of
 /// `uncompress`.

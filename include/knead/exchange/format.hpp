@@ -108,7 +108,7 @@ struct OpenOptions {
 
 /// Opens the bytes of a file of any format: the one that recognises them or, if none does, the one given by the ending
 /// of the name, whose reader then reports what is wrong. Compressed files are told by their content, opened as what
-/// they hold, and saved compressed (compression.hpp). Errors (input): no format; the message names them all.
+/// they hold, and saved compressed (file_io.hpp). Errors (input): no format; the message names them all.
 [[nodiscard]] Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::string name,
                                                                   const OpenOptions& options = {});
 

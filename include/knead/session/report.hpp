@@ -48,9 +48,6 @@ struct EdgeReport {
   int control_points = 0;          ///< that it was the first edge to hold
   double deviation = 0;            ///< max |S − S_opened| along it, file units
   std::vector<std::string> faces;  ///< on the other side
-  /// The largest angle between the tangent planes of its faces, radians, now and as opened: of one that follows and was
-  /// smooth.
-  std::optional<std::array<double, 2>> angles = {};
 };
 
 /// The edges of the faces on one surface: how they are held, how far the surface is from them.
@@ -64,7 +61,7 @@ struct EdgesReport {
 };
 
 /// Of every surface with known edges that moved, or that holds them, in order. Surfaces whose edges cannot be measured
-/// are left out. Cost: linear in the corners of the courses of all edges, and `report_followed`.
+/// are left out. Cost: linear in the corners of the courses of all edges.
 [[nodiscard]] std::vector<EdgesReport> report_edges(const Session& session);
 
 /// An edge that follows its faces and was smooth as opened.
@@ -79,10 +76,10 @@ struct FollowedReport {
 
 /// A seam of the last step, or why there is none.
 struct SeamSummary {
-  std::string a, b;             ///< "#12 u0": a side of a surface
-  std::string_view continuity;  ///< "none", "C0", "G1", "periodic"
-  double gap = 0;               ///< the largest distance of the two sides, file units
-  std::string reason;           ///< why it is not smoother
+  std::string a, b;        ///< "#12 u0": a side of a surface
+  std::string continuity;  ///< "none", "C0", "G1", "periodic"
+  double gap = 0;          ///< the largest distance of the two sides, file units
+  std::string reason;      ///< why it is not smoother
 };
 [[nodiscard]] std::vector<SeamSummary> report_seams(const Session& session);
 

@@ -107,13 +107,23 @@ class Session {
 
   /// Carries out commands as one act: one entry of the history, wherever they come from. If one fails, the session is
   /// what it was before the first, with what can be redone. Settings and steps that leave the scene bit for bit as it
-  /// was
-  /// (`step`, `evolve`, `load`, `hold`, `select`, `limit`, `seams`, `material` without a region) are no entry either,
-  /// unless they are joined or kept. `undo` and `redo` among the commands end the entry.
+  /// was (`step`, `evolve`, `load`, `hold`, `select`, `limit`, `seams`, `material` without a region) are no entry
+  /// either, unless they are joined or kept. `undo` and `redo` among the commands end the entry.
   ///
   /// Returns whether there is something new. Errors: that of the first command that fails.
   [[nodiscard]] Expected<bool> act(std::span<const Command> commands, const ActOptions& options = {},
                                    const Progress& progress = {}, const GoOn& go_on = {});
+
+  /// A part of the history to go back to: what commands that are carried out one by one reach, with what can be redone.
+  struct Before {
+    std::size_t first = 0, position = 0;  ///< its first state, and the present one
+    std::vector<std::shared_ptr<const SessionState>> states;
+    std::vector<std::vector<Command>> entries;
+  };
+  /// \param joined the first of the commands is joined with the entry before it. Cost: a pointer per state.
+  [[nodiscard]] Before before(std::span<const Command> commands, bool joined = false) const;
+  /// Nothing but these commands has been carried out since.
+  void go_back(Before before);
 
   /// Takes the last entry of the history away where it is such settings and steps, and has changed nothing.
   void drop_unchanged();
@@ -145,8 +155,6 @@ class Session {
   /// What the last commands `modes` and `buckling` found, lowest first.
   [[nodiscard]] const std::vector<ModeRecord>& modes() const;
   [[nodiscard]] const std::vector<ModeRecord>& buckling() const;
-  /// Side effects of commands: refinements, lines kept smooth.
-  [[nodiscard]] const std::vector<Note>& notes() const;
   /// All that commands have made, a value that is the library's own (src/session/session_state.hpp).
   [[nodiscard]] const SessionState& state() const { return *states_[position_]; }
   /// The commands in effect, in order: together with the document, the whole session.
@@ -182,11 +190,6 @@ class Session {
   struct ModelCache;
 
   Expected<void> carry_out(const Command& command, const Progress& progress);
-
-  /// The history from entry `first` on, for going back.
-  struct Before;
-  [[nodiscard]] Before before_act(std::span<const Command> commands, bool join) const;
-  void go_back(Before before);
 
   [[nodiscard]] const Document& document_of(const SessionState& state) const;
   /// Restores the visible regions of surfaces whose edges are held, which a snapshot leaves to the document.

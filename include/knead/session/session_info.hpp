@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "knead/exchange/file_info.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead {
@@ -38,9 +37,6 @@ class TypeScript;
 
 /// {"error": {kind, what, where, remedy, message, code, values, fixes}}: docs/errors.md.
 [[nodiscard]] std::string error_json(const Error& error);
-
-/// What is in a file, over several lines (docs/command-line.md).
-[[nodiscard]] std::string file_json(const FileInfo& info);
 
 /// {text, code, values, fixes}.
 [[nodiscard]] std::string note_json(const Note& note);
