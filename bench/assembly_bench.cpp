@@ -1,6 +1,6 @@
-// The stiffness matrix of a cubic net with all six terms: assembly beside writing the same bytes, and applying it to
-// three columns without assembly beside the product with the assembled matrix. Of rational nets, a tolerance beside a
-// fixed number of points.
+// The stiffness matrix of a cubic net with all six terms: assembly beside writing the same bytes,
+// and applying it to three columns without assembly beside the product with the assembled matrix.
+// Of rational nets, a tolerance beside a fixed number of points.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -78,7 +78,8 @@ void apply_beside_product(benchmark::State& state) {
       bench::Ratio::times_faster);
 }
 
-/// A rational net with weights from 1 to 4, to 1e-10 of the diagonal, beside p + 8 Gauss points everywhere.
+/// A rational net with weights from 1 to 4, to 1e-10 of the diagonal, beside p + 8 Gauss points
+/// everywhere.
 void rational_over_points(benchmark::State& state) {
   const auto degree = static_cast<int>(state.range(0));
   const bool smooth = state.range(1) != 0;
@@ -86,15 +87,19 @@ void rational_over_points(benchmark::State& state) {
   std::vector<double> weights;
   std::mt19937 random(7);
   for (int i = 0; i < 32 * 32; ++i) {
-    const double t = smooth ? 0.5 + 0.5 * std::sin(0.4 * (i / 32)) * std::cos(0.3 * (i % 32))
-                            : static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+    const double t = smooth
+                         ? 0.5 + 0.5 * std::sin(0.4 * (i / 32)) * std::cos(0.3 * (i % 32))
+                         : static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
     weights.push_back(std::pow(4, t));
   }
   const Surface surface = *Surface::create({k, k}, Points::Random(32 * 32, 3), weights);
   const Energy<2> energy = stretch_and_bend(Material{});
   bench::beside(
       state, [&] { benchmark::DoNotOptimize(*Stiffness<2>::create(surface, energy)); },
-      [&] { benchmark::DoNotOptimize(*Stiffness<2>::create(surface, energy, {.rational_gauss_points = degree + 8})); },
+      [&] {
+        benchmark::DoNotOptimize(
+            *Stiffness<2>::create(surface, energy, {.rational_gauss_points = degree + 8}));
+      },
       bench::Ratio::over_reference);
 }
 

@@ -1,5 +1,5 @@
-// Solving for three columns with a factor that is kept, beside CHOLMOD's supernodal one: cubic sheets of N × N with two
-// rows held, as in contact_bench.
+// Solving for three columns with a factor that is kept, beside CHOLMOD's supernodal one: cubic
+// sheets of N × N with two rows held, as in contact_bench.
 #include <cholmod.h>
 
 #include <Eigen/SparseCore>
@@ -64,7 +64,8 @@ class Cholmod {
     view.x = b.data();
     view.xtype = CHOLMOD_REAL;
     view.dtype = CHOLMOD_DOUBLE;
-    if (!cholmod_solve2(CHOLMOD_A, factor_, &view, nullptr, &x_, nullptr, &y_, &e_, &common_)) std::abort();
+    if (!cholmod_solve2(CHOLMOD_A, factor_, &view, nullptr, &x_, nullptr, &y_, &e_, &common_))
+      std::abort();
     return static_cast<const double*>(x_->x);
   }
 
@@ -78,10 +79,12 @@ void solve(benchmark::State& state) {
   const auto net = static_cast<int>(state.range(0));
   const SparseMatrix a = system(net);
   GridPlaces places{2, {}};  // two lines at each end of the first direction are held
-  for (int i = 2 * net; i < 2 * net + a.rows(); ++i) places.indices.insert(places.indices.end(), {i / net, i % net});
+  for (int i = 2 * net; i < 2 * net + a.rows(); ++i)
+    places.indices.insert(places.indices.end(), {i / net, i % net});
   // As steps do: large nets are dissected.
-  const auto ours =
-      a.rows() < detail::least_dissected ? SparseCholesky::factor(a) : SparseCholesky::factor(SparseMatrix(a), places);
+  const auto ours = a.rows() < detail::least_dissected
+                        ? SparseCholesky::factor(a)
+                        : SparseCholesky::factor(SparseMatrix(a), places);
   if (!ours) std::abort();
   Cholmod theirs(a);
   const Points b = Points::Random(a.rows(), 3);

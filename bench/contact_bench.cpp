@@ -11,9 +11,9 @@
 #include "scene/model/model.hpp"
 #include "session/session_state.hpp"
 
-// A moving ball in contact with a sheet: a cubic net over the unit square with two rows held and λ = 20, a ball of
-// radius 0.15 whose centre goes from (0.5, 0.5, 0.16) by (0.005, 0, −0.004) per frame, 20 frames. Times are medians
-// over the frames, in milliseconds of the processor.
+// A moving ball in contact with a sheet: a cubic net over the unit square with two rows held and λ
+// = 20, a ball of radius 0.15 whose centre goes from (0.5, 0.5, 0.16) by (0.005, 0, −0.004) per
+// frame, 20 frames. Times are medians over the frames, in milliseconds of the processor.
 
 namespace {
 
@@ -37,8 +37,8 @@ void execute(Session& session, const std::string& line) {
 SessionState sheet(int net) {
   Session session(Document::fresh("sheet"));
   for (const std::string& line :
-       {fmt::format(R"({{"do":"new","shape":"plane","net":[{0},{0}]}})", net), std::string(R"({"do":"hold","rows":2})"),
-        std::string(R"({"do":"evolve","lambda":20})"),
+       {fmt::format(R"({{"do":"new","shape":"plane","net":[{0},{0}]}})", net),
+        std::string(R"({"do":"hold","rows":2})"), std::string(R"({"do":"evolve","lambda":20})"),
         std::string(R"({"do":"tool","name":"ball","radius":0.15,"position":[0.5,0.5,0.16]})")}) {
     execute(session, line);
   }
@@ -68,7 +68,8 @@ void run(const Step& step_of, const SessionState& start, bool touches, Work& wor
   }
 }
 
-void frame(benchmark::State& state, bool touches, StepAccuracy accuracy, StepSolver solver = StepSolver::automatic) {
+void frame(benchmark::State& state, bool touches, StepAccuracy accuracy,
+           StepSolver solver = StepSolver::automatic) {
   SessionState start = sheet(static_cast<int>(state.range(0)));
   start.evolution.accuracy = accuracy;
   start.evolution.solver = solver;
@@ -114,14 +115,15 @@ void shell(benchmark::State& state, StepAccuracy accuracy) {
   state.counters["iterations"] = bench::median(work.iterations);
 }
 
-/// A place of a stroke, as the studio asks for it: a ball half sunk into a sheet of clay, led on by an eighth of its
-/// radius.
+/// A place of a stroke, as the studio asks for it: a ball half sunk into a sheet of clay, led on by
+/// an eighth of its radius.
 void stroke(benchmark::State& state) {
   constexpr double size = 200, radius = 0.08 * 1.4142135623730951 * size;
   std::vector<double> times;
   for (auto _ : state) {
     Session session(Document::fresh("sheet"));
-    execute(session, fmt::format(R"({{"do":"new","size":{0},"net":[{1},{1}]}})", size, state.range(0)));
+    execute(session,
+            fmt::format(R"({{"do":"new","size":{0},"net":[{1},{1}]}})", size, state.range(0)));
     execute(session, R"({"do":"hold","rows":2})");
     execute(session, R"({"do":"material","preset":"clay"})");
     execute(session, R"({"do":"evolve","mode":"acm","lambda":100,"accuracy":"interactive"})");
@@ -129,25 +131,30 @@ void stroke(benchmark::State& state) {
       return fmt::format("[{},{},{}]", size * 0.3 + radius / 8 * k, size * 0.45, radius / 2);
     };
     execute(session,
-            fmt::format(R"({{"do":"tool","name":"ball","radius":{},"position":{},"plasticity":1}})", radius, at(0)));
+            fmt::format(R"({{"do":"tool","name":"ball","radius":{},"position":{},"plasticity":1}})",
+                        radius, at(0)));
     for (int k = 0; k < frames; ++k) {
       const double begun = bench::milliseconds();
-      execute(session, fmt::format(R"({{"do":"stroke","tool":"ball","path":[{}],"open":true}})", at(k)));
+      execute(session,
+              fmt::format(R"({{"do":"stroke","tool":"ball","path":[{}],"open":true}})", at(k)));
       if (k > 0) times.push_back(bench::milliseconds() - begun);  // the first one makes the model
     }
   }
   state.counters["ms"] = bench::median(times);
 }
 
-/// A drag of a thin superellipsoid with friction within a sphere of few spans, which are 15 times the tool's size:
-/// every point in contact asks for a nearest point that is searched, as in no other of these.
+/// A drag of a thin superellipsoid with friction within a sphere of few spans, which are 15 times
+/// the tool's size: every point in contact asks for a nearest point that is searched, as in no
+/// other of these.
 void thin_tool(benchmark::State& state) {
   std::vector<double> times;
   for (auto _ : state) {
     Session session(Document::fresh("sphere"));
     execute(session, R"({"do":"new","shape":"sphere","radius":1.4})");
-    execute(session, R"({"do":"tool","shape":"superellipsoid","relative":true,"sizes":[0.4,0.03,0.13],
-      "exponents":[0.2,1.54],"axis":[0.76,0.86,0.12],"position":[0.04,0.14,0.02],"friction":0.67})");
+    execute(session,
+            R"({"do":"tool","shape":"superellipsoid","relative":true,"sizes":[0.4,0.03,0.13],
+      "exponents":[0.2,1.54],"axis":[0.76,0.86,0.12],
+      "position":[0.04,0.14,0.02],"friction":0.67})");
     const double begun = bench::milliseconds();
     execute(session, R"({"do":"drag","relative":true,"by":[0,0,0.2]})");
     times.push_back(bench::milliseconds() - begun);

@@ -6,8 +6,9 @@
 #include "knead/spline/evaluate.hpp"
 #include "sample_surface.hpp"
 
-// A bicubic net of 32 × 32 control points on a grid of 500 × 500 points. `memory_set` writes as many bytes as the
-// result has, into memory allocated as the result is: the limit on this machine, measured in the same run.
+// A bicubic net of 32 × 32 control points on a grid of 500 × 500 points. `memory_set` writes as
+// many bytes as the result has, into memory allocated as the result is: the limit on this machine,
+// measured in the same run.
 
 namespace {
 
@@ -23,7 +24,8 @@ void evaluate_grid(benchmark::State& state, bool rational, int order) {
   const Surface surface = sample_surface(rational);
   const auto u = knead::bench::sample_parameters();
   for (auto _ : state) {
-    auto result = knead::evaluate_grid<2>(surface, std::array<std::span<const double>, 2>{u, u}, order);
+    auto result =
+        knead::evaluate_grid<2>(surface, std::array<std::span<const double>, 2>{u, u}, order);
     benchmark::DoNotOptimize(result->derivatives.back().data());
   }
   report(state);
@@ -32,7 +34,8 @@ void evaluate_grid(benchmark::State& state, bool rational, int order) {
 /// Frame after frame: the basis is tabulated once and memory is used again.
 void evaluate_grid_again(benchmark::State& state, bool rational, int order) {
   const Surface surface = sample_surface(rational);
-  const auto table = knead::tabulate_basis(surface.knots(0), knead::bench::sample_parameters(), order);
+  const auto table =
+      knead::tabulate_basis(surface.knots(0), knead::bench::sample_parameters(), order);
   knead::Evaluation<2> result;
   for (auto _ : state) {
     const std::array<const knead::BasisTable*, 2> tables{&*table, &*table};

@@ -16,14 +16,16 @@ constexpr int net = 64;
 SplineField<2> field(int count, double shift) {
   const KnotVector k = *KnotVector::clamped_uniform(3, count);
   std::vector<double> c(static_cast<std::size_t>(count * count));
-  for (std::size_t i = 0; i < c.size(); ++i) c[i] = 1 + 0.3 * std::sin(0.1 * static_cast<double>(i) + shift);
+  for (std::size_t i = 0; i < c.size(); ++i)
+    c[i] = 1 + 0.3 * std::sin(0.1 * static_cast<double>(i) + shift);
   return *SplineField<2>::create({k, k}, c);
 }
 
 MaterialFieldOf<2> material(int count) {
   MaterialFieldOf<2> m;
   for (std::size_t k = 0; k < 3; ++k)
-    m.alpha[k] = field(count, static_cast<double>(k)), m.beta[k] = field(count, 7.0 + static_cast<double>(k));
+    m.alpha[k] = field(count, static_cast<double>(k)),
+    m.beta[k] = field(count, 7.0 + static_cast<double>(k));
   return m;
 }
 
@@ -35,7 +37,8 @@ FieldEnergy<2> energy(int count) {
 
 Surface sheet(bool weights) {
   const KnotVector k = *KnotVector::clamped_uniform(3, net);
-  return *Surface::create({k, k}, Points::Zero(net * net, 3), std::vector<double>(weights ? net * net : 0, 1.0));
+  return *Surface::create({k, k}, Points::Zero(net * net, 3),
+                          std::vector<double>(weights ? net * net : 0, 1.0));
 }
 
 void triple_products(benchmark::State& state) {
@@ -46,12 +49,14 @@ void triple_products(benchmark::State& state) {
 
 void triple_products_cold(benchmark::State& state) {
   const auto e = energy(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(FieldAssembler<2>(sheet(false)).assemble(e)->valuePtr());
+  for (auto _ : state)
+    benchmark::DoNotOptimize(FieldAssembler<2>(sheet(false)).assemble(e)->valuePtr());
 }
 
-/// Element by element, as finite element programs do: per element all six terms by dense products over 5 × 5 Gauss
-/// points, which are exact for a cubic field on the same knots (with 64 coefficients; on other knots the field has
-/// kinks inside the elements and the same points are not exact).
+/// Element by element, as finite element programs do: per element all six terms by dense products
+/// over 5 × 5 Gauss points, which are exact for a cubic field on the same knots (with 64
+/// coefficients; on other knots the field has kinks inside the elements and the same points are not
+/// exact).
 void gauss(benchmark::State& state) {
   const Surface s = sheet(false);
   const auto e = energy(static_cast<int>(state.range(0)));
@@ -64,7 +69,8 @@ void gauss(benchmark::State& state) {
     SparseMatrix matrix = pattern;
     values.clear();
     for (const auto& term : e)
-      values.push_back(*std::get<SplineField<2>>(term.coefficient).on_grid({q.parameters, q.parameters}));
+      values.push_back(
+          *std::get<SplineField<2>>(term.coefficient).on_grid({q.parameters, q.parameters}));
     Eigen::MatrixXd a(local, total), b(local, total), block(local, local);
     for (int su = 0; su < spans; ++su) {
       for (int sv = 0; sv < spans; ++sv) {
@@ -78,7 +84,8 @@ void gauss(benchmark::State& state) {
             const double *au = q.basis.row(ku, e[t].a[0]), *av = q.basis.row(kv, e[t].a[1]);
             const double *bu = q.basis.row(ku, e[t].b[0]), *bv = q.basis.row(kv, e[t].b[1]);
             for (int r = 0; r <= p; ++r) {
-              for (int c = 0; c <= p; ++c) a(4 * r + c, k) = w * au[r] * av[c], b(4 * r + c, k) = bu[r] * bv[c];
+              for (int c = 0; c <= p; ++c)
+                a(4 * r + c, k) = w * au[r] * av[c], b(4 * r + c, k) = bu[r] * bv[c];
             }
           }
           block.noalias() += a * b.transpose();
@@ -90,7 +97,8 @@ void gauss(benchmark::State& state) {
           const int* begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[row];
           const int* end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[row + 1];
           for (int c = 0; c < local; c += 4) {
-            const auto at = std::lower_bound(begin, end, (iu + c / 4) * net + iv) - matrix.innerIndexPtr();
+            const auto at =
+                std::lower_bound(begin, end, (iu + c / 4) * net + iv) - matrix.innerIndexPtr();
             for (int l = 0; l < 4; ++l) matrix.valuePtr()[at + l] += block(r, c + l);
           }
         }
@@ -124,7 +132,8 @@ KnotVector random_knots(int p, unsigned seed) {
 void triple_gramians(benchmark::State& state) {
   const int p = static_cast<int>(state.range(0));
   const KnotVector knots = random_knots(p, 1), coefficient = random_knots(p, 2);
-  for (auto _ : state) benchmark::DoNotOptimize(triple_gramian(coefficient, knots, 1, 1)->coefficient_count());
+  for (auto _ : state)
+    benchmark::DoNotOptimize(triple_gramian(coefficient, knots, 1, 1)->coefficient_count());
 }
 
 void mixed_gramians(benchmark::State& state) {

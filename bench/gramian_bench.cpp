@@ -1,6 +1,6 @@
-// The Gramian methods side by side: every round times each of them once, in turn, so that whatever the machine does
-// meets all of them; ratios are taken within a round: of each method to gauss, and of
-// recurrence to gauss-reduced. Prints medians and the 10th and 90th percentiles.
+// The Gramian methods side by side: every round times each of them once, in turn, so that whatever
+// the machine does meets all of them; ratios are taken within a round: of each method to gauss, and
+// of recurrence to gauss-reduced. Prints medians and the 10th and 90th percentiles.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -36,8 +36,8 @@ KnotVector make_knots(int p, int count, Family family) {
   return *KnotVector::create(p, std::move(knots));
 }
 
-constexpr GramianMethod timed[] = {GramianMethod::gauss, GramianMethod::recurrence, GramianMethod::gauss_reduced,
-                                   GramianMethod::analytic};
+constexpr GramianMethod timed[] = {GramianMethod::gauss, GramianMethod::recurrence,
+                                   GramianMethod::gauss_reduced, GramianMethod::analytic};
 constexpr std::size_t reduced = 2;
 static_assert(timed[reduced] == GramianMethod::gauss_reduced);
 
@@ -55,8 +55,10 @@ double quantile(std::vector<double> values, double q) {
 /// "median (10 % … 90 %) |" of how many times faster `fast` is than `slow`, round by round.
 void print_ratio(const Candidate& slow, const Candidate& fast) {
   std::vector<double> ratios;
-  for (std::size_t k = 0; k < slow.seconds.size(); ++k) ratios.push_back(slow.seconds[k] / fast.seconds[k]);
-  std::printf(" %.2f (%.2f … %.2f) |", quantile(ratios, 0.5), quantile(ratios, 0.1), quantile(ratios, 0.9));
+  for (std::size_t k = 0; k < slow.seconds.size(); ++k)
+    ratios.push_back(slow.seconds[k] / fast.seconds[k]);
+  std::printf(" %.2f (%.2f … %.2f) |", quantile(ratios, 0.5), quantile(ratios, 0.1),
+              quantile(ratios, 0.9));
 }
 
 void compare(int p, int count, Family family, InstructionSet set, int rounds) {
@@ -74,12 +76,14 @@ void compare(int p, int count, Family family, InstructionSet set, int rounds) {
     for (auto& candidate : candidates) {
       const auto start = std::chrono::steady_clock::now();
       for (int k = 0; k < repeat; ++k) candidate.run();
-      candidate.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-                                  repeat);
+      candidate.seconds.push_back(
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / repeat);
     }
   }
-  const char* names[] = {"random lengths 0.5 to 1.5", "random lengths, exponential", "equal lengths"};
-  std::printf("| %d | %d | %s | %s |", p, count, names[static_cast<int>(family)], std::string(name(set)).c_str());
+  const char* names[] = {"random lengths 0.5 to 1.5", "random lengths, exponential",
+                         "equal lengths"};
+  std::printf("| %d | %d | %s | %s |", p, count, names[static_cast<int>(family)],
+              std::string(name(set)).c_str());
   for (const auto& candidate : candidates) {
     std::printf(" %.2f |", 1e9 * quantile(candidate.seconds, 0.5) / count);
     if (candidate.method != timed[0]) print_ratio(candidates[0], candidate);
@@ -96,7 +100,8 @@ void compare(int p, int count, Family family, InstructionSet set, int rounds) {
 int main(int argc, char** argv) {
   std::vector<int> numbers, degrees;
   for (int k = 1; k < argc; ++k) {
-    if (const int number = std::atoi(argv[k]); number > 0) numbers.push_back(number);  // others mean other benchmarks
+    if (const int number = std::atoi(argv[k]); number > 0)
+      numbers.push_back(number);  // others mean other benchmarks
   }
   const int rounds = numbers.empty() ? 61 : numbers.front();
   for (std::size_t k = 1; k < numbers.size(); ++k) degrees.push_back(numbers[k]);
@@ -110,8 +115,10 @@ int main(int argc, char** argv) {
   std::printf("\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const int p : degrees) {
     for (const int count : {100, 1000, 10000}) {
-      for (const Family family : {Family::uniform_lengths, Family::exponential_lengths, Family::equal_lengths}) {
-        for (const InstructionSet set : available_instruction_sets()) compare(p, count, family, set, rounds);
+      for (const Family family :
+           {Family::uniform_lengths, Family::exponential_lengths, Family::equal_lengths}) {
+        for (const InstructionSet set : available_instruction_sets())
+          compare(p, count, family, set, rounds);
       }
     }
   }

@@ -1,4 +1,5 @@
-// Reading a STEP file as `knead info` does: the sample a hundred times over in one file, entity names apart.
+// Reading a STEP file as `knead info` does: the sample a hundred times over in one file, entity
+// names apart.
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -21,7 +22,8 @@ std::string large_file() {
   const std::size_t data = sample.find("DATA;"), end = sample.rfind("ENDSEC;");
   if (data == std::string::npos || end == std::string::npos) std::abort();
   std::string result = sample.substr(0, data + 5);
-  for (int k = 0; k < copies; ++k) result += testing::renumbered(sample.substr(data + 5, end - data - 5), k * names);
+  for (int k = 0; k < copies; ++k)
+    result += testing::renumbered(sample.substr(data + 5, end - data - 5), k * names);
   return result + sample.substr(end);
 }
 
@@ -32,7 +34,8 @@ void info(benchmark::State& state) {
     times.push_back(bench::milliseconds_of([&] {
       const auto file = open_source(text, "large.step");
       if (!file) std::abort();
-      benchmark::DoNotOptimize(brep::other_surfaces(*(*file)->model()).size() + (*file)->surfaces().size());
+      benchmark::DoNotOptimize(brep::other_surfaces(*(*file)->model()).size() +
+                               (*file)->surfaces().size());
     }));
   }
   state.counters["mb"] = static_cast<double>(text.size()) / 1e6;

@@ -1,6 +1,7 @@
-// Six kernels and a frame for counting their instructions: knead_instructions KERNEL prepares one, runs it once outside
-// and once inside `knead_measured`, which is what scripts/instructions.sh has callgrind count. Without an argument it
-// lists the kernels; --compiler prints what compiled it, --set the instruction set in use.
+// Six kernels and a frame for counting their instructions: knead_instructions KERNEL prepares one,
+// runs it once outside and once inside `knead_measured`, which is what scripts/instructions.sh has
+// callgrind count. Without an argument it lists the kernels; --compiler prints what compiled it,
+// --set the instruction set in use.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -44,7 +45,8 @@ void measure(const std::function<void()>& kernel) {
 void gramian_recurrence() {
   std::mt19937_64 random(7);
   std::vector<double> knots(4, 0.0);
-  for (int k = 0; k < 997; ++k) knots.push_back(knots.back() + 1 + static_cast<double>(random() % 1024) / 1024);
+  for (int k = 0; k < 997; ++k)
+    knots.push_back(knots.back() + 1 + static_cast<double>(random() % 1024) / 1024);
   knots.insert(knots.end(), 3, knots.back());
   const KnotVector vector = *KnotVector::create(3, std::move(knots));
   GramianSet set;
@@ -59,7 +61,8 @@ void grid_evaluation() {
   const auto table = tabulate_basis(surface.knots(0), bench::sample_parameters(), 1);
   Evaluation<2> result;
   measure([&] {
-    check(evaluate_grid<2>(surface, {&*table, &*table}, 1, result).has_value(), "evaluation failed");
+    check(evaluate_grid<2>(surface, {&*table, &*table}, 1, result).has_value(),
+          "evaluation failed");
     keep(result.derivatives.back().data());
   });
 }
@@ -82,7 +85,8 @@ void stiffness_refresh() {
 Points some_points(int count) {
   std::mt19937 random(3);
   Points points(count, 3);
-  for (Eigen::Index i = 0; i < points.size(); ++i) points.data()[i] = static_cast<double>(random() % 4096) / 4096;
+  for (Eigen::Index i = 0; i < points.size(); ++i)
+    points.data()[i] = static_cast<double>(random() % 4096) / 4096;
   return points;
 }
 
@@ -103,7 +107,8 @@ void substitution() {
 }
 
 Tool ball(const Point& centre, double radius) {
-  return {"ball", *PlacedShape::create(SphereShape{radius}, {Eigen::Quaterniond::Identity(), centre, {1, 1, 1}})};
+  return {"ball", *PlacedShape::create(SphereShape{radius},
+                                       {Eigen::Quaterniond::Identity(), centre, {1, 1, 1}})};
 }
 
 void tool_forces() {
@@ -113,7 +118,8 @@ void tool_forces() {
     for (int j = 0; j < 64; ++j) flat.row(i * 64 + j) << k.greville(i), k.greville(j), 0;
   }
   const Surface sheet = *Surface::create({k, k}, flat);
-  const auto load = ToolLoad<2>::create(sheet, DomainScaling<2>{}, std::numeric_limits<double>::infinity());
+  const auto load =
+      ToolLoad<2>::create(sheet, DomainScaling<2>{}, std::numeric_limits<double>::infinity());
   check(load.has_value(), "no load");
   const std::vector<ModelTool> tools = {ModelTool(ball({0.5, 0.5, 0.1}, 0.15), Point::Zero(), 1)};
   measure([&] {
@@ -127,9 +133,10 @@ void tool_forces() {
 
 void contact_frame() {
   Session session(Document::fresh("sheet"));
-  for (const char* line : {R"({"do":"new","shape":"plane","net":[24,24]})", R"({"do":"hold","rows":2})",
-                           R"({"do":"evolve","lambda":20,"accuracy":"interactive"})",
-                           R"({"do":"tool","name":"ball","radius":0.15,"position":[0.5,0.5,0.14]})"}) {
+  for (const char* line :
+       {R"({"do":"new","shape":"plane","net":[24,24]})", R"({"do":"hold","rows":2})",
+        R"({"do":"evolve","lambda":20,"accuracy":"interactive"})",
+        R"({"do":"tool","name":"ball","radius":0.15,"position":[0.5,0.5,0.14]})"}) {
     const auto command = parse_command(line);
     check(command.has_value() && session.execute(*command).has_value(), line);
   }
@@ -177,6 +184,7 @@ int main(int argc, char** argv) {
     kernel.run();
     return 0;
   }
-  std::fprintf(stderr, "knead_instructions: no kernel \"%s\"; without an argument all are listed\n", argv[1]);
+  std::fprintf(stderr, "knead_instructions: no kernel \"%s\"; without an argument all are listed\n",
+               argv[1]);
   return 2;
 }

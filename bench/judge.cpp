@@ -7,25 +7,28 @@
 
 namespace knead::bench {
 
-std::vector<std::string> unexpected_counts(const Measured& expected, const Measured& counted, double share) {
+std::vector<std::string> unexpected_counts(const Measured& expected, const Measured& counted,
+                                           double share) {
   std::vector<std::string> sentences;
   for (const auto& [kernel, wanted] : expected) {
     const auto found = counted.find(kernel);
     if (found == counted.end()) {
       sentences.push_back(fmt::format("{}: not counted", kernel));
     } else if (!(std::abs(found->second - wanted) <= share * wanted)) {
-      sentences.push_back(fmt::format("{}: {:.0f} instructions instead of {:.0f}, {:+.1f} %", kernel, found->second,
-                                      wanted, 100 * (found->second / wanted - 1)));
+      sentences.push_back(fmt::format("{}: {:.0f} instructions instead of {:.0f}, {:+.1f} %",
+                                      kernel, found->second, wanted,
+                                      100 * (found->second / wanted - 1)));
     }
   }
   for (const auto& [kernel, count] : counted) {
-    if (!expected.contains(kernel)) sentences.push_back(fmt::format("{}: {:.0f}, and none expected", kernel, count));
+    if (!expected.contains(kernel))
+      sentences.push_back(fmt::format("{}: {:.0f}, and none expected", kernel, count));
   }
   return sentences;
 }
 
-std::vector<std::string> slower_in_every_round(std::span<const Measured> base, std::span<const Measured> head,
-                                               double share) {
+std::vector<std::string> slower_in_every_round(std::span<const Measured> base,
+                                               std::span<const Measured> head, double share) {
   std::vector<std::string> names;
   const std::size_t rounds = std::min(base.size(), head.size());
   if (rounds == 0) return names;

@@ -1,7 +1,9 @@
 // What scripts/instructions.sh and scripts/bench_compare.sh conclude from what they measured.
-//   knead_bench_judge counts EXPECTED.json COUNTED.json   complains of counts of instructions that differ
-//   knead_bench_judge slower DIRECTORY FIRST LAST         lists the benchmarks that are slower in rounds FIRST … LAST:
-//                                                         Google Benchmark's DIRECTORY/ROUND/{base,head}/, all *.json
+//   knead_bench_judge counts EXPECTED.json COUNTED.json   complains of counts of instructions that
+//   differ knead_bench_judge slower DIRECTORY FIRST LAST         lists the benchmarks that are
+//   slower in rounds FIRST … LAST:
+//                                                         Google Benchmark's
+//                                                         DIRECTORY/ROUND/{base,head}/, all *.json
 //                                                         below
 // Exit codes: 0 nothing to complain of, 1 something, 2 wrong usage, 3 unreadable files.
 #include <fmt/format.h>
@@ -40,7 +42,8 @@ Measured counts(const std::string& file) {
   return json["instructions"].get<Measured>();
 }
 
-/// Of all results in a directory: the counter "ms", which is a median, where there is one, or the processor's time.
+/// Of all results in a directory: the counter "ms", which is a median, where there is one, or the
+/// processor's time.
 Measured times(const std::filesystem::path& directory) {
   Measured result;
   if (!std::filesystem::is_directory(directory)) return result;
@@ -69,14 +72,16 @@ int judge_times(const std::filesystem::path& directory, int first, int last) {
     base.push_back(times(directory / std::to_string(round) / "base"));
     head.push_back(times(directory / std::to_string(round) / "head"));
     if (head.back().empty()) {
-      std::cerr << "knead_bench_judge: round " << round << " of " << directory.string() << " has no results\n";
+      std::cerr << "knead_bench_judge: round " << round << " of " << directory.string()
+                << " has no results\n";
       return 3;
     }
   }
   const auto slower = slower_in_every_round(base, head, time_share);
   for (const std::string& name : slower) {
     std::cout << name;
-    for (std::size_t k = 0; k < base.size(); ++k) std::cout << fmt::format(" {:.2f}", head[k][name] / base[k][name]);
+    for (std::size_t k = 0; k < base.size(); ++k)
+      std::cout << fmt::format(" {:.2f}", head[k][name] / base[k][name]);
     std::cout << "\n";
   }
   return slower.empty() ? 0 : 1;
@@ -90,6 +95,7 @@ int main(int argc, char** argv) {
   if (words.size() == 4 && words[0] == "slower") {
     return judge_times(words[1], std::atoi(words[2].c_str()), std::atoi(words[3].c_str()));
   }
-  std::cerr << "usage: knead_bench_judge counts EXPECTED.json COUNTED.json | slower DIRECTORY FIRST LAST\n";
+  std::cerr << "usage: knead_bench_judge counts EXPECTED.json COUNTED.json | slower DIRECTORY "
+               "FIRST LAST\n";
   return 2;
 }

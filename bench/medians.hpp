@@ -28,8 +28,8 @@ double milliseconds_of(const F& f) {
   return milliseconds() - begun;
 }
 
-/// Both in turn in one loop; counters are the medians "ms" and "reference_ms" and their quotient, "ratio", with ours
-/// below where it says how many times faster ours is.
+/// Both in turn in one loop; counters are the medians "ms" and "reference_ms" and their quotient,
+/// "ratio", with ours below where it says how many times faster ours is.
 enum class Ratio { over_reference, times_faster };
 template <class Ours, class Reference>
 void beside(benchmark::State& state, const Ours& ours, const Reference& reference, Ratio ratio) {

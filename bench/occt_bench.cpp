@@ -1,6 +1,6 @@
-// Evaluation beside Open CASCADE, one thread, a bicubic net of 32 × 32: 500 × 500 points beside its adaptor with its
-// cache, by knead's evaluator that the caller keeps; scattered points beside the faster of adaptor and surface; closest
-// points beside its projection, prepared once as ours is.
+// Evaluation beside Open CASCADE, one thread, a bicubic net of 32 × 32: 500 × 500 points beside its
+// adaptor with its cache, by knead's evaluator that the caller keeps; scattered points beside the
+// faster of adaptor and surface; closest points beside its projection, prepared once as ours is.
 #include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_BSplineSurface.hxx>
@@ -51,7 +51,8 @@ Handle(Geom_BSplineSurface) in_occt(const Surface& s) {
     knots.SetValue(i + 1, values[static_cast<std::size_t>(i)]);
     multiplicities.SetValue(i + 1, times[static_cast<std::size_t>(i)]);
   }
-  return new Geom_BSplineSurface(poles, weights, knots, knots, multiplicities, multiplicities, k.degree(), k.degree());
+  return new Geom_BSplineSurface(poles, weights, knots, knots, multiplicities, multiplicities,
+                                 k.degree(), k.degree());
 }
 
 /// Points; with `order` 1 first derivatives and unit normals too.
@@ -104,7 +105,8 @@ void evaluation(benchmark::State& state, bool rational, int order) {
   if ((reference[0] - result.derivatives[0]).cwiseAbs().maxCoeff() > 1e-10) std::abort();
 }
 
-/// Where neighbours in the list are none on the surface. Points, with `order` 1 first derivatives, too.
+/// Where neighbours in the list are none on the surface. Points, with `order` 1 first derivatives,
+/// too.
 void scattered(benchmark::State& state, bool rational, int order) {
   constexpr int count = 20000;
   const Surface surface = bench::sample_surface(rational);
@@ -119,12 +121,14 @@ void scattered(benchmark::State& state, bool rational, int order) {
   gp_Vec du, dv;
   const auto run = [&](const auto& evaluator) {
     for (Eigen::Index i = 0; i < count; ++i) {
-      order == 0 ? evaluator.D0(at(i, 0), at(i, 1), p) : evaluator.D1(at(i, 0), at(i, 1), p, du, dv);
+      order == 0 ? evaluator.D0(at(i, 0), at(i, 1), p)
+                 : evaluator.D1(at(i, 0), at(i, 1), p, du, dv);
       reference.row(i) << p.X(), p.Y(), p.Z();
       benchmark::DoNotOptimize(dv);
     }
   };
-  const bool cached = bench::milliseconds_of([&] { run(adaptor); }) < bench::milliseconds_of([&] { run(*theirs); });
+  const bool cached =
+      bench::milliseconds_of([&] { run(adaptor); }) < bench::milliseconds_of([&] { run(*theirs); });
   Evaluation<2> result;
   bench::beside(
       state,
@@ -149,7 +153,8 @@ void closest(benchmark::State& state, bool rational) {
   std::vector<Point> from;
   for (int i = 0; i < count; ++i) {
     const Point on = *evaluate_point<2>(surface, {anywhere(random), anywhere(random)});
-    from.push_back(on + Point(anywhere(random) - 0.5, anywhere(random) - 0.5, 6 * anywhere(random) - 3));
+    from.push_back(on +
+                   Point(anywhere(random) - 0.5, anywhere(random) - 0.5, 6 * anywhere(random) - 3));
   }
   std::vector<double> ours(count), theirs(count);
   bench::beside(

@@ -1,5 +1,6 @@
-// Gathers what the benchmarks measured: knead_bench_report DIRECTORY reads the results in it, writes summary.json, the
-// figures by name, and report.md, and prints the latter. A figure that no result has is omitted.
+// Gathers what the benchmarks measured: knead_bench_report DIRECTORY reads the results in it,
+// writes summary.json, the figures by name, and report.md, and prints the latter. A figure that no
+// result has is omitted.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -50,7 +51,8 @@ constexpr Source sources[] = {
     {"occt.json", "evaluation/points", "ratio", "evaluation_points_vs_occt"},
     {"occt.json", "evaluation/d1_normal", "ratio", "evaluation_d1_normal_vs_occt"},
     {"occt.json", "evaluation/rational_points", "ratio", "evaluation_rational_points_vs_occt"},
-    {"occt.json", "evaluation/rational_d1_normal", "ratio", "evaluation_rational_d1_normal_vs_occt"},
+    {"occt.json", "evaluation/rational_d1_normal", "ratio",
+     "evaluation_rational_d1_normal_vs_occt"},
     {"occt.json", "scattered/points", "ratio", "scattered_points_vs_occt"},
     {"occt.json", "scattered/d1", "ratio", "scattered_d1_vs_occt"},
     {"occt.json", "scattered/rational_points", "ratio", "scattered_rational_points_vs_occt"},
@@ -94,7 +96,8 @@ std::vector<std::string> cells(const std::string& line) {
   return result;
 }
 
-/// Of the table of Gramians: cubic, 10,000 functions, the last instruction set, which is the fastest.
+/// Of the table of Gramians: cubic, 10,000 functions, the last instruction set, which is the
+/// fastest.
 void read_gramians(const std::string& directory, Figures& figures) {
   std::ifstream file(directory + "/gramian.md");
   for (std::string line; std::getline(file, line);) {
@@ -121,16 +124,19 @@ int main(int argc, char** argv) {
   for (const Source& source : sources) read(directory, source, figures);
   read_gramians(directory, figures);
   if (figures.contains("contact_ms_64") && figures.contains("contact_ms_256")) {
-    figures["growth_exponent"] = std::log(figures["contact_ms_256"] / figures["contact_ms_64"]) / std::log(16.0);
+    figures["growth_exponent"] =
+        std::log(figures["contact_ms_256"] / figures["contact_ms_64"]) / std::log(16.0);
   }
   if (figures.empty()) {
     std::cerr << "knead_bench_report: no results in " << directory << "\n";
     return 3;
   }
   std::string report =
-      "# Benchmarks\n\nMedians; times in milliseconds of the processor. docs/performance.md says what "
+      "# Benchmarks\n\nMedians; times in milliseconds of the processor. docs/performance.md says "
+      "what "
       "each figure is.\n\n| figure | value |\n|---|---|\n";
-  for (const auto& [name, value] : figures) report += fmt::format("| `{}` | {:.4g} |\n", name, value);
+  for (const auto& [name, value] : figures)
+    report += fmt::format("| `{}` | {:.4g} |\n", name, value);
   std::ofstream(directory + "/summary.json") << nlohmann::json(figures).dump(2) << "\n";
   std::ofstream(directory + "/report.md") << report;
   std::cout << report;

@@ -19,7 +19,8 @@ inline Surface sample_surface(bool rational) {
   std::vector<double> weights;
   for (int i = 0; i < net; ++i) {
     for (int j = 0; j < net; ++j) {
-      points.row(i * net + j) << i + offset(random), j + offset(random), std::sin(0.3 * i) * std::cos(0.25 * j);
+      points.row(i * net + j) << i + offset(random), j + offset(random),
+          std::sin(0.3 * i) * std::cos(0.25 * j);
       if (rational) weights.push_back(weight(random));
     }
   }

@@ -1,5 +1,5 @@
-// One thread beside several in one loop, by the clock on the wall: how many times faster several are. Two of them, or
-// as many as KNEAD_BENCH_THREADS says.
+// One thread beside several in one loop, by the clock on the wall: how many times faster several
+// are. Two of them, or as many as KNEAD_BENCH_THREADS says.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -28,7 +28,8 @@ double wall_milliseconds_of(int threads, const F& f) {
   set_thread_count(threads);
   const auto start = std::chrono::steady_clock::now();
   f();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
 }
 
 template <class F>
@@ -135,7 +136,8 @@ void shell_hessian(benchmark::State& state) {
   }
   const auto shell = *ShellEnergy::create(*Surface::create({k, k}, points), ShellMaterial{});
   const ShellStress stress = shell.stress(points);
-  one_beside_several(state, [&] { benchmark::DoNotOptimize(shell.hessian(points, stress).valuePtr()); });
+  one_beside_several(state,
+                     [&] { benchmark::DoNotOptimize(shell.hessian(points, stress).valuePtr()); });
 }
 
 BENCHMARK_CAPTURE(grid, points, false, 0)->Unit(benchmark::kMillisecond);

@@ -18,10 +18,13 @@ constexpr int fine = 201;  // places per direction at which errors are measured
 double answer(double u, double v) { return std::sin(pi * u) * std::sin(pi * v); }
 constexpr double load_factor = 2 * alpha * pi * pi + 4 * beta * pi * pi * pi * pi;
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// Heights of control points on equidistant places.
-Eigen::MatrixXd sampled(const KnotVector& knots, const Eigen::MatrixXd& control_points, int count = fine) {
+Eigen::MatrixXd sampled(const KnotVector& knots, const Eigen::MatrixXd& control_points,
+                        int count = fine) {
   const Eigen::MatrixXd b = basis_matrix(knots, equidistant(count));
   return b * control_points * b.transpose();
 }
@@ -63,7 +66,8 @@ ActiveSettings<2> hinged(int n) {
   settings.raw = true;
   settings.evolution = Evolution::stationary;
   for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) settings.held.push_back(i == 0 || j == 0 || i == n - 1 || j == n - 1);
+    for (int j = 0; j < n; ++j)
+      settings.held.push_back(i == 0 || j == 0 || i == n - 1 || j == n - 1);
   }
   return settings;
 }
@@ -92,7 +96,8 @@ Expected<Comparison> compare_models(int n) {
   result.direct_time = now() - start;
   result.spring_error = (x - exact).cwiseAbs().maxCoeff();
   start = now();
-  result.relax_steps = relax(k, f, h * h * load_factor, 1e-8).steps;  // masses of 1: ω² is that of h² K
+  result.relax_steps =
+      relax(k, f, h * h * load_factor, 1e-8).steps;  // masses of 1: ω² is that of h² K
   result.relax_time = now() - start;
   const auto averaged = averaged_knots(equidistant(n));
   if (!averaged) return std::unexpected(averaged.error());
@@ -188,7 +193,8 @@ Expected<double> interpolation_drift(double cluster, int rounds) {
       first(i, j) = answer(abscissae[static_cast<std::size_t>(i)], 0.3 * j) + 0.1 * ((i * j) % 3);
   }
   Eigen::MatrixXd control_points = first;
-  for (int k = 0; k < rounds; ++k) control_points = interpolation.control_points(interpolation.heights(control_points));
+  for (int k = 0; k < rounds; ++k)
+    control_points = interpolation.control_points(interpolation.heights(control_points));
   return (control_points - first).cwiseAbs().maxCoeff() / first.cwiseAbs().maxCoeff();
 }
 
@@ -203,14 +209,17 @@ Expected<double> ripple(int n, double distance, bool averaged) {
   const std::vector<double> at = equidistant(n), places = equidistant(fine);
   Eigen::MatrixXd heights(n, n);
   for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) heights(i, j) = dent(at[static_cast<std::size_t>(i)], at[static_cast<std::size_t>(j)]);
+    for (int j = 0; j < n; ++j)
+      heights(i, j) = dent(at[static_cast<std::size_t>(i)], at[static_cast<std::size_t>(j)]);
   }
-  const Eigen::MatrixXd s = sampled(*knots, GlobalInterpolation(*knots, at).control_points(heights));
+  const Eigen::MatrixXd s =
+      sampled(*knots, GlobalInterpolation(*knots, at).control_points(heights));
   double largest = 0;
   for (int i = 0; i < fine; ++i) {
     for (int j = 0; j < fine; ++j) {
       const double u = places[static_cast<std::size_t>(i)], v = places[static_cast<std::size_t>(j)];
-      if (std::hypot(u - 0.5, v - 0.5) > radius + distance) largest = std::max(largest, std::abs(s(i, j)));
+      if (std::hypot(u - 0.5, v - 0.5) > radius + distance)
+        largest = std::max(largest, std::abs(s(i, j)));
     }
   }
   return largest;

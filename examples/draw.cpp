@@ -28,8 +28,8 @@ struct Facet {
 
 /// Facets of a grid of points, row by row; lines are drawn where `line` says so.
 template <class Line, class ColourOf>
-void add_grid(const Points& points, int rows, int columns, bool glass, const Line& line, const ColourOf& colour,
-              std::vector<Facet>& facets) {
+void add_grid(const Points& points, int rows, int columns, bool glass, const Line& line,
+              const ColourOf& colour, std::vector<Facet>& facets) {
   for (int i = 0; i + 1 < rows; ++i) {
     for (int j = 0; j + 1 < columns; ++j) {
       const auto at = [&](int a, int b) { return Point(points.row(a * columns + b)); };
@@ -49,18 +49,23 @@ Expected<void> add_surface(const Surface& surface, std::size_t number, const Dra
     const KnotVector& knots = surface.knots()[d];
     for (int span : knots.spans()) {
       for (int k = 0; k < facets_per_span; ++k) {
-        parameters[d].push_back(knots[span] + (knots[span + 1] - knots[span]) * k / facets_per_span);
+        parameters[d].push_back(knots[span] +
+                                (knots[span + 1] - knots[span]) * k / facets_per_span);
       }
     }
     parameters[d].push_back(knots.domain().upper);
   }
-  const auto grid = evaluate_grid<2>(surface, {std::span<const double>(parameters[0]), parameters[1]});
+  const auto grid =
+      evaluate_grid<2>(surface, {std::span<const double>(parameters[0]), parameters[1]});
   if (!grid) return std::unexpected(grid.error());
   add_grid(
-      grid->points(), static_cast<int>(parameters[0].size()), static_cast<int>(parameters[1].size()), false,
+      grid->points(), static_cast<int>(parameters[0].size()),
+      static_cast<int>(parameters[1].size()), false,
       [&](int, int k) { return k % facets_per_span == 0; },
       [&](std::size_t i, std::size_t j) {
-        const auto middle = [&](std::size_t d, std::size_t k) { return (parameters[d][k] + parameters[d][k + 1]) / 2; };
+        const auto middle = [&](std::size_t d, std::size_t k) {
+          return (parameters[d][k] + parameters[d][k + 1]) / 2;
+        };
         return style.colour ? style.colour(number, {middle(0, i), middle(1, j)}) : clay;
       },
       facets);
@@ -98,7 +103,8 @@ void add_tool(const Tool& tool, std::vector<Facet>& facets) {
     for (int j = 0; j <= columns; ++j) {
       const double a = 2 * std::numbers::pi * j / columns;
       const auto [r, z] = profile[static_cast<std::size_t>(i)];
-      const Point own(place.scale[0] * r * std::cos(a), place.scale[1] * r * std::sin(a), place.scale[2] * z);
+      const Point own(place.scale[0] * r * std::cos(a), place.scale[1] * r * std::sin(a),
+                      place.scale[2] * z);
       points.row(i * (columns + 1) + j) = place.position + place.rotation * own;
     }
   }
@@ -109,10 +115,12 @@ void add_tool(const Tool& tool, std::vector<Facet>& facets) {
 
 }  // namespace
 
-Expected<std::string> draw(std::span<const Surface> surfaces, std::span<const Tool> tools, const DrawStyle& style) {
+Expected<std::string> draw(std::span<const Surface> surfaces, std::span<const Tool> tools,
+                           const DrawStyle& style) {
   std::vector<Facet> facets;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (auto done = add_surface(surfaces[k], k, style, facets); !done) return std::unexpected(done.error());
+    if (auto done = add_surface(surfaces[k], k, style, facets); !done)
+      return std::unexpected(done.error());
   }
   for (const Tool& tool : tools) add_tool(tool, facets);
   const auto depth = [](const Facet& f) {
@@ -130,21 +138,26 @@ Expected<std::string> draw(std::span<const Surface> surfaces, std::span<const To
   const auto x = [&](const Point& p) { return 10 + scale * (right.dot(p) - lower_x); };
   const auto y = [&](const Point& p) { return 10 + scale * (upper_y - up.dot(p)); };
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" stroke-linejoin=\"round\">\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" "
+      "stroke-linejoin=\"round\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
       20 + scale * (upper_x - lower_x), 20 + scale * (upper_y - lower_y));
   const Point light = Point(-0.3, -0.5, 0.8).normalized();
   for (const Facet& f : facets) {
     const Point normal = (f.corners[2] - f.corners[0]).cross(f.corners[3] - f.corners[1]);
-    const double shade = normal.norm() > 0 ? 0.45 + 0.55 * std::abs(normal.normalized().dot(light)) : 1;
+    const double shade =
+        normal.norm() > 0 ? 0.45 + 0.55 * std::abs(normal.normalized().dot(light)) : 1;
     const auto [r, g, b] = f.colour;
     const std::string fill = fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(r * shade),
                                          static_cast<int>(g * shade), static_cast<int>(b * shade));
     std::string points;
     for (const Point& p : f.corners) points += fmt::format("{:.1f},{:.1f} ", x(p), y(p));
-    svg += f.glass ? fmt::format("<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"0.3\"/>\n", points, fill)
-                   : fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"0.6\"/>\n", points,
-                                 fill, fill);
+    svg += f.glass
+               ? fmt::format("<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"0.3\"/>\n", points,
+                             fill)
+               : fmt::format(
+                     "<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"0.6\"/>\n",
+                     points, fill, fill);
     for (std::size_t k = 0; k < 4; ++k) {
       if (!f.outlined[k]) continue;
       const Point &a = f.corners[k], &c = f.corners[(k + 1) % 4];

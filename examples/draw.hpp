@@ -19,10 +19,11 @@ struct DrawStyle {
   int facets_per_span = 4;
 };
 
-/// A picture of surfaces and tools as SVG text: parallel projection from the front, the right and above, far facets
-/// first, shaded by their slope, with every span line of the surfaces. Tools that are spheres, tori or bowls are drawn
-/// as glass, others left out.
-[[nodiscard]] Expected<std::string> draw(std::span<const Surface> surfaces, std::span<const Tool> tools = {},
+/// A picture of surfaces and tools as SVG text: parallel projection from the front, the right and
+/// above, far facets first, shaded by their slope, with every span line of the surfaces. Tools that
+/// are spheres, tori or bowls are drawn as glass, others left out.
+[[nodiscard]] Expected<std::string> draw(std::span<const Surface> surfaces,
+                                         std::span<const Tool> tools = {},
                                          const DrawStyle& style = {});
 
 }  // namespace knead::examples

@@ -1,7 +1,7 @@
 // Runs scripts as `knead sculpt` does and draws what shells make of their loads:
 //   example_draw_analysis stress|modes SCRIPT.json OUT.svg [FILE.step]
-// `stress`: coloured by von Mises stress, with a legend; `modes`: the first four shapes of the last `modes` or
-// `buckling`, rigid ones left out, beside each other.
+// `stress`: coloured by von Mises stress, with a legend; `modes`: the first four shapes of the last
+// `modes` or `buckling`, rigid ones left out, beside each other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,11 +31,13 @@ examples::Colour rising(double t) {
   const double x = 2 * std::clamp(t, 0.0, 1.0);
   const auto k = static_cast<std::size_t>(std::min(x, 1.0));
   examples::Colour mixed{};
-  for (std::size_t c = 0; c < 3; ++c) mixed[c] = std::lerp(at[k][c], at[k + 1][c], x - static_cast<double>(k));
+  for (std::size_t c = 0; c < 3; ++c)
+    mixed[c] = std::lerp(at[k][c], at[k + 1][c], x - static_cast<double>(k));
   return mixed;
 }
 
-double von_mises(const SessionSurface& s, const std::optional<ShellMaterial>& shell, const std::array<double, 2>& u) {
+double von_mises(const SessionSurface& s, const std::optional<ShellMaterial>& shell,
+                 const std::array<double, 2>& u) {
   if (!shell) return 0;
   const auto r = shell_results(*s.rest, *s.current, *shell, Parameters<2>{{u[0], u[1]}});
   return r ? std::max(r->front().von_mises[0], r->front().von_mises[1]) : 0;
@@ -46,13 +48,15 @@ std::string legend(double largest) {
   std::string svg = "<g font-family=\"sans-serif\" font-size=\"13\">\n";
   for (int k = 0; k < 100; ++k) {
     const auto c = rising(k / 99.0);
-    svg += fmt::format("<rect x=\"{}\" y=\"12\" width=\"2\" height=\"12\" fill=\"#{:02x}{:02x}{:02x}\"/>\n", 14 + 2 * k,
-                       static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]));
+    svg += fmt::format(
+        "<rect x=\"{}\" y=\"12\" width=\"2\" height=\"12\" fill=\"#{:02x}{:02x}{:02x}\"/>\n",
+        14 + 2 * k, static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]));
   }
-  return svg + fmt::format(
-                   "<text x=\"14\" y=\"40\">0</text><text x=\"214\" y=\"40\" text-anchor=\"end\">{:.3g}"
-                   "</text>\n</g>\n</svg>\n",
-                   largest);
+  return svg +
+         fmt::format(
+             "<text x=\"14\" y=\"40\">0</text><text x=\"214\" y=\"40\" text-anchor=\"end\">{:.3g}"
+             "</text>\n</g>\n</svg>\n",
+             largest);
 }
 
 Expected<std::string> stress_picture(const Session& session) {
@@ -60,7 +64,8 @@ Expected<std::string> stress_picture(const Session& session) {
   std::vector<Surface> surfaces;
   for (const SessionSurface& s : shapes) surfaces.push_back(*s.current);
   std::vector<std::optional<ShellMaterial>> shells;
-  for (std::size_t k = 0; k < shapes.size(); ++k) shells.push_back(shell_of(session, static_cast<int>(k)));
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    shells.push_back(shell_of(session, static_cast<int>(k)));
   double largest = 0;
   std::vector<double> seen;
   examples::DrawStyle style{.colour =
@@ -83,8 +88,10 @@ Expected<std::string> stress_picture(const Session& session) {
 
 Expected<std::string> modes_picture(const Session& session) {
   const auto& modes = session.modes().empty() ? session.buckling() : session.modes();
-  if (modes.empty()) return input_error("the script has neither modes nor buckling", "modes", "add one of them");
-  const SessionSurface s = session.surfaces()[static_cast<std::size_t>(session.selection().front())];
+  if (modes.empty())
+    return input_error("the script has neither modes nor buckling", "modes", "add one of them");
+  const SessionSurface s =
+      session.surfaces()[static_cast<std::size_t>(session.selection().front())];
   const Points& x = s.current->control_points();
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
   double largest = 0;
@@ -126,7 +133,8 @@ Expected<void> picture(const std::string& what, const std::string& script, const
 int main(int argc, char** argv) try {
   const std::string what = argc > 1 ? argv[1] : "";
   if ((argc != 4 && argc != 5) || (what != "stress" && what != "modes")) {
-    std::fputs("usage: example_draw_analysis stress|modes SCRIPT.json OUT.svg [FILE.step]\n", stderr);
+    std::fputs("usage: example_draw_analysis stress|modes SCRIPT.json OUT.svg [FILE.step]\n",
+               stderr);
     return 2;
   }
   const auto done = picture(what, argv[2], argv[3], argc == 5 ? argv[4] : "");

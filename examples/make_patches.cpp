@@ -1,5 +1,5 @@
-// Writes a STEP file of four patches that meet in a cross, cut from one dome: a document of several surfaces made from
-// scratch.
+// Writes a STEP file of four patches that meet in a cross, cut from one dome: a document of several
+// surfaces made from scratch.
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -19,8 +19,8 @@ T value(Expected<T> result) {
   return std::move(*result);
 }
 
-/// The quarter [s/2, (s + 1)/2] × [t/2, (t + 1)/2] of a surface over [0, 1]² with knots of full multiplicity at 1/2:
-/// its control points are those that belong to the quarter.
+/// The quarter [s/2, (s + 1)/2] × [t/2, (t + 1)/2] of a surface over [0, 1]² with knots of full
+/// multiplicity at 1/2: its control points are those that belong to the quarter.
 Surface quarter(const Surface& whole, int s, int t) {
   std::array<std::vector<double>, 2> knots;
   std::array<int, 2> first{};
@@ -36,11 +36,13 @@ Surface quarter(const Surface& whole, int s, int t) {
     knots[side].insert(which == 0 ? knots[side].end() : knots[side].begin(), 0.5);
     first[side] = which == 0 ? 0 : all.count() - (static_cast<int>(knots[side].size()) - 4);
   }
-  const KnotVector u = value(KnotVector::create(3, knots[0])), v = value(KnotVector::create(3, knots[1]));
+  const KnotVector u = value(KnotVector::create(3, knots[0])),
+                   v = value(KnotVector::create(3, knots[1]));
   Points points(u.count() * v.count(), 3);
   for (int i = 0; i < u.count(); ++i) {
     for (int j = 0; j < v.count(); ++j) {
-      points.row(i * v.count() + j) = whole.control_points().row((first[0] + i) * whole.net()[1] + first[1] + j);
+      points.row(i * v.count() + j) =
+          whole.control_points().row((first[0] + i) * whole.net()[1] + first[1] + j);
     }
   }
   return value(Surface::create({u, v}, points));
@@ -66,11 +68,12 @@ int main(int argc, char** argv) try {
   std::vector<DocumentSurface> patches;
   for (int s = 0; s < 2; ++s) {
     for (int t = 0; t < 2; ++t) {
-      patches.push_back(
-          {"", "patch " + std::to_string(2 * s + t + 1), "mm", std::make_shared<const Surface>(quarter(cut, s, t))});
+      patches.push_back({"", "patch " + std::to_string(2 * s + t + 1), "mm",
+                         std::make_shared<const Surface>(quarter(cut, s, t))});
     }
   }
-  const auto written = write_file_atomically(argv[1], value(Document::fresh("patches").save(patches)));
+  const auto written =
+      write_file_atomically(argv[1], value(Document::fresh("patches").save(patches)));
   if (!written) throw std::runtime_error(written.error().message());
   return 0;
 } catch (const std::exception& e) {

@@ -63,7 +63,8 @@ SparseMatrix spring_sheet(int n, double stretch, double bend) {
   return stretch * laplacian + bend * squared;
 }
 
-Relaxation relax(const SparseMatrix& k, const Eigen::VectorXd& f, double slowest, double tolerance) {
+Relaxation relax(const SparseMatrix& k, const Eigen::VectorXd& f, double slowest,
+                 double tolerance) {
   double fastest = 0;  // Gershgorin
   for (Eigen::Index j = 0; j < k.outerSize(); ++j) {
     double sum = 0;
@@ -84,13 +85,15 @@ Relaxation relax(const SparseMatrix& k, const Eigen::VectorXd& f, double slowest
 }
 
 Eigen::MatrixXd basis_matrix(const KnotVector& knots, const std::vector<double>& at) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()), knots.count());
+  Eigen::MatrixXd result =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()), knots.count());
   std::array<double, max_degree + 1> values;
   for (std::size_t k = 0; k < at.size(); ++k) {
     const int span = knots.find_span(at[k]);
     basis_values(knots, span, at[k], values.data());
     for (int r = 0; r <= knots.degree(); ++r) {
-      result(static_cast<Eigen::Index>(k), span - knots.degree() + r) = values[static_cast<std::size_t>(r)];
+      result(static_cast<Eigen::Index>(k), span - knots.degree() + r) =
+          values[static_cast<std::size_t>(r)];
     }
   }
   return result;
@@ -98,7 +101,8 @@ Eigen::MatrixXd basis_matrix(const KnotVector& knots, const std::vector<double>&
 
 Expected<KnotVector> averaged_knots(const std::vector<double>& at) {
   std::vector<double> knots(4, at.front());
-  for (std::size_t j = 1; j + 3 < at.size(); ++j) knots.push_back((at[j] + at[j + 1] + at[j + 2]) / 3);
+  for (std::size_t j = 1; j + 3 < at.size(); ++j)
+    knots.push_back((at[j] + at[j + 1] + at[j + 2]) / 3);
   knots.insert(knots.end(), 4, at.back());
   return KnotVector::create(3, std::move(knots));
 }

@@ -12,7 +12,9 @@ int main() try {
   constexpr int count = 10;
   const auto exact = exact_plate_frequencies(count);
   for (int degree : {2, 3, 4, 5}) {
-    fmt::print("degree {}: relative error of the lowest {} frequencies, order from the spans before\n", degree, count);
+    fmt::print(
+        "degree {}: relative error of the lowest {} frequencies, order from the spans before\n",
+        degree, count);
     std::vector<double> before;
     for (int spans : {8, 16, 32}) {
       const auto found = plate_frequencies(degree, spans, count);
@@ -26,7 +28,8 @@ int main() try {
         errors.push_back((*found)[i] / exact[i] - 1);
         fmt::print("  {:8.1e}", errors.back());
         // Below 1e-9 rounding has a share in the error.
-        if (!before.empty() && errors.back() > 1e-9) fmt::print(" {:4.2f}", std::log2(before[i] / errors.back()));
+        if (!before.empty() && errors.back() > 1e-9)
+          fmt::print(" {:4.2f}", std::log2(before[i] / errors.back()));
       }
       fmt::print("\n");
       before = errors;

@@ -6,7 +6,8 @@
 
 namespace knead::examples {
 
-/// The session after a script, as `knead sculpt` runs it: on this STEP file, or on a new sheet if `file` is empty.
+/// The session after a script, as `knead sculpt` runs it: on this STEP file, or on a new sheet if
+/// `file` is empty.
 [[nodiscard]] Expected<Session> run_script(const std::string& script, const std::string& file);
 
 }  // namespace knead::examples

@@ -20,7 +20,9 @@ double shortest(int runs, const F& run) {
   for (int k = 0; k < runs; ++k) {
     const auto start = std::chrono::steady_clock::now();
     run();
-    best = std::min(best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    best = std::min(
+        best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                  .count());
   }
   return best;
 }
@@ -36,7 +38,8 @@ void compare(int count) {
   const int runs = count > 100 ? 3 : 9;
 
   Points two, fast, vector;
-  const double two_setup = shortest(runs, [&] { static_cast<void>(examples::TwoPasses::create(knots, energy)); });
+  const double two_setup =
+      shortest(runs, [&] { static_cast<void>(examples::TwoPasses::create(knots, energy)); });
   const auto passes = *examples::TwoPasses::create(knots, energy);
   const double two_solve = shortest(runs, [&] { two = passes.solve(d); });
   const double fast_setup =
@@ -44,20 +47,23 @@ void compare(int count) {
   const auto diagonal = *examples::FastDiagonalisation::create(knots, energy);
   const double fast_solve = shortest(runs, [&] { fast = diagonal.solve(d); });
   const auto matrix = examples::vectorised(knots, energy);
-  const double factor_time = shortest(std::min(runs, 3), [&] { static_cast<void>(SparseCholesky::factor(matrix)); });
+  const double factor_time =
+      shortest(std::min(runs, 3), [&] { static_cast<void>(SparseCholesky::factor(matrix)); });
   const auto factor = *SparseCholesky::factor(matrix);
   const double solve_time = shortest(runs, [&] { vector = factor.solve(d); });
   const double size = vector.cwiseAbs().maxCoeff();
-  fmt::print("{:4} | {:8.3f} {:8.3f} {:7.1e} | {:8.1f} {:8.2f} {:7.1e} | {:8.1f} {:8.2f}\n", count, two_setup,
-             two_solve, (two - vector).cwiseAbs().maxCoeff() / size, fast_setup, fast_solve,
-             (fast - vector).cwiseAbs().maxCoeff() / size, factor_time, solve_time);
+  fmt::print("{:4} | {:8.3f} {:8.3f} {:7.1e} | {:8.1f} {:8.2f} {:7.1e} | {:8.1f} {:8.2f}\n", count,
+             two_setup, two_solve, (two - vector).cwiseAbs().maxCoeff() / size, fast_setup,
+             fast_solve, (fast - vector).cwiseAbs().maxCoeff() / size, factor_time, solve_time);
 }
 
 }  // namespace
 
 int main() try {
   fmt::print("times in ms; differences from the vectorised solution, of its largest coordinate\n");
-  fmt::print(" net | two passes: setup, solve, diff. | diagonalisation            | vectorised: factor, solve\n");
+  fmt::print(
+      " net | two passes: setup, solve, diff. | diagonalisation            | vectorised: factor, "
+      "solve\n");
   for (const int count : {32, 64, 128, 256}) compare(count);
   return 0;
 } catch (const std::exception& e) {

@@ -37,23 +37,26 @@ void identities() {
 
 void errors_and_times() {
   fmt::print(
-      "2. A sheet under load, error relative to the largest deflection, and digits that are right:\n\n"
+      "2. A sheet under load, error relative to the largest deflection, and digits that are "
+      "right:\n\n"
       "      n   at masses   interpolated  digits   exact model   digits\n");
   Comparison last;
   for (int n : {9, 17, 33, 65}) {
     last = value(compare_models(n));
-    fmt::print("   {:4}   {:9.2e}   {:12.2e}  {:6.1f}   {:11.2e}   {:6.1f}\n", n, last.spring_error, last.surface_error,
-               -std::log10(last.surface_error), last.exact_error, -std::log10(last.exact_error));
+    fmt::print("   {:4}   {:9.2e}   {:12.2e}  {:6.1f}   {:11.2e}   {:6.1f}\n", n, last.spring_error,
+               last.surface_error, -std::log10(last.surface_error), last.exact_error,
+               -std::log10(last.exact_error));
   }
   fmt::print(
-      "\n   Times in ms. Springs: explicit steps to 1e-8, or a factor and a solution; interpolation of each frame.\n"
+      "\n   Times in ms. Springs: explicit steps to 1e-8, or a factor and a solution; "
+      "interpolation of each frame.\n"
       "   Exact model: matrices and factor once, then each frame.\n\n"
       "      n    steps   explicit    direct   interpolation   once    frame\n");
   for (int n : {9, 17, 33, 65}) {
     const Comparison c = value(compare_models(n));
-    fmt::print("   {:4}   {:6}   {:8.2f}  {:8.2f}   {:13.3f}   {:6.2f}   {:5.2f}\n", n, c.relax_steps,
-               1e3 * c.relax_time, 1e3 * c.direct_time, 1e3 * c.interpolation_time, 1e3 * c.exact_setup,
-               1e3 * c.exact_step);
+    fmt::print("   {:4}   {:6}   {:8.2f}  {:8.2f}   {:13.3f}   {:6.2f}   {:5.2f}\n", n,
+               c.relax_steps, 1e3 * c.relax_time, 1e3 * c.direct_time, 1e3 * c.interpolation_time,
+               1e3 * c.exact_setup, 1e3 * c.exact_step);
   }
 }
 
@@ -69,17 +72,22 @@ void touches() {
 
 void losses() {
   fmt::print(
-      "\n4. What interpolating anew costs a surface that nothing touches, relative change after 1, 100, 1000 "
+      "\n4. What interpolating anew costs a surface that nothing touches, relative change after 1, "
+      "100, 1000 "
       "frames:\n\n");
   for (double cluster : {0.0, 1e-8}) {
-    fmt::print("   {:22}", cluster == 0 ? "uniform knots" : fmt::format("three knots {:.0e} apart", cluster));
-    for (int rounds : {1, 100, 1000}) fmt::print("  {:8.1e}", value(interpolation_drift(cluster, rounds)));
+    fmt::print("   {:22}",
+               cluster == 0 ? "uniform knots" : fmt::format("three knots {:.0e} apart", cluster));
+    for (int rounds : {1, 100, 1000})
+      fmt::print("  {:8.1e}", value(interpolation_drift(cluster, rounds)));
     fmt::print("\n");
   }
   fmt::print("   active surface: {}\n", value(movement_at_rest(32)));
   for (bool averaged : {true, false}) {
-    fmt::print("\n   Ripples of the surface interpolated through a dent, at and beyond a distance from it, {}:\n\n",
-               averaged ? "knots averaged from the masses" : "clamped uniform knots");
+    fmt::print(
+        "\n   Ripples of the surface interpolated through a dent, at and beyond a distance from "
+        "it, {}:\n\n",
+        averaged ? "knots averaged from the masses" : "clamped uniform knots");
     for (int n : {17, 33, 65}) {
       fmt::print("   {:4}", n);
       for (double distance : {0.0, 0.05, 0.1, 0.2}) {

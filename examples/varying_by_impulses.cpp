@@ -9,7 +9,8 @@
 namespace knead::examples {
 namespace {
 
-/// One derivative of a basis function at a knot: its limits from both sides, 0 outside of the support.
+/// One derivative of a basis function at a knot: its limits from both sides, 0 outside of the
+/// support.
 struct Limits {
   double before = 0, after = 0;
   [[nodiscard]] double jump() const { return after - before; }
@@ -26,7 +27,8 @@ std::vector<Limits> limits_of(const KnotVector& knots, int i, double knot) {
   return limits;
 }
 
-double integral_of(const KnotVector& knots, std::span<const double> coefficients, int times, double u) {
+double integral_of(const KnotVector& knots, std::span<const double> coefficients, int times,
+                   double u) {
   double sum = 0;
   for (int k = 0; k < knots.count(); ++k) {
     sum += coefficients[static_cast<std::size_t>(k)] * basis_integral(knots, k, times, u);
@@ -36,11 +38,13 @@ double integral_of(const KnotVector& knots, std::span<const double> coefficients
 
 }  // namespace
 
-double varying_by_impulses(const KnotVector& knots, int i, int j, const KnotVector& coefficient_knots,
+double varying_by_impulses(const KnotVector& knots, int i, int j,
+                           const KnotVector& coefficient_knots,
                            std::span<const double> coefficients, StepTimesImpulse reading) {
   assert(knots.clamped() && coefficient_knots.count() == static_cast<int>(coefficients.size()));
   const int p = knots.degree();
-  const double begin = std::max(knots[i], knots[j]), end = std::min(knots[i + p + 1], knots[j + p + 1]);
+  const double begin = std::max(knots[i], knots[j]),
+               end = std::min(knots[i + p + 1], knots[j + p + 1]);
   double sum = 0, last = begin - 1;
   for (const double knot : knots.knots()) {
     if (knot < begin || knot > end || knot == last) continue;
@@ -50,11 +54,15 @@ double varying_by_impulses(const KnotVector& knots, int i, int j, const KnotVect
       double jump = 0, binomial = 1;  // C(r, k)
       for (int k = 0; k <= r; binomial = binomial * (r - k) / (k + 1), ++k) {
         if (k > p || r - k > p) continue;
-        const Limits &g = first[static_cast<std::size_t>(k)], &h = second[static_cast<std::size_t>(r - k)];
-        jump += binomial * (reading == StepTimesImpulse::mean ? g.after * h.after - g.before * h.before
-                                                              : g.jump() * h.after + g.after * h.jump());
+        const Limits &g = first[static_cast<std::size_t>(k)],
+                     &h = second[static_cast<std::size_t>(r - k)];
+        jump += binomial * (reading == StepTimesImpulse::mean
+                                ? g.after * h.after - g.before * h.before
+                                : g.jump() * h.after + g.after * h.jump());
       }
-      if (jump != 0) sum += (r % 2 == 0 ? -1 : 1) * jump * integral_of(coefficient_knots, coefficients, r + 1, knot);
+      if (jump != 0)
+        sum += (r % 2 == 0 ? -1 : 1) * jump *
+               integral_of(coefficient_knots, coefficients, r + 1, knot);
     }
   }
   return sum;

@@ -1,8 +1,9 @@
 // Writes the sample CAD files: make_samples DIRECTORY
 //
-// bonnet.step: an assembly of a car bonnet, an open shell whose skin is one trimmed bicubic B-spline surface between
-// four flanges, and of a headlamp ring, one rational surface. Through Open CASCADE, so that the file is as CAD systems
-// write it and nobody wrote numbers by hand. The same version of Open CASCADE gives the same bytes.
+// bonnet.step: an assembly of a car bonnet, an open shell whose skin is one trimmed bicubic
+// B-spline surface between four flanges, and of a headlamp ring, one rational surface. Through Open
+// CASCADE, so that the file is as CAD systems write it and nobody wrote numbers by hand. The same
+// version of Open CASCADE gives the same bytes.
 
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -65,7 +66,8 @@ constexpr double flange_depth = 30;  // mm
   std::exit(1);
 }
 
-// Height of the skin: crowned both ways, falling off at the nose, with two swage lines that fade towards it.
+// Height of the skin: crowned both ways, falling off at the nose, with two swage lines that fade
+// towards it.
 double height(double x, double y) {
   const double s = x / length;
   const double t = 2 * y / width;
@@ -93,14 +95,16 @@ struct Direction {
 };
 
 opencascade::handle<Geom_BSplineSurface> skin_surface() {
-  const Direction u{{0.06, 0.14, 0.24, 0.35, 0.45, 0.55, 0.65, 0.75, 0.84, 0.93}};  // 14 control points
-  const Direction v{{0.10, 0.22, 0.34, 0.46, 0.54, 0.66, 0.78, 0.90}};              // 12
+  const Direction u{
+      {0.06, 0.14, 0.24, 0.35, 0.45, 0.55, 0.65, 0.75, 0.84, 0.93}};    // 14 control points
+  const Direction v{{0.10, 0.22, 0.34, 0.46, 0.54, 0.66, 0.78, 0.90}};  // 12
   TColgp_Array2OfPnt poles(1, u.count(), 1, v.count());
   for (int i = 0; i < u.count(); ++i) {
     for (int j = 0; j < v.count(); ++j) {
       const double y = width * (v.greville(j) - 0.5);
       // The nose is bowed in plan.
-      const double x = length * u.greville(i) + (1 - u.greville(i)) * 160 * std::pow(2 * y / width, 2);
+      const double x =
+          length * u.greville(i) + (1 - u.greville(i)) * 160 * std::pow(2 * y / width, 2);
       poles.SetValue(i + 1, j + 1, gp_Pnt(x, y, height(length * u.greville(i), y)));
     }
   }
@@ -126,10 +130,10 @@ opencascade::handle<Geom_BSplineSurface> skin_surface() {
 // The skin, cut along four bowed lines of its parameter plane, and a flange hanging from each.
 TopoDS_Shape bonnet() {
   const auto surface = skin_surface();
-  const std::array<gp_Pnt2d, 4> corners = {gp_Pnt2d(0.10, 0.09), gp_Pnt2d(0.93, 0.05), gp_Pnt2d(0.93, 0.95),
-                                           gp_Pnt2d(0.10, 0.91)};
-  const std::array<gp_Pnt2d, 4> middles = {gp_Pnt2d(0.50, 0.04), gp_Pnt2d(0.98, 0.50), gp_Pnt2d(0.50, 0.96),
-                                           gp_Pnt2d(0.01, 0.50)};
+  const std::array<gp_Pnt2d, 4> corners = {gp_Pnt2d(0.10, 0.09), gp_Pnt2d(0.93, 0.05),
+                                           gp_Pnt2d(0.93, 0.95), gp_Pnt2d(0.10, 0.91)};
+  const std::array<gp_Pnt2d, 4> middles = {gp_Pnt2d(0.50, 0.04), gp_Pnt2d(0.98, 0.50),
+                                           gp_Pnt2d(0.50, 0.96), gp_Pnt2d(0.01, 0.50)};
   BRepBuilderAPI_MakeWire outline;
   for (std::size_t k = 0; k < 4; ++k) {
     TColgp_Array1OfPnt2d poles(1, 3);
@@ -151,10 +155,12 @@ TopoDS_Shape bonnet() {
   return sewing.SewedShape();
 }
 
-// A quarter of the tube of a headlamp ring, as NURBS: biquadratic, rational, and bounded by nothing but its own sides.
+// A quarter of the tube of a headlamp ring, as NURBS: biquadratic, rational, and bounded by nothing
+// but its own sides.
 TopoDS_Shape ring() {
   using std::numbers::pi;
-  const opencascade::handle<Geom_ToroidalSurface> torus = new Geom_ToroidalSurface(gp_Ax3(), 110, 28);
+  const opencascade::handle<Geom_ToroidalSurface> torus =
+      new Geom_ToroidalSurface(gp_Ax3(), 110, 28);
   const opencascade::handle<Geom_RectangularTrimmedSurface> part =
       new Geom_RectangularTrimmedSurface(torus, 0.2, pi - 0.2, -0.4 * pi, 0.6 * pi);
   const auto surface = GeomConvert::SurfaceToBSplineSurface(part);
@@ -178,7 +184,9 @@ void check(const TopoDS_Shape& shape, const char* name, int faces) {
   if (count != faces) fail(std::string(name) + " has " + std::to_string(count) + " faces");
 }
 
-opencascade::handle<TCollection_HAsciiString> text(const char* value) { return new TCollection_HAsciiString(value); }
+opencascade::handle<TCollection_HAsciiString> text(const char* value) {
+  return new TCollection_HAsciiString(value);
+}
 
 // Labels that Open CASCADE does not write of itself.
 void name_items(const opencascade::handle<Interface_InterfaceModel>& model) {
@@ -186,16 +194,19 @@ void name_items(const opencascade::handle<Interface_InterfaceModel>& model) {
     const auto entity = model->Value(k);
     if (const auto item = opencascade::handle<StepGeom_BSplineSurface>::DownCast(entity)) {
       const bool rational =
-          entity->IsKind(STANDARD_TYPE(StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface)) == Standard_True;
+          entity->IsKind(STANDARD_TYPE(
+              StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface)) == Standard_True;
       item->SetName(text(rational ? "headlamp ring" : "bonnet skin"));
     } else if (const auto face = opencascade::handle<StepShape_AdvancedFace>::DownCast(entity)) {
-      const bool spline = face->FaceGeometry()->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface)) == Standard_True;
+      const bool spline =
+          face->FaceGeometry()->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface)) == Standard_True;
       face->SetName(text(spline ? "outer face" : "flange"));
     }
   }
 }
 
-void write(const TopoDS_Shape& bonnet_shape, const TopoDS_Shape& ring_shape, const std::string& path) {
+void write(const TopoDS_Shape& bonnet_shape, const TopoDS_Shape& ring_shape,
+           const std::string& path) {
   opencascade::handle<TDocStd_Document> document;
   XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
   const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
@@ -209,12 +220,16 @@ void write(const TopoDS_Shape& bonnet_shape, const TopoDS_Shape& ring_shape, con
   TDataStd_Name::Set(car, "Front end");
   const TDF_Label bonnet_part = part(bonnet_shape, "Bonnet");
   const TDF_Label ring_part = part(ring_shape, "Headlamp ring");
-  // One colour only: Open CASCADE writes several in the order of addresses, which differs from run to run.
-  colours->SetColor(bonnet_part, Quantity_Color(0.09, 0.24, 0.45, Quantity_TOC_sRGB), XCAFDoc_ColorSurf);
+  // One colour only: Open CASCADE writes several in the order of addresses, which differs from run
+  // to run.
+  colours->SetColor(bonnet_part, Quantity_Color(0.09, 0.24, 0.45, Quantity_TOC_sRGB),
+                    XCAFDoc_ColorSurf);
   gp_Trsf place;
-  place.SetTransformation(gp_Ax3(gp_Pnt(60, -430, -140), gp_Dir(-1, 0, 0.25), gp_Dir(0, 1, 0)), gp_Ax3());
+  place.SetTransformation(gp_Ax3(gp_Pnt(60, -430, -140), gp_Dir(-1, 0, 0.25), gp_Dir(0, 1, 0)),
+                          gp_Ax3());
   TDataStd_Name::Set(shapes->AddComponent(car, bonnet_part, TopLoc_Location()), "bonnet");
-  TDataStd_Name::Set(shapes->AddComponent(car, ring_part, TopLoc_Location(place)), "left headlamp ring");
+  TDataStd_Name::Set(shapes->AddComponent(car, ring_part, TopLoc_Location(place)),
+                     "left headlamp ring");
   shapes->UpdateAssemblies();
 
   STEPCAFControl_Writer writer;
@@ -223,7 +238,8 @@ void write(const TopoDS_Shape& bonnet_shape, const TopoDS_Shape& ring_shape, con
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
   Interface_Static::SetCVal("write.step.unit", "MM");
   Interface_Static::SetIVal("write.surfacecurve.mode", 0);
-  if (!writer.Transfer(document, STEPControl_AsIs)) fail("Open CASCADE does not transfer the model");
+  if (!writer.Transfer(document, STEPControl_AsIs))
+    fail("Open CASCADE does not transfer the model");
   const opencascade::handle<StepData_StepModel> model =
       opencascade::handle<StepData_StepModel>::DownCast(writer.ChangeWriter().WS()->Model());
   name_items(model);

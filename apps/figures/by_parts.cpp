@@ -21,7 +21,8 @@ Points over_support(F f) {
   Points points;
   for (int span = 1; span < 5; ++span) {
     for (int k = 0; k <= chords; ++k) {
-      points.push_back(f(span + static_cast<double>(k) / chords, k == chords ? Side::left : Side::right));
+      points.push_back(
+          f(span + static_cast<double>(k) / chords, k == chords ? Side::left : Side::right));
     }
   }
   return points;
@@ -32,8 +33,10 @@ struct Term {
   int first;  // number of its first figure
   const char* name;
 };
-constexpr Term parts_of_integrals[] = {
-    {0, 0, 13, "∫ N₄ N₄"}, {1, 1, 15, "∫ N₄′ N₄′"}, {2, 2, 17, "∫ N₄″ N₄″"}, {0, 1, 19, "∫ N₄′ N₄"}};
+constexpr Term parts_of_integrals[] = {{0, 0, 13, "∫ N₄ N₄"},
+                                       {1, 1, 15, "∫ N₄′ N₄′"},
+                                       {2, 2, 17, "∫ N₄″ N₄″"},
+                                       {0, 1, 19, "∫ N₄′ N₄"}};
 
 void add_term(Report& report, const Term& t) {
   const auto product = [&](double u, Side side) {
@@ -49,13 +52,14 @@ void add_term(Report& report, const Term& t) {
       for (int k = 0; k < rule.basis.size(); ++k) {
         const double x = rule.parameters[static_cast<std::size_t>(k)];
         if (x < 1 || x > 2) continue;  // the points of one span serve for all
-        sum +=
-            length * rule.weights[static_cast<std::size_t>(k)] * product(span + length * (x - 1), Side::right).second;
+        sum += length * rule.weights[static_cast<std::size_t>(k)] *
+               product(span + length * (x - 1), Side::right).second;
       }
     }
     integral.emplace_back(u, sum);
   }
-  Chart chart(fmt::format("Fig. 5.{}: the product of {}, and its integral", t.first, t.name), "u", "");
+  Chart chart(fmt::format("Fig. 5.{}: the product of {}, and its integral", t.first, t.name), "u",
+              "");
   chart.line("product", over_support(product));
   chart.line("integral up to u", integral);
   const auto steps = by_parts(example_knots(), function, t.a, t.b);
@@ -75,10 +79,12 @@ void add_term(Report& report, const Term& t) {
     Chart parts(fmt::format("Fig. 5.{}: step {} of {}", t.first + 1, k + 1, t.name),
                 t.b + m == 0 ? "N₄" : fmt::format("derivative of order {} of N₄", t.b + m), other);
     parts.line("u from 1 to 5", over_support(place));
-    report.picture(fmt::format("figure_5_{}_{}.svg", t.first + 1, k + 1), parts.svg(),
-                   fmt::format("Fig. 5.{}, step {}: ∫ f dg = {:.15g}, [f g] = {:.15g}, ∫ g df = {:.15g}{}.",
-                               t.first + 1, k + 1, steps[k].whole, steps[k].boundary, steps[k].rest,
-                               k + 1 == steps.size() ? ", a sum over the jumps of f: Dirac impulses are left" : ""));
+    report.picture(
+        fmt::format("figure_5_{}_{}.svg", t.first + 1, k + 1), parts.svg(),
+        fmt::format(
+            "Fig. 5.{}, step {}: ∫ f dg = {:.15g}, [f g] = {:.15g}, ∫ g df = {:.15g}{}.",
+            t.first + 1, k + 1, steps[k].whole, steps[k].boundary, steps[k].rest,
+            k + 1 == steps.size() ? ", a sum over the jumps of f: Dirac impulses are left" : ""));
   }
 }
 
@@ -91,7 +97,8 @@ void add_curve(Report& report) {
       const double u = example_knots()[span] + static_cast<double>(k) / chords;
       std::pair<double, double> at = {0, 0};
       for (int i = 0; i < example_knots().count(); ++i) {
-        const double n = basis_function(example_knots(), i, 0, u, k == chords ? Side::left : Side::right);
+        const double n =
+            basis_function(example_knots(), i, 0, u, k == chords ? Side::left : Side::right);
         at.first += n * polygon[static_cast<std::size_t>(i)].first;
         at.second += n * polygon[static_cast<std::size_t>(i)].second;
       }
@@ -100,9 +107,11 @@ void add_curve(Report& report) {
   }
   Chart chart("Fig. 4.2: a cubic B-spline curve", "x", "y");
   chart.line("curve", curve);
-  chart.line("control points", Points(polygon.begin(), polygon.end()), {.dashed = true, .markers = true});
+  chart.line("control points", Points(polygon.begin(), polygon.end()),
+             {.dashed = true, .markers = true});
   report.picture("figure_4_02.svg", chart.svg(),
-                 "Fig. 4.2: a cubic B-spline curve on U and its control points; the thesis does not print its own.");
+                 "Fig. 4.2: a cubic B-spline curve on U and its control points; the thesis does "
+                 "not print its own.");
 }
 
 void add_gauss_points(Report& report) {
@@ -122,16 +131,17 @@ void add_gauss_points(Report& report) {
     sum += rule.weights[k] * at.second;
   }
   chart.impulses("Gauss points", points);
-  report.picture(
-      "figure_5_04.svg", chart.svg(),
-      fmt::format("Fig. 5.4: the product has degree 6 on each of p + 1 spans, so 4 points on each are exact: "
-                  "{:.15g}, the entry 151/315 = {:.15g}.",
-                  sum, 151.0 / 315));
+  report.picture("figure_5_04.svg", chart.svg(),
+                 fmt::format("Fig. 5.4: the product has degree 6 on each of p + 1 spans, so 4 "
+                             "points on each are exact: "
+                             "{:.15g}, the entry 151/315 = {:.15g}.",
+                             sum, 151.0 / 315));
 }
 
 void add_areas(Report& report) {
   const auto place = [](double u) {
-    return std::pair(basis_function(example_knots(), function, 0, u), basis_integral(example_knots(), function, 1, u));
+    return std::pair(basis_function(example_knots(), function, 0, u),
+                     basis_integral(example_knots(), function, 1, u));
   };
   constexpr double end = 3;  // where N₄ is largest
   Points curve;
@@ -146,11 +156,11 @@ void add_areas(Report& report) {
     const auto a = place(1 + (end - 1) * k / fine), b = place(1 + (end - 1) * (k + 1.0) / fine);
     under += (a.second + b.second) / 2 * (b.first - a.first);
   }
-  report.picture(
-      "figure_5_12.svg", chart.svg(),
-      fmt::format("Fig. 5.12: the rectangle f g = {:.6f} is the area below the curve, ∫ g df = {:.6f}, and that "
-                  "beside it, ∫ f dg = {:.6f}.",
-                  f * g, under, f * g - under));
+  report.picture("figure_5_12.svg", chart.svg(),
+                 fmt::format("Fig. 5.12: the rectangle f g = {:.6f} is the area below the curve, ∫ "
+                             "g df = {:.6f}, and that "
+                             "beside it, ∫ f dg = {:.6f}.",
+                             f * g, under, f * g - under));
 }
 
 }  // namespace
@@ -177,14 +187,18 @@ std::vector<ByParts> by_parts(const KnotVector& knots, int i, int a, int b) {
     ByParts step;
     const auto f = [&](double u, Side side) { return basis_function(knots, i, b + k, u, side); };
     const auto g = [&](double u, Side side) { return integrated(knots, i, a, k + 1, u, side); };
-    step.whole = integral([&](double u) { return f(u, Side::right) * integrated(knots, i, a, k, u, Side::right); });
-    step.boundary = f(end, Side::left) * g(end, Side::left) - f(begin, Side::right) * g(begin, Side::right);
+    step.whole = integral(
+        [&](double u) { return f(u, Side::right) * integrated(knots, i, a, k, u, Side::right); });
+    step.boundary =
+        f(end, Side::left) * g(end, Side::left) - f(begin, Side::right) * g(begin, Side::right);
     if (b + k < p) {
-      step.rest = integral([&](double u) { return g(u, Side::right) * basis_function(knots, i, b + k + 1, u); });
+      step.rest = integral(
+          [&](double u) { return g(u, Side::right) * basis_function(knots, i, b + k + 1, u); });
     } else {
       // Impulses inside the support; those at its ends are in the boundary term.
       for (const KnotJumps& at : derivative_jumps(knots, i)) {
-        if (at.knot > begin && at.knot < end) step.rest += at.of_order(p, p) * g(at.knot, Side::right);
+        if (at.knot > begin && at.knot < end)
+          step.rest += at.of_order(p, p) * g(at.knot, Side::right);
       }
     }
     steps.push_back(step);

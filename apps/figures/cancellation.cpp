@@ -57,7 +57,8 @@ double worst(const KnotVector& knots, bool better_side = false) {
   for (int i = 0; i < n; ++i) {
     for (int j = i; j < std::min(n, i + knots.degree() + 1); ++j) {
       double error = std::abs(analytic(i, j) - right(i, j));
-      if (better_side) error = std::min(error, std::abs(from_right(n - 1 - i, n - 1 - j) - right(i, j)));
+      if (better_side)
+        error = std::min(error, std::abs(from_right(n - 1 - i, n - 1 - j) - right(i, j)));
       result = std::max(result, error / right(i, j));
     }
   }

@@ -22,7 +22,8 @@ Printed parsed(const std::string& text) {
     printed.exponent = text.substr(e);
     printed.scale = std::pow(10.0L, std::stoi(text.substr(e + 1)));
   }
-  if (point != std::string::npos) printed.decimals = static_cast<int>(printed.mantissa.size() - point - 1);
+  if (point != std::string::npos)
+    printed.decimals = static_cast<int>(printed.mantissa.size() - point - 1);
   return printed;
 }
 

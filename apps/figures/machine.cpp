@@ -53,7 +53,9 @@ double compute_by_two() { return multiply_and_add<Two>(); }
 void move_by_two(const double* a, double* b, std::size_t count) { halve<Two>(a, b, count); }
 #if defined(__x86_64__)
 [[gnu::target("avx2")]] double compute_by_four() { return multiply_and_add<Four>(); }
-[[gnu::target("avx2")]] void move_by_four(const double* a, double* b, std::size_t count) { halve<Four>(a, b, count); }
+[[gnu::target("avx2")]] void move_by_four(const double* a, double* b, std::size_t count) {
+  halve<Four>(a, b, count);
+}
 [[gnu::target("avx512f")]] double compute_by_eight() { return multiply_and_add<Eight>(); }
 [[gnu::target("avx512f")]] void move_by_eight(const double* a, double* b, std::size_t count) {
   halve<Eight>(a, b, count);

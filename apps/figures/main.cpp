@@ -15,9 +15,11 @@ int main(int argc, char** argv) {
   using namespace knead::figures;
   const fs::path folder = argc > 1 ? argv[1] : "out/figures";
   const std::string data = KNEAD_FIGURES_DATA;
-  for (const char* name : {"tables_5_3_to_5_20", "table_5_15", "table_5_16", "figures_5_50_to_5_57"}) {
+  for (const char* name :
+       {"tables_5_3_to_5_20", "table_5_15", "table_5_16", "figures_5_50_to_5_57"}) {
     if (!read_csv(fmt::format("{}/{}.csv", data, name)).empty()) continue;
-    fmt::print(stderr, "{}/{}.csv: the published values are not there; run from a whole checkout\n", data, name);
+    fmt::print(stderr, "{}/{}.csv: the published values are not there; run from a whole checkout\n",
+               data, name);
     return 3;
   }
   Report report = whole_report(data);

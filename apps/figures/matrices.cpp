@@ -18,10 +18,13 @@ void add_matrices(Report& report, const std::string& data) {
                                           *gramians(knots, GramianMethod::recurrence)};
   report.text(
       "\n## Matrices: Figs. 5.50 to 5.57\n\n"
-      "Cubic Gramians on {0⁴, 1, …, 12, 13⁴}. The pictures are ours; the tables hold what the thesis prints (its two "
+      "Cubic Gramians on {0⁴, 1, …, 12, 13⁴}. The pictures are ours; the tables hold what the "
+      "thesis prints (its two "
       "G00 "
-      "figures truncate the last digit, the others round) beside our three methods to 15 digits. **Bold digits are not "
-      "those of the exact value.** Of the analytic figures only that of G00 can be read as text.\n");
+      "figures truncate the last digit, the others round) beside our three methods to 15 digits. "
+      "**Bold digits are not "
+      "those of the exact value.** Of the analytic figures only that of G00 can be read as "
+      "text.\n");
   const auto rows = read_csv(data + "/figures_5_50_to_5_57.csv");
   constexpr const char* names[] = {"G00", "G11", "G22", "G10"};
   for (int t = 0; t < 4; ++t) {
@@ -39,15 +42,17 @@ void add_matrices(Report& report, const std::string& data) {
         }
       }
       const std::string method(name(all_methods[k]));
-      const std::string title = k == 2 ? fmt::format("{} by recurrence", term)
-                                       : fmt::format("Fig. 5.{}: {} by {}", number + (k == 0), term, method);
-      const std::string file =
-          k == 2 ? fmt::format("matrix_{}_recurrence.svg", term) : fmt::format("figure_5_{}.svg", number + (k == 0));
+      const std::string title =
+          k == 2 ? fmt::format("{} by recurrence", term)
+                 : fmt::format("Fig. 5.{}: {} by {}", number + (k == 0), term, method);
+      const std::string file = k == 2 ? fmt::format("matrix_{}_recurrence.svg", term)
+                                      : fmt::format("figure_5_{}.svg", number + (k == 0));
       // Entries of rounding alone are left white.
       report.picture(file, matrix_svg(title, entries, 1e-12 * largest), title + ".");
     }
     report.text(
-        "\n| i | j | exact | thesis: Gaussian | thesis: analytic | gauss | analytic | recurrence |\n"
+        "\n| i | j | exact | thesis: Gaussian | thesis: analytic | gauss | analytic | recurrence "
+        "|\n"
         "|--:|--:|---|---|---|---|---|---|\n");
     for (const CsvRow& row : rows) {
       if (row.at("term") != term) continue;
@@ -58,7 +63,9 @@ void add_matrices(Report& report, const std::string& data) {
                               marked(row.at("printed_gauss"), exact, cut),
                               marked(row.at("printed_analytic"), exact, cut)));
       for (const GramianSet& set : ours) {
-        report.text(" " + marked(fmt::format("{:.14e}", matrix_of(set, term)(i, j)), exact, Cut::rounded, two_ulp) +
+        report.text(" " +
+                    marked(fmt::format("{:.14e}", matrix_of(set, term)(i, j)), exact, Cut::rounded,
+                           two_ulp) +
                     " |");
       }
       report.text("\n");

@@ -10,7 +10,8 @@ namespace knead::figures {
 namespace {
 
 constexpr double height = 480, plot_width = 560, left = 84, top = 48, bottom = 58, letter = 6.6;
-// Okabe and Ito's colours, distinguishable by colour-blind readers too, without their yellow, which is pale on white.
+// Okabe and Ito's colours, distinguishable by colour-blind readers too, without their yellow, which
+// is pale on white.
 constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
                                    "#56b4e9", "#555555", "#7a3e9d", "#8c564b", "#000000"};
 
@@ -63,8 +64,10 @@ struct Axis {
   }
 };
 
-std::string text(double x, double y, const std::string& words, const char* anchor, const std::string& extra = "") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", x, y, anchor, extra, words);
+std::string text(double x, double y, const std::string& words, const char* anchor,
+                 const std::string& extra = "") {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", x, y,
+                     anchor, extra, words);
 }
 
 std::string escaped(const std::string& words) {
@@ -75,13 +78,16 @@ std::string escaped(const std::string& words) {
 
 /// The number of letters of UTF-8 text.
 double letters(const std::string& words) {
-  return static_cast<double>(std::ranges::count_if(words, [](char c) { return (c & 0xC0) != 0x80; }));
+  return static_cast<double>(
+      std::ranges::count_if(words, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 std::string header(double w, double h) {
   return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\" "
-      "font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
+      "height=\"{1:g}\" "
+      "font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\">\n<rect width=\"100%\" "
+      "height=\"100%\" "
       "fill=\"white\"/>\n",
       w, h);
 }
@@ -106,36 +112,43 @@ std::string Chart::svg() const {
   }
   x.widen(strokes > 0 || log_x_ ? 0.04 : 0, strokes > 1);
   y.widen(0.05);
-  const double width = left + std::max(plot_width, letter * 1.25 * letters(title_) - legend) + legend;
+  const double width =
+      left + std::max(plot_width, letter * 1.25 * letters(title_) - legend) + legend;
   const auto px = [&](double fraction) { return left + fraction * (width - left - legend); };
-  const auto py = [&](double fraction) { return height - bottom - fraction * (height - top - bottom); };
+  const auto py = [&](double fraction) {
+    return height - bottom - fraction * (height - top - bottom);
+  };
 
-  std::string out = header(width, height) + text(left, 26, escaped(title_), "start", "font-size=\"15\"");
+  std::string out =
+      header(width, height) + text(left, 26, escaped(title_), "start", "font-size=\"15\"");
   for (const double tick : x.minor_ticks()) {
     const double at = px((tick - x.lower) / (x.upper - x.lower));
-    out += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"#f2f2f2\"/>\n", at, py(0), py(1));
+    out += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"#f2f2f2\"/>\n", at, py(0),
+                       py(1));
   }
   for (const double tick : y.minor_ticks()) {
     const double at = py((tick - y.lower) / (y.upper - y.lower));
-    out += fmt::format("<path d=\"M{0:.1f} {1:.1f}H{2:.1f}\" stroke=\"#f2f2f2\"/>\n", px(0), at, px(1));
+    out += fmt::format("<path d=\"M{0:.1f} {1:.1f}H{2:.1f}\" stroke=\"#f2f2f2\"/>\n", px(0), at,
+                       px(1));
   }
   for (const double tick : x.ticks()) {
     const double at = px((tick - x.lower) / (x.upper - x.lower));
-    out += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"#e3e3e3\"/>\n", at, py(0), py(1));
+    out += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"#e3e3e3\"/>\n", at, py(0),
+                       py(1));
     out += text(at, py(0) + 19, x.label(tick), "middle");
   }
   for (const double tick : y.ticks()) {
     const double at = py((tick - y.lower) / (y.upper - y.lower));
     const bool zero = tick == 0 && !y.logarithmic;
-    out +=
-        fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"{}\"/>\n", px(0), at, px(1), zero ? "#999" : "#e3e3e3");
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"{}\"/>\n", px(0), at, px(1),
+                       zero ? "#999" : "#e3e3e3");
     out += text(px(0) - 7, at + 4, y.label(tick), "end");
   }
-  out += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\" fill=\"none\" stroke=\"#333\"/>\n", px(0), py(1), py(0),
-                     px(1));
+  out += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\" fill=\"none\" stroke=\"#333\"/>\n",
+                     px(0), py(1), py(0), px(1));
   out += text(px(0.5), height - 16, escaped(x_label_), "middle");
-  out +=
-      text(0, 0, escaped(y_label_), "middle", fmt::format("transform=\"translate(20 {:.1f}) rotate(-90)\"", py(0.5)));
+  out += text(0, 0, escaped(y_label_), "middle",
+              fmt::format("transform=\"translate(20 {:.1f}) rotate(-90)\"", py(0.5)));
 
   int next_colour = 0, stroke = 0;
   double row = top + 6;
@@ -158,26 +171,33 @@ std::string Chart::svg() const {
         pen = true;
       }
       if (series.impulses || series.style.markers) {
-        dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.8\" fill=\"{}\"/>\n", at, to, colour);
+        dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.8\" fill=\"{}\"/>\n", at, to,
+                            colour);
       }
     }
     const char* dashes = series.style.dashed ? "6 4" : "none";
-    out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" stroke-dasharray=\"{}\"/>\n",
-                       path, colour, dashes);
+    out += fmt::format(
+        "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" "
+        "stroke-dasharray=\"{}\"/>\n",
+        path, colour, dashes);
     out += dots;
     if (!series.style.in_legend) continue;
-    out += fmt::format("<path d=\"M{:.1f} {:.1f}h26\" stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"/>\n",
-                       px(1) + 14, row, colour, dashes);
+    out += fmt::format(
+        "<path d=\"M{:.1f} {:.1f}h26\" stroke=\"{}\" stroke-width=\"2.4\" "
+        "stroke-dasharray=\"{}\"/>\n",
+        px(1) + 14, row, colour, dashes);
     out += text(px(1) + 46, row + 4, escaped(series.name), "start");
     row += 19;
   }
   return out + "</svg>\n";
 }
 
-std::string surface_svg(const std::string& title, const std::string& row_label, const std::string& column_label,
-                        const std::vector<std::string>& rows, const std::vector<std::string>& columns,
+std::string surface_svg(const std::string& title, const std::string& row_label,
+                        const std::string& column_label, const std::vector<std::string>& rows,
+                        const std::vector<std::string>& columns,
                         const std::vector<Surface>& surfaces) {
-  constexpr double floor_left = 100, floor_front = 430, right = 400, back_x = 150, back_y = -110, tall = 250;
+  constexpr double floor_left = 100, floor_front = 430, right = 400, back_x = 150, back_y = -110,
+                   tall = 250;
   double largest = 0;
   for (const Surface& surface : surfaces) {
     for (const auto& row : surface.heights) largest = std::max(largest, std::ranges::max(row));
@@ -185,20 +205,25 @@ std::string surface_svg(const std::string& title, const std::string& row_label, 
   const auto along = [](std::size_t k, std::size_t count) {
     return count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 0;
   };
-  const auto x_of = [&](double row, double column) { return floor_left + right * column + back_x * row; };
-  const auto y_of = [&](double row, double height) { return floor_front + back_y * row - tall * height; };
-  std::string out =
-      header(floor_left + right + back_x + 190, 510) + text(24, 26, escaped(title), "start", "font-size=\"15\"");
+  const auto x_of = [&](double row, double column) {
+    return floor_left + right * column + back_x * row;
+  };
+  const auto y_of = [&](double row, double height) {
+    return floor_front + back_y * row - tall * height;
+  };
+  std::string out = header(floor_left + right + back_x + 190, 510) +
+                    text(24, 26, escaped(title), "start", "font-size=\"15\"");
   // The floor with its marks, and a post at the back left with heights.
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double r = along(i, rows.size());
-    out += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#ddd\"/>\n", x_of(r, 0), y_of(r, 0), x_of(r, 1));
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#ddd\"/>\n", x_of(r, 0),
+                       y_of(r, 0), x_of(r, 1));
     out += text(x_of(r, 1) + 10, y_of(r, 0) + 4, rows[i], "start");
   }
   for (std::size_t j = 0; j < columns.size(); ++j) {
     const double c = along(j, columns.size());
-    out += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#ddd\"/>\n", x_of(0, c), y_of(0, 0),
-                       x_of(1, c), y_of(1, 0));
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#ddd\"/>\n", x_of(0, c),
+                       y_of(0, 0), x_of(1, c), y_of(1, 0));
     out += text(x_of(0, c), y_of(0, 0) + 18, columns[j], "middle");
   }
   out += text(x_of(0, 0.5), y_of(0, 0) + 42, escaped(column_label), "middle");
@@ -206,10 +231,12 @@ std::string surface_svg(const std::string& title, const std::string& row_label, 
   Axis z;
   z.include(0);
   z.include(largest);
-  out += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}\" stroke=\"#333\"/>\n", x_of(0, 0), y_of(0, 0), y_of(0, 1));
+  out += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}\" stroke=\"#333\"/>\n", x_of(0, 0),
+                     y_of(0, 0), y_of(0, 1));
   for (const double tick : z.ticks()) {
     out += text(x_of(0, 0) - 8, y_of(0, tick / largest) + 4, z.label(tick), "end");
-    out += fmt::format("<path d=\"M{:.1f} {:.1f}h-4\" stroke=\"#333\"/>\n", x_of(0, 0), y_of(0, tick / largest));
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}h-4\" stroke=\"#333\"/>\n", x_of(0, 0),
+                       y_of(0, tick / largest));
   }
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     const auto& heights = surfaces[s].heights;
@@ -225,16 +252,18 @@ std::string surface_svg(const std::string& title, const std::string& row_label, 
     for (std::size_t j = 0; j < columns.size(); ++j) {
       for (std::size_t i = 0; i < rows.size(); ++i) corner(i, j, i > 0);
     }
-    out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\"/>\n", path, colours[s]);
-    const double row = 60 + 19 * static_cast<double>(s);
-    out += fmt::format("<path d=\"M{:.1f} {:.1f}h26\" stroke=\"{}\" stroke-width=\"2.4\"/>\n", floor_left + 30, row,
+    out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\"/>\n", path,
                        colours[s]);
+    const double row = 60 + 19 * static_cast<double>(s);
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}h26\" stroke=\"{}\" stroke-width=\"2.4\"/>\n",
+                       floor_left + 30, row, colours[s]);
     out += text(floor_left + 64, row + 4, escaped(surfaces[s].name), "start");
   }
   return out + "</svg>\n";
 }
 
-std::string matrix_svg(const std::string& title, const std::vector<std::vector<double>>& rows, double zero) {
+std::string matrix_svg(const std::string& title, const std::vector<std::vector<double>>& rows,
+                       double zero) {
   constexpr double wide = 62, high = 22, margin = 34, above = 66;
   double largest = 0;
   std::size_t columns = 0;
@@ -242,12 +271,12 @@ std::string matrix_svg(const std::string& title, const std::vector<std::vector<d
     for (const double value : row) largest = std::max(largest, std::abs(value));
     columns = std::max(columns, row.size());
   }
-  std::string out =
-      header(wide * static_cast<double>(columns) + margin + 12, high * static_cast<double>(rows.size()) + above + 12) +
-      text(12, 26, escaped(title), "start", "font-size=\"15\"");
+  std::string out = header(wide * static_cast<double>(columns) + margin + 12,
+                           high * static_cast<double>(rows.size()) + above + 12) +
+                    text(12, 26, escaped(title), "start", "font-size=\"15\"");
   for (std::size_t j = 0; j < columns; ++j) {
-    out += text(margin + wide * (static_cast<double>(j) + 0.5), above - 8, fmt::format("{}", j), "middle",
-                "fill=\"#555\" font-size=\"11\"");
+    out += text(margin + wide * (static_cast<double>(j) + 0.5), above - 8, fmt::format("{}", j),
+                "middle", "fill=\"#555\" font-size=\"11\"");
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double y = above + high * static_cast<double>(i);
@@ -257,14 +286,18 @@ std::string matrix_svg(const std::string& title, const std::vector<std::vector<d
       const bool empty = std::abs(value) <= zero;
       // The cube root makes small entries visible.
       const double shade = empty || largest == 0 ? 0 : std::cbrt(std::abs(value) / largest);
-      const int pale = 255 - static_cast<int>(170 * shade), half = 255 - static_cast<int>(110 * shade);
-      const std::string colour =
-          value >= 0 ? fmt::format("rgb(255,{},{})", half, pale) : fmt::format("rgb({},{},255)", pale, half);
+      const int pale = 255 - static_cast<int>(170 * shade),
+                half = 255 - static_cast<int>(110 * shade);
+      const std::string colour = value >= 0 ? fmt::format("rgb(255,{},{})", half, pale)
+                                            : fmt::format("rgb({},{},255)", pale, half);
       out += fmt::format(
-          "<rect x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" fill=\"{}\" stroke=\"#ddd\"><title>{}, {}: "
+          "<rect x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" fill=\"{}\" "
+          "stroke=\"#ddd\"><title>{}, {}: "
           "{:.15g}</title></rect>\n",
           x, y, wide, high, colour, i, j, value);
-      if (!empty) out += text(x + wide / 2, y + 15, fmt::format("{:.4g}", value), "middle", "font-size=\"10\"");
+      if (!empty)
+        out +=
+            text(x + wide / 2, y + 15, fmt::format("{:.4g}", value), "middle", "font-size=\"10\"");
     }
   }
   return out + "</svg>\n";

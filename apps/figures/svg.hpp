@@ -16,8 +16,8 @@ struct Style {
   bool in_legend = true;  ///< false if another series stands for this one too
 };
 
-/// A chart as SVG text: lines and impulses over linear or logarithmic axes, with a legend. Ranges are those of the
-/// data.
+/// A chart as SVG text: lines and impulses over linear or logarithmic axes, with a legend. Ranges
+/// are those of the data.
 class Chart {
  public:
   Chart(std::string title, std::string x_label, std::string y_label)
@@ -31,7 +31,8 @@ class Chart {
   void line(std::string name, Points points, Style style = {}) {
     series_.push_back({std::move(name), std::move(points), style, false});
   }
-  /// A vertical stroke from zero to every point. The strokes of several series over one point are drawn side by side.
+  /// A vertical stroke from zero to every point. The strokes of several series over one point are
+  /// drawn side by side.
   void impulses(std::string name, Points points, Style style = {}) {
     series_.push_back({std::move(name), std::move(points), style, true});
   }
@@ -49,19 +50,21 @@ class Chart {
   std::vector<Series> series_;
 };
 
-/// Surfaces over one grid as wire frames, seen from the front left: heights[row][column], all from zero. Rows go back,
-/// columns to the right.
+/// Surfaces over one grid as wire frames, seen from the front left: heights[row][column], all from
+/// zero. Rows go back, columns to the right.
 struct Surface {
   std::string name;
   std::vector<std::vector<double>> heights;
 };
 [[nodiscard]] std::string surface_svg(const std::string& title, const std::string& row_label,
-                                      const std::string& column_label, const std::vector<std::string>& rows,
-                                      const std::vector<std::string>& columns, const std::vector<Surface>& surfaces);
+                                      const std::string& column_label,
+                                      const std::vector<std::string>& rows,
+                                      const std::vector<std::string>& columns,
+                                      const std::vector<Surface>& surfaces);
 
-/// The band of a matrix as a picture: one cell per entry with its value, blue below zero, red above, the darker the
-/// larger; entries below `zero` are white. Rows may have any lengths.
-[[nodiscard]] std::string matrix_svg(const std::string& title, const std::vector<std::vector<double>>& rows,
-                                     double zero);
+/// The band of a matrix as a picture: one cell per entry with its value, blue below zero, red
+/// above, the darker the larger; entries below `zero` are white. Rows may have any lengths.
+[[nodiscard]] std::string matrix_svg(const std::string& title,
+                                     const std::vector<std::vector<double>>& rows, double zero);
 
 }  // namespace knead::figures

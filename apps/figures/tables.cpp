@@ -13,7 +13,8 @@ namespace {
 
 std::string scientific(double error) { return error == 0 ? "0" : fmt::format("{:.0e}", error); }
 
-/// Our value in the form in which the thesis prints this entry. Values that should be zero have no such form.
+/// Our value in the form in which the thesis prints this entry. Values that should be zero have no
+/// such form.
 std::string in_the_form_of(const TableRow& row, double value) {
   return row.exact == 0 ? fmt::format("{:.14g}", value) : printed_like(row.printed_exact, value);
 }
@@ -57,8 +58,9 @@ std::vector<CheckedValue> table_5_15(const std::string& data) {
     const KnotVector knots = thesis_knots(3, std::stoi(row.at("r")));
     const std::string& at = row.at("knot");
     const double u = at == "6+10^-r" ? knots[10] : std::stod(at);
-    values.push_back({"r = " + row.at("r") + ", knot " + at, "fourth integral", std::stold(row.at("exact")),
-                      row.at("printed_exact"), row.at("printed_analytic"),
+    values.push_back({"r = " + row.at("r") + ", knot " + at, "fourth integral",
+                      std::stold(row.at("exact")), row.at("printed_exact"),
+                      row.at("printed_analytic"),
                       basis_integral(knots, std::stoi(row.at("i")), 4, u)});
   }
   return values;
@@ -69,7 +71,8 @@ std::vector<CheckedValue> table_5_16(const std::string& data) {
   const KnotVector knots = thesis_knots(10, 10, 1, 17);
   for (const CsvRow& row : read_csv(data + "/table_5_16.csv")) {
     const int i = std::stoi(row.at("i")), k = std::stoi(row.at("knot_index"));
-    const double u = knots[i + k], weight = derivative_jumps(knots, i)[static_cast<std::size_t>(k)].jumps.back();
+    const double u = knots[i + k],
+                 weight = derivative_jumps(knots, i)[static_cast<std::size_t>(k)].jumps.back();
     const double integral = basis_integral(knots, i, 11, u);
     const std::string name = k == 2 ? "6 + 10⁻¹⁰" : fmt::format("{:.10g}", u);
     const auto add = [&](const char* column, const char* printed, double ours) {
@@ -97,7 +100,8 @@ std::string tables_markdown(const std::string& data) {
       const auto order = [](char d) { return d == '0' ? "" : d == '1' ? "′" : "″"; };
       out += fmt::format(
           "\n### Table {}: {} = ∫ N{} N{}, degree {}, entry ({}, {}){}\n\n"
-          "| r | exact | thesis: exact | thesis: Gaussian | thesis: analytic | gauss | analytic | recurrence | error "
+          "| r | exact | thesis: exact | thesis: Gaussian | thesis: analytic | gauss | analytic | "
+          "recurrence | error "
           "of "
           "gauss | of analytic | of recurrence |\n|--:|---|---|---|---|---|---|---|---|---|---|\n",
           table, term, order(term[1]), order(term[2]), row.degree, row.i, row.j,
@@ -108,20 +112,24 @@ std::string tables_markdown(const std::string& data) {
                        marked(row.printed_analytic, row.exact));
     for (const double value : row.ours)
       out += " " + marked(in_the_form_of(row, value), row.exact, Cut::rounded, two_ulp) + " |";
-    for (std::size_t k = 0; k < all_methods.size(); ++k) out += " " + scientific(row.error(k)) + " |";
+    for (std::size_t k = 0; k < all_methods.size(); ++k)
+      out += " " + scientific(row.error(k)) + " |";
     out += "\n";
   }
   const auto add = [&](const char* title, const std::vector<CheckedValue>& values) {
     const bool has_exact = !values.empty() && !values.front().printed_exact.empty();
-    out += fmt::format("\n### {}\n\n| {}| | exact | {}thesis: analytic | ours |\n|---|---|---|{}---|---|\n", title,
-                       has_exact ? "" : "knot ", has_exact ? "thesis: exact | " : "", has_exact ? "---|" : "");
+    out += fmt::format(
+        "\n### {}\n\n| {}| | exact | {}thesis: analytic | ours |\n|---|---|---|{}---|---|\n", title,
+        has_exact ? "" : "knot ", has_exact ? "thesis: exact | " : "", has_exact ? "---|" : "");
     for (const CheckedValue& value : values) {
-      if (value.printed_analytic.empty()) continue;  // the thesis leaves out the first knot, where nothing is summed
-      out +=
-          fmt::format("| {} | {} | {:.17g} | {}{} | {} |\n", value.row, value.column, static_cast<double>(value.exact),
-                      has_exact ? marked(value.printed_exact, value.exact) + " | " : "",
-                      marked(value.printed_analytic, value.exact),
-                      marked(printed_like(value.printed_analytic, value.ours), value.exact, Cut::rounded, two_ulp));
+      if (value.printed_analytic.empty())
+        continue;  // the thesis leaves out the first knot, where nothing is summed
+      out += fmt::format("| {} | {} | {:.17g} | {}{} | {} |\n", value.row, value.column,
+                         static_cast<double>(value.exact),
+                         has_exact ? marked(value.printed_exact, value.exact) + " | " : "",
+                         marked(value.printed_analytic, value.exact),
+                         marked(printed_like(value.printed_analytic, value.ours), value.exact,
+                                Cut::rounded, two_ulp));
     }
   };
   add("Table 5.15: the fourth integral of N_8, degree 3", table_5_15(data));

@@ -9,8 +9,8 @@
 
 namespace knead::figures {
 
-inline constexpr std::array<GramianMethod, 3> all_methods = {GramianMethod::gauss, GramianMethod::analytic,
-                                                             GramianMethod::recurrence};
+inline constexpr std::array<GramianMethod, 3> all_methods = {
+    GramianMethod::gauss, GramianMethod::analytic, GramianMethod::recurrence};
 
 /// G00, G11, G22 or G10 by its name.
 [[nodiscard]] const BandMatrix& matrix_of(const GramianSet& set, const std::string& term);
@@ -31,7 +31,8 @@ struct TableRow {
 };
 [[nodiscard]] std::vector<TableRow> table_rows(const std::string& data);
 
-/// A number of Table 5.15 (fourth integrals) or 5.16 (what the Dirac rule adds up), published and computed.
+/// A number of Table 5.15 (fourth integrals) or 5.16 (what the Dirac rule adds up), published and
+/// computed.
 struct CheckedValue {
   std::string row, column;
   long double exact = 0;

@@ -8,7 +8,8 @@
 
 namespace knead::figures {
 
-/// The knots of the thesis' tables: 0 … last with 7 replaced by 6 + 10^-r, every knot times `scale`, clamped.
+/// The knots of the thesis' tables: 0 … last with 7 replaced by 6 + 10^-r, every knot times
+/// `scale`, clamped.
 inline KnotVector thesis_knots(int degree, int r, double scale = 1, int last = 13) {
   std::vector<double> knots(static_cast<std::size_t>(degree), 0.0);
   for (int k = 0; k <= last; ++k) knots.push_back((k == 7 ? 6 + std::pow(10.0, -r) : k) * scale);

@@ -12,11 +12,14 @@ namespace {
 constexpr int orders = max_degree + 1, highest = 2 * max_degree + 1;
 using Row = std::array<Counted, orders>;
 
-/// Values of B-splines at one point: function span − p + c, c = 0 … p, of degrees 0 … 2p + 1 (Figs. 5.8, 5.26).
+/// Values of B-splines at one point: function span − p + c, c = 0 … p, of degrees 0 … 2p + 1
+/// (Figs. 5.8, 5.26).
 class Triangle {
  public:
-  explicit Triangle(const KnotVector& knots) : p_(knots.degree()), x_(knots.knots().begin(), knots.knots().end()) {
-    x_.insert(x_.end(), static_cast<std::size_t>(p_ + 1), x_.back());  // "compute extended knot vector"
+  explicit Triangle(const KnotVector& knots)
+      : p_(knots.degree()), x_(knots.knots().begin(), knots.knots().end()) {
+    x_.insert(x_.end(), static_cast<std::size_t>(p_ + 1),
+              x_.back());  // "compute extended knot vector"
   }
 
   void fill(int span, double u, int degree) {
@@ -29,7 +32,8 @@ class Triangle {
       const int lowest = std::max(0, p_ - q + 1);  // of the functions of degree q − 1
       Counted after = 0;                           // what function c + 1 hands down
       for (int c = p_; c >= lowest; --c) {
-        const Counted length = left_[at(c)] + right_[at(c + q - p_)], quotient = values_[at(q - 1)][at(c)] / length;
+        const Counted length = left_[at(c)] + right_[at(c + q - p_)],
+                      quotient = values_[at(q - 1)][at(c)] / length;
         length_[at(q)][at(c)] = length;
         values_[at(q)][at(c)] = c == p_ ? left_[at(c)] * quotient : left_[at(c)] * quotient + after;
         if (c > 0) after = right_[at(c + q - p_)] * quotient;
@@ -71,7 +75,8 @@ class Triangle {
 
 class Run {
  public:
-  Run(const KnotVector& knots, Reuse reuse) : knots_(knots), p_(knots.degree()), reuse_(reuse), triangle_(knots) {
+  Run(const KnotVector& knots, Reuse reuse)
+      : knots_(knots), p_(knots.degree()), reuse_(reuse), triangle_(knots) {
     for (auto& term : upper_) term.assign(at(knots.count() * (p_ + 1)), Counted(0));
     Counted::count() = {};
   }
@@ -79,7 +84,8 @@ class Run {
   ThesisGramians gaussian() {
     const GaussRule rule = gauss_legendre(p_ + 1);
     for (const int span : knots_.spans()) {
-      const Counted a = knots_[span], b = knots_[span + 1], half = (b - a) * 0.5, middle = (a + b) * 0.5;
+      const Counted a = knots_[span], b = knots_[span + 1], half = (b - a) * 0.5,
+                    middle = (a + b) * 0.5;
       for (std::size_t g = 0; g < rule.abscissae.size(); ++g) {
         const Counted u = middle + half * rule.abscissae[g], weight = half * rule.weights[g];
         ++work_.samples;
@@ -125,7 +131,8 @@ class Run {
         steps = triangle_.derivatives(p_);
       });
       evaluated();
-      // The jump of the last derivative at the knot between this span and the one before is known only now.
+      // The jump of the last derivative at the knot between this span and the one before is known
+      // only now.
       if (k > 0) assemble(spans[k - 1], before, steps, integrals);
       for (int t = 0; t < 4; ++t) {
         if (reuse_ == Reuse::none) {
@@ -154,20 +161,23 @@ class Run {
   }
   void evaluated() { work_.evaluations += p_ + 1; }
 
-  Counted& entry(int term, int span, int i, int j) { return upper_[at(term)][at((span - p_ + i) * (p_ + 1) + j - i)]; }
+  Counted& entry(int term, int span, int i, int j) {
+    return upper_[at(term)][at((span - p_ + i) * (p_ + 1) + j - i)];
+  }
 
   /// weight_[q − p][k] = (x_{k+q+1} − x_k)/(q + 1) (Thm 5.2) for q = p … 2p.
   void weigh() {
     weight_.resize(at(p_ + 1));
     for (int m = 0; m <= p_; ++m) {
       for (int k = 0; k < knots_.count(); ++k) {
-        weight_[at(m)].push_back((Counted(triangle_.x(k + p_ + m + 1)) - triangle_.x(k)) / Counted(p_ + m + 1));
+        weight_[at(m)].push_back((Counted(triangle_.x(k + p_ + m + 1)) - triangle_.x(k)) /
+                                 Counted(p_ + m + 1));
       }
     }
   }
 
-  /// The m-fold integrals of the functions of a span at the point of the triangle (Alg. 5.4), all at once; derivatives
-  /// where m < 0.
+  /// The m-fold integrals of the functions of a span at the point of the triangle (Alg. 5.4), all
+  /// at once; derivatives where m < 0.
   Row integral(int m, int span) {
     if (m < 0) return triangle_.derivatives(-m);
     Row row = triangle_.values(p_ + m);
@@ -179,8 +189,8 @@ class Run {
     return row;
   }
 
-  /// The factor of the jump of order r in ∫ N_i^(a) N_j^(b), t = 0 … 3 for G00, G11, G22, G10: N_j^(b) integrated
-  /// r − a + 1 times.
+  /// The factor of the jump of order r in ∫ N_i^(a) N_j^(b), t = 0 … 3 for G00, G11, G22, G10:
+  /// N_j^(b) integrated r − a + 1 times.
   Row chain(int t, int r, int span) {
     constexpr int order[] = {0, 1, 2, 1}, both[] = {0, 2, 4, 1};
     if (r < order[t]) return {};
@@ -191,7 +201,8 @@ class Run {
     const Counted sign = p_ % 2 == 0 ? -1.0 : 1.0;
     for (int i = 0; i <= p_; ++i) {
       const Counted weight = i == 0 ? -before[0] : after[at(i - 1)] - before[at(i)];
-      const Counted even = sign.value > 0 ? weight : -weight, odd = -even;  // (−1)^(p+1−a) for a = 0, 2 and for a = 1
+      const Counted even = sign.value > 0 ? weight : -weight,
+                    odd = -even;  // (−1)^(p+1−a) for a = 0, 2 and for a = 1
       for (int j = i; j <= p_; ++j) {
         entry(0, span, i, j) += even * integrals[0][at(j)];
         entry(1, span, i, j) += odd * integrals[1][at(j)];
@@ -215,8 +226,8 @@ class Run {
       for (int t = 0; t < 4; ++t) {
         if (r < order[t]) continue;
         const Row beside = chain(t, r, span);
-        const bool negative =
-            ((r - order[t]) % 2 == 0) != (side > 0);  // (−1)^(r−a+1), and at the end the jump is −N^(r)
+        const bool negative = ((r - order[t]) % 2 == 0) !=
+                              (side > 0);  // (−1)^(r−a+1), and at the end the jump is −N^(r)
         for (int i = 0; i <= p_; ++i) {
           for (int j = i; j <= p_; ++j) {
             const Counted term = jumps[at(i)] * beside[at(j)];
@@ -250,14 +261,17 @@ class Run {
 }  // namespace
 
 ThesisGramians thesis_gramians(const KnotVector& knots, ThesisMethod method, Reuse reuse) {
-  assert(knots.count() - knots.degree() == static_cast<int>(knots.spans().size()));  // clamped, simple inside
+  assert(knots.count() - knots.degree() ==
+         static_cast<int>(knots.spans().size()));  // clamped, simple inside
   Run run(knots, reuse);
   return method == ThesisMethod::gaussian ? run.gaussian() : run.analytic();
 }
 
 namespace expected {
 
-double samples_per_span(int degree, ThesisMethod method) { return method == ThesisMethod::gaussian ? degree + 1 : 1; }
+double samples_per_span(int degree, ThesisMethod method) {
+  return method == ThesisMethod::gaussian ? degree + 1 : 1;
+}
 
 double evaluations(int degree, int n, ThesisMethod method, Reuse reuse) {
   const int functions = reuse == Reuse::all_in_one ? 1 : method == ThesisMethod::gaussian ? 3 : 5;
@@ -273,8 +287,10 @@ double recursions(int p, int n, ThesisMethod method) {
 
 double operations(int p, int n, ThesisMethod method) {
   const double values = 4 * (p * (p + 1) / 2.0 + p + 1);
-  const int levels = 3 * p + std::max(p - 3, 0);  // of the integrals of order p + 1, p, p − 1 and p − 3
-  const double rest = method == ThesisMethod::gaussian ? 3 + 3 * values : levels * (2 * p + 1) + p + 2 * values;
+  // Of the integrals of order p + 1, p, p − 1 and p − 3.
+  const int levels = 3 * p + std::max(p - 3, 0);
+  const double rest =
+      method == ThesisMethod::gaussian ? 3 + 3 * values : levels * (2 * p + 1) + p + 2 * values;
   return recursions(p, n, method) + samples_per_span(p, method) * (n + 1) * rest;
 }
 

@@ -20,7 +20,8 @@ struct AnalyseArguments {
   int samples = 41;
 };
 
-void print_summary(const AnalyseArguments& options, const Session& session, std::span<const FieldGrid> grids) {
+void print_summary(const AnalyseArguments& options, const Session& session,
+                   std::span<const FieldGrid> grids) {
   for (const FieldGrid& grid : grids) {
     say("{}: surface {}\n", options.fresh ? options.script : options.file, grid.name);
     for (const GridField& field : grid.fields) {
@@ -29,16 +30,19 @@ void print_summary(const AnalyseArguments& options, const Session& session, std:
     }
   }
   for (const ModeRecord& mode : session.modes()) say("  frequency {:.6g}\n", mode.value);
-  for (const ModeRecord& mode : session.buckling()) say("  buckles at {:.6g} times the load\n", mode.value);
+  for (const ModeRecord& mode : session.buckling())
+    say("  buckles at {:.6g} times the load\n", mode.value);
 }
 
 Expected<void> run(const AnalyseArguments& options) {
   const NamedFile file{"FILE", options.file}, script{"--script", options.script};
-  if (auto possible = check_outputs({{"--results", options.results}, {"--vtu", options.vtu}}, {file, script});
+  if (auto possible =
+          check_outputs({{"--results", options.results}, {"--vtu", options.vtu}}, {file, script});
       !possible) {
     return possible;
   }
-  if (auto fields = check_name({"--vtu", options.vtu}, ".vtu", "a VTU file"); !fields) return fields;
+  if (auto fields = check_name({"--vtu", options.vtu}, ".vtu", "a VTU file"); !fields)
+    return fields;
   if (auto one = check_source(options.file, options.fresh); !one) return one;
   if (options.samples < 2 || options.samples > 1000) {
     return usage_error(fmt::format("{} samples", options.samples), "--samples", "use 2 to 1000");
@@ -49,7 +53,8 @@ Expected<void> run(const AnalyseArguments& options) {
   if (!document) return std::unexpected(document.error());
   Session session(std::move(*document));
   if (auto done = execute(session, *commands); !done) return std::unexpected(done.error());
-  if (session.selection().empty()) return input_error("no surface is selected", options.script, "select one");
+  if (session.selection().empty())
+    return input_error("no surface is selected", options.script, "select one");
   const auto grids = result_grids(session, options.samples);
   if (!grids) return std::unexpected(grids.error());
   const auto json = analysis_json(session, *grids);
@@ -68,21 +73,30 @@ Expected<void> run(const AnalyseArguments& options) {
 
 Action add_analyse(CLI::App& app) {
   auto options = std::make_shared<AnalyseArguments>();
-  CLI::App* command =
-      app.add_subcommand("analyse", "run a script and write stresses, reactions, modes and buckling loads");
-  command->add_option("FILE", options->file, "CAD file to analyse; it is not changed")->type_name("");
-  command->add_flag("--new", options->fresh, "start without a FILE: the script makes surfaces with the command new");
-  command->add_option("--script", options->script, "JSON file with the commands, as for sculpt")->required();
-  command->add_option("--results", options->results, "JSON file for the results, see below")->required();
+  CLI::App* command = app.add_subcommand(
+      "analyse", "run a script and write stresses, reactions, modes and buckling loads");
+  command->add_option("FILE", options->file, "CAD file to analyse; it is not changed")
+      ->type_name("");
+  command->add_flag("--new", options->fresh,
+                    "start without a FILE: the script makes surfaces with the command new");
+  command->add_option("--script", options->script, "JSON file with the commands, as for sculpt")
+      ->required();
+  command->add_option("--results", options->results, "JSON file for the results, see below")
+      ->required();
   command->add_option("--vtu", options->vtu, "VTU file with the same fields, for ParaView");
-  command->add_option("--samples", options->samples, "points per direction of each surface")->capture_default_str();
+  command->add_option("--samples", options->samples, "points per direction of each surface")
+      ->capture_default_str();
   options->unpack.add_to(*command);
   command->footer(
-      R"(The results are {"surfaces": [{"id", "counts", "points", "displacement", and of shells "membrane", "moment", "von_mises",
-"bending_strain", and after modes and buckling "mode_1", ..., "buckling_1", ...}], "reactions": [{"hold", "force"}],
-"modes": [{"frequency", "residual"}], "buckling": [{"load_factor", "residual"}]} of the selected surfaces. Fields are lists
-of numbers, point after point, the last direction fastest: principal membrane forces and bending moments, von Mises stresses
-on both faces, the largest strain that bending adds, displacements from the rest shape. Units are those of the script.
+      R"(The results, of the selected surfaces:
+{"surfaces": [{"id", "counts", "points", "displacement",
+               of shells "membrane", "moment", "von_mises", "bending_strain",
+               after modes and buckling "mode_1", ..., "buckling_1", ...}],
+ "reactions": [{"hold", "force"}], "modes": [{"frequency", "residual"}],
+ "buckling": [{"load_factor", "residual"}]}
+Fields are lists of numbers, point after point, the last direction fastest: displacements from
+the rest shape, principal membrane forces and bending moments, von Mises stresses on both faces,
+the largest strain that bending adds. Units are those of the script.
 )" + std::string(exit_codes));
   return [options] { return run(*options); };
 }

@@ -8,7 +8,8 @@
 namespace knead::cli {
 
 std::string cad_file_help() {
-  return "CAD file: " + list_of_endings(FormatContent::surfaces, true) + "; compressed too (.stpZ, .step.gz)";
+  return "CAD file: " + list_of_endings(FormatContent::surfaces, true) +
+         "; compressed too (.stpZ, .step.gz)";
 }
 
 void UnpackOption::add_to(CLI::App& command) {
@@ -19,15 +20,19 @@ void UnpackOption::add_to(CLI::App& command) {
       ->capture_default_str();
 }
 
-OpenOptions UnpackOption::options() const { return {.max_unpacked = static_cast<std::size_t>(mebibytes) << 20U}; }
+OpenOptions UnpackOption::options() const {
+  return {.max_unpacked = static_cast<std::size_t>(mebibytes) << 20U};
+}
 
-Expected<std::shared_ptr<const Source>> open_cad_file(const std::string& file, const UnpackOption& most) {
+Expected<std::shared_ptr<const Source>> open_cad_file(const std::string& file,
+                                                      const UnpackOption& most) {
   auto bytes = read_file(file);
   if (!bytes) return std::unexpected(std::move(bytes.error()));
   return open_source(*std::move(bytes), file, most.options());
 }
 
-Expected<std::string> compressed_by_name(std::string bytes, const std::string& output, const std::string& input) {
+Expected<std::string> compressed_by_name(std::string bytes, const std::string& output,
+                                         const std::string& input) {
   namespace fs = std::filesystem;
   const Compression wanted = compression_of_name(output), present = compression_of(bytes);
   if (wanted == present) return bytes;

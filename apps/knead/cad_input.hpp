@@ -20,11 +20,12 @@ struct UnpackOption {
 };
 
 /// Reads and opens a CAD file.
-[[nodiscard]] Expected<std::shared_ptr<const Source>> open_cad_file(const std::string& file, const UnpackOption& most);
+[[nodiscard]] Expected<std::shared_ptr<const Source>> open_cad_file(const std::string& file,
+                                                                    const UnpackOption& most);
 
-/// The bytes of a CAD file, compressed or not as the name that they get says: ".gz" and ".stpZ" compress, other endings
-/// of CAD files do not. Where the name says nothing, or has the ending of the input, they stay as they are, which is as
-/// the input is.
+/// The bytes of a CAD file, compressed or not as the name that they get says: ".gz" and ".stpZ"
+/// compress, other endings of CAD files do not. Where the name says nothing, or has the ending of
+/// the input, they stay as they are, which is as the input is.
 [[nodiscard]] Expected<std::string> compressed_by_name(std::string bytes, const std::string& output,
                                                        const std::string& input);
 

@@ -34,11 +34,13 @@ inline constexpr std::string_view exit_codes =
 /// The help text of --method: all names, and the default.
 [[nodiscard]] std::string gramian_method_help();
 
-/// Numbers separated by commas or white space; a comma follows a number, and the last one may end the text. A usage
-/// error names `option` and the entry that is not a number.
-[[nodiscard]] Expected<std::vector<double>> parse_numbers(const std::string& text, const std::string& option);
+/// Numbers separated by commas or white space; a comma follows a number, and the last one may end
+/// the text. A usage error names `option` and the entry that is not a number.
+[[nodiscard]] Expected<std::vector<double>> parse_numbers(const std::string& text,
+                                                          const std::string& option);
 
-/// The same value; an error of it, unless numerical, is that of the option which gave it: wrong usage, at `option`.
+/// The same value; an error of it, unless numerical, is that of the option which gave it: wrong
+/// usage, at `option`.
 template <class T>
 [[nodiscard]] Expected<T> of_option(Expected<T> value, const std::string& option) {
   if (value || value.error().kind == ErrorKind::numerical) return value;

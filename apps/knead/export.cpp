@@ -28,12 +28,14 @@ struct ExportArguments {
 Expected<std::string> unit_of(const std::string& unit, const ExportArguments& options) {
   const bool known = !unit.empty() && unit != "unknown";
   if (known && !options.unit.empty() && options.unit != unit) {
-    return usage_error(fmt::format("{} is in {}, whose numbers are written as they are", options.file, unit), "--unit",
-                       "leave it out: it is for files that do not say what their lengths are");
+    return usage_error(
+        fmt::format("{} is in {}, whose numbers are written as they are", options.file, unit),
+        "--unit", "leave it out: it is for files that do not say what their lengths are");
   }
   if (known) return unit;
   if (!options.unit.empty()) return options.unit;
-  say("lengths are written as millimetres: {} does not say what they are; --unit says so\n", options.file);
+  say("lengths are written as millimetres: {} does not say what they are; --unit says so\n",
+      options.file);
   return "mm";
 }
 
@@ -42,8 +44,9 @@ Expected<std::string> unit_of(const Source& source, const ExportArguments& optio
   std::string unit;
   const auto takes = [&](const std::string& own) -> Expected<void> {
     if (!unit.empty() && unit != own) {
-      return input_error(fmt::format("its shapes are in {} and in {}, and a new file has one unit", unit, own), {},
-                         "give their lengths one unit in the program that made the file");
+      return input_error(
+          fmt::format("its shapes are in {} and in {}, and a new file has one unit", unit, own), {},
+          "give their lengths one unit in the program that made the file");
     }
     unit = own;
     return {};
@@ -67,15 +70,18 @@ Expected<void> write(const Format& format, std::string bytes, const ExportArgume
   return {};
 }
 
-/// Why a new file could not be made: a unit that it does not know is the option's, all else the file's.
+/// Why a new file could not be made: a unit that it does not know is the option's, all else the
+/// file's.
 std::unexpected<Error> failed(Error error, const ExportArguments& options) {
-  if (error.where == "unit" && !options.unit.empty()) return usage_error(error.what, "--unit", error.remedy);
+  if (error.where == "unit" && !options.unit.empty())
+    return usage_error(error.what, "--unit", error.remedy);
   if (error.file.empty()) error.file = options.file;
   return std::unexpected(std::move(error));
 }
 
 /// Faces with their trims.
-Expected<void> export_faces(const Source& source, const Format& format, const ExportArguments& options) {
+Expected<void> export_faces(const Source& source, const Format& format,
+                            const ExportArguments& options) {
   const auto& assembly = source.model()->assembly;
   const auto unit = unit_of(assembly ? assembly->unit : source.model()->length_unit(), options);
   if (!unit) return std::unexpected(unit.error());
@@ -103,17 +109,21 @@ Expected<void> run(const ExportArguments& options) {
       for (const std::string_view ending : known.endings)
         endings += (endings.empty() ? "" : ", ") + std::string(ending);
     }
-    return usage_error(fmt::format("new files with the name \"{}\" cannot be written", options.output), "--out",
-                       "use a name that ends in one of " + endings);
+    return usage_error(
+        fmt::format("new files with the name \"{}\" cannot be written", options.output), "--out",
+        "use a name that ends in one of " + endings);
   }
   if (options.schema && (*format)->id != "step") {
     return usage_error("this does not write a STEP file", "--schema", "leave it out");
   }
-  if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}}); !possible) return possible;
+  if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}});
+      !possible)
+    return possible;
   const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
   const auto model = (*source)->model();
-  const bool faces = !options.sets && holds_faces(**format) && model != nullptr && !model->faces.empty();
+  const bool faces =
+      !options.sets && holds_faces(**format) && model != nullptr && !model->faces.empty();
   if (faces) return export_faces(**source, **format, options);
   if (options.convert) {
     return usage_error("only faces are converted", "--convert",
@@ -126,8 +136,10 @@ Expected<void> run(const ExportArguments& options) {
   if (options.schema) how.schema = *options.schema;
   how.faces = !options.sets;
   for (const SourceSurface& s : (*source)->surfaces()) {
-    NamedSurface& made = surfaces.emplace_back(NamedSurface{s.name.empty() ? s.id : s.name, *s.surface});
-    if (const auto colour = colours.find(s.id); colour != colours.end()) made.colour = colour->second;
+    NamedSurface& made =
+        surfaces.emplace_back(NamedSurface{s.name.empty() ? s.id : s.name, *s.surface});
+    if (const auto colour = colours.find(s.id); colour != colours.end())
+      made.colour = colour->second;
   }
   for (const SourceCurve& c : (*source)->curves()) {
     how.curves.push_back({c.name.empty() ? c.id : c.name, *c.curve});
@@ -145,7 +157,8 @@ Expected<void> run(const ExportArguments& options) {
     if (!left) return std::unexpected(left.error());
     for (const std::size_t k : *left) {
       ++without_face.count;
-      if (without_face.ids.size() < LeftOut::most_ids) without_face.ids.push_back((*source)->surfaces()[k].id);
+      if (without_face.ids.size() < LeftOut::most_ids)
+        without_face.ids.push_back((*source)->surfaces()[k].id);
     }
     for (const std::size_t k : std::views::reverse(*left))
       surfaces.erase(surfaces.begin() + static_cast<std::ptrdiff_t>(k));
@@ -154,32 +167,41 @@ Expected<void> run(const ExportArguments& options) {
   if (!bytes) return failed(std::move(bytes.error()), options);
   auto left_out = left_out_of_surfaces(**source, **format);
   if (without_face.count > 0) left_out.push_back(std::move(without_face));
-  return write(**format, *std::move(bytes), options, left_out, counted(surfaces.size(), "surface", "surfaces"));
+  return write(**format, *std::move(bytes), options, left_out,
+               counted(surfaces.size(), "surface", "surfaces"));
 }
 
 }  // namespace
 
 Action add_export(CLI::App& app) {
   auto options = std::make_shared<ExportArguments>();
-  CLI::App* command = app.add_subcommand("export", "write the faces of a CAD file as a new STEP or IGES file");
+  CLI::App* command =
+      app.add_subcommand("export", "write the faces of a CAD file as a new STEP or IGES file");
   command->add_option("FILE", options->file, cad_file_help())->required()->type_name("");
   command
-      ->add_option("-o,--out", options->output,
-                   "new file; the ending selects the format: STEP or IGES, compressed with .stpZ or .gz")
+      ->add_option(
+          "-o,--out", options->output,
+          "new file; the ending selects the format: STEP or IGES, compressed with .stpZ or .gz")
       ->required();
   command->add_option("--schema", options->schema, "of a STEP file: ap214 or ap242")
       ->check(CLI::IsMember({"ap214", "ap242"}))
       ->default_str("ap214");
-  command->add_option("--unit", options->unit, "of lengths, where FILE does not say it: mm, inch, …; without it mm");
-  command->add_flag("--convert", options->convert,
-                    "make planes, cylinders, cones, spheres, tori and swept surfaces B-spline surfaces, exactly");
-  command->add_flag("--sets", options->sets, "write bare B-spline surfaces, without faces, edges and shells");
+  command->add_option("--unit", options->unit,
+                      "of lengths, where FILE does not say it: mm, inch, …; without it mm");
+  command->add_flag(
+      "--convert", options->convert,
+      "make planes, cylinders, cones, spheres, tori and swept surfaces B-spline surfaces, exactly");
+  command->add_flag("--sets", options->sets,
+                    "write bare B-spline surfaces, without faces, edges and shells");
   options->unpack.add_to(*command);
   command->footer(
-      "Faces with their trims: surfaces, edges and vertices, which neighbours share; closed shells as solids with "
+      "Faces with their trims: surfaces, edges and vertices, which neighbours share; closed shells "
+      "as solids with "
       "their\n"
-      "hollows; parts of assemblies in their places; names and colours. Control points, knots and weights are the\n"
-      "same bits. B-spline surfaces without faces become one each, on their natural bounds. What cannot be written\n"
+      "hollows; parts of assemblies in their places; names and colours. Control points, knots and "
+      "weights are the\n"
+      "same bits. B-spline surfaces without faces become one each, on their natural bounds. What "
+      "cannot be written\n"
       "is named with its reason; `knead sculpt` keeps everything else of a file.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };

@@ -37,8 +37,10 @@ struct Result {
 
 constexpr double few_digits = 8;
 
-/// The analytic method cancels where knots are close; the recurrence, which loses no digits, says how much.
-Expected<void> estimate_digits(const KnotVector& knots, const std::vector<std::array<int, 2>>& orders, Result& result) {
+/// The analytic method cancels where knots are close; the recurrence, which loses no digits, says
+/// how much.
+Expected<void> estimate_digits(const KnotVector& knots,
+                               const std::vector<std::array<int, 2>>& orders, Result& result) {
   if (result.method != name(GramianMethod::analytic)) return {};
   for (std::size_t k = 0; k < orders.size(); ++k) {
     const auto digits = digits_left(knots, orders[k][0], orders[k][1], result.gramians[k].matrix);
@@ -46,7 +48,9 @@ Expected<void> estimate_digits(const KnotVector& knots, const std::vector<std::a
     result.digits = std::min(result.digits.value_or(17), *digits);
   }
   if (*result.digits < few_digits) {
-    say(stderr, "knead: warning: the method analytic has {} left on these knots; --method recurrence loses none\n",
+    say(stderr,
+        "knead: warning: the method analytic has {} left on these knots; --method recurrence loses "
+        "none\n",
         *result.digits < 0.5 ? "no digits" : fmt::format("about {:.0f} digits", *result.digits));
   }
   return {};
@@ -95,10 +99,13 @@ std::vector<std::array<int, 2>> orders(const GramianArguments& options) {
 }
 
 /// "21"; orders of two digits are kept apart, "10,2".
-std::string term_name(int a, int b) { return fmt::format("{}{}{}", a, a > 9 || b > 9 ? "," : "", b); }
+std::string term_name(int a, int b) {
+  return fmt::format("{}{}{}", a, a > 9 || b > 9 ? "," : "", b);
+}
 
 Expected<Result> compute(const GramianArguments& options, const KnotVector& knots) {
-  const std::string chosen = options.method.empty() ? std::string(name(default_gramian_method)) : options.method;
+  const std::string chosen =
+      options.method.empty() ? std::string(name(default_gramian_method)) : options.method;
   const auto method = gramian_method(chosen);
   if (!method) return std::unexpected(method.error().within("--method"));
   const int a = options.a, b = options.b;  // 0, 0 if all terms are requested, which use one method
@@ -121,8 +128,8 @@ Expected<Result> compute_rational(const GramianArguments& options, const KnotVec
   if (!weights) return std::unexpected(weights.error());
   Result result{options.method.empty() ? std::string(rational) : options.method, {}};
   if (result.method != rational && result.method != constant_denominator) {
-    return usage_error(fmt::format("the method \"{}\" does not take weights", options.method), "--method",
-                       fmt::format("use {} or {}", rational, constant_denominator));
+    return usage_error(fmt::format("the method \"{}\" does not take weights", options.method),
+                       "--method", fmt::format("use {} or {}", rational, constant_denominator));
   }
   if (!(options.tolerance > 0)) {
     return usage_error(fmt::format("{} is no tolerance", options.tolerance), "--tolerance",
@@ -131,11 +138,13 @@ Expected<Result> compute_rational(const GramianArguments& options, const KnotVec
   for (const auto& [a, b] : orders(options)) {
     const std::string term = term_name(a, b);
     if (result.method == constant_denominator) {
-      auto matrix = of_option(constant_denominator_gramian(knots, *weights, a, b), "--rational-weights");
+      auto matrix =
+          of_option(constant_denominator_gramian(knots, *weights, a, b), "--rational-weights");
       if (!matrix) return std::unexpected(matrix.error());
       result.gramians.push_back({term, std::move(*matrix)});
     } else {
-      auto found = of_option(rational_gramian(knots, *weights, a, b, options.tolerance), "--rational-weights");
+      auto found = of_option(rational_gramian(knots, *weights, a, b, options.tolerance),
+                             "--rational-weights");
       if (!found) return std::unexpected(found.error());
       result.gramians.push_back({term, std::move(found->matrix)});
       result.error_bound = std::max(result.error_bound.value_or(0), found->error_bound);
@@ -147,12 +156,14 @@ Expected<Result> compute_rational(const GramianArguments& options, const KnotVec
 Expected<void> run(const GramianArguments& options) {
   const auto knots = options.knots.read();
   if (!knots) return std::unexpected(knots.error());
-  auto result = options.weights.empty() ? compute(options, *knots) : compute_rational(options, *knots);
+  auto result =
+      options.weights.empty() ? compute(options, *knots) : compute_rational(options, *knots);
   if (!result) return std::unexpected(result.error());
   for (const NamedGramian& g : result->gramians) {
     if (g.matrix.all_finite()) continue;
-    return numerical_error(fmt::format("entries leave the range of double precision (method {})", result->method),
-                           "Gramian " + g.term, "scale the knots nearer to 1");
+    return numerical_error(
+        fmt::format("entries leave the range of double precision (method {})", result->method),
+        "Gramian " + g.term, "scale the knots nearer to 1");
   }
   if (auto done = estimate_digits(*knots, orders(options), *result); !done) return done;
   if (options.format == "csv") {
@@ -169,21 +180,27 @@ Action add_gramian(CLI::App& app) {
   auto options = std::make_shared<GramianArguments>();
   CLI::App* command = app.add_subcommand("gramian", "print Gramian matrices of a B-spline basis");
   options->knots.add_to(*command);
-  CLI::Option* a = command->add_option("--a", options->a, "derivative of the row functions, 0 to 15 (default 0)");
-  CLI::Option* b = command->add_option("--b", options->b, "derivative of the column functions, 0 to 15 (default 0)");
+  CLI::Option* a = command->add_option("--a", options->a,
+                                       "derivative of the row functions, 0 to 15 (default 0)");
+  CLI::Option* b = command->add_option("--b", options->b,
+                                       "derivative of the column functions, 0 to 15 (default 0)");
   command->add_flag("--all", options->all, "print 00, 11, 22 and 10")->excludes(a)->excludes(b);
-  command->add_option("--method", options->method,
-                      gramian_method_help() + "; with weights: rational (default) or constant-denominator");
-  CLI::Option* weights = command->add_option("--rational-weights", options->weights,
-                                             "one positive weight per function: Gramians of the rational basis");
+  command->add_option(
+      "--method", options->method,
+      gramian_method_help() + "; with weights: rational (default) or constant-denominator");
+  CLI::Option* weights =
+      command->add_option("--rational-weights", options->weights,
+                          "one positive weight per function: Gramians of the rational basis");
   command
-      ->add_option(
-          "--tolerance", options->tolerance,
-          "error allowed with weights, relative to the largest entry (default 1e-10); the JSON gives the bound")
+      ->add_option("--tolerance", options->tolerance,
+                   "error allowed with weights, relative to the largest entry (default 1e-10); the "
+                   "JSON gives the bound")
       ->needs(weights);
-  command->add_option("--format", options->format, "json (default) or csv")->check(CLI::IsMember({"json", "csv"}));
+  command->add_option("--format", options->format, "json (default) or csv")
+      ->check(CLI::IsMember({"json", "csv"}));
   command->footer(
-      "Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside the matrix; 17 significant digits. \"method\" is "
+      "Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside the matrix; 17 significant "
+      "digits. \"method\" is "
       "the\n"
       "one used: recurrence covers 00, 10, 01, 11 and 22 and leaves other orders to gauss.\n" +
       std::string(exit_codes));

@@ -21,7 +21,8 @@ constexpr double most_pixels = 1 << 28;
 /// Decoded pixels, whole numbers from 0 to `white`, channels together.
 struct Pixels {
   unsigned width = 0, height = 0, channels = 0, white = 255;
-  std::vector<unsigned char> bytes = {};  // two per value, the higher first, where white is above 255
+  // Two per value, the higher first, where white is above 255.
+  std::vector<unsigned char> bytes = {};
   std::string failure = {};
 };
 
@@ -60,10 +61,12 @@ void decode_png_to(png_structp png, png_infop info, Pixels& pixels, std::vector<
   png_read_image(png, rows.data());
 }
 
-void decode_png(std::string_view bytes, Pixels& pixels, std::vector<png_bytep>& rows, ByteReader& reader) {
+void decode_png(std::string_view bytes, Pixels& pixels, std::vector<png_bytep>& rows,
+                ByteReader& reader) {
   reader.bytes = bytes;
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &pixels, png_failed,
-                                           [](png_structp, png_const_charp) { /* warnings do not matter */ });
+  png_structp png =
+      png_create_read_struct(PNG_LIBPNG_VER_STRING, &pixels, png_failed,
+                             [](png_structp, png_const_charp) { /* warnings do not matter */ });
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   if (info == nullptr) {
     pixels.failure = "the memory is not enough";
@@ -157,7 +160,10 @@ Expected<Image> image_in(std::string_view bytes, const std::string& path, ImageC
     pixels.failure = "it is neither PNG nor JPEG";
   }
   if (pixels.failure.empty()) return grey(pixels, channel);
-  Error error{ErrorKind::input, "the image cannot be read: " + pixels.failure, {}, "save it as PNG or JPEG again"};
+  Error error{ErrorKind::input,
+              "the image cannot be read: " + pixels.failure,
+              {},
+              "save it as PNG or JPEG again"};
   error.file = path;
   return std::unexpected(error);
 }

@@ -7,16 +7,19 @@
 namespace knead::cli {
 
 void KnotsOption::add_to(CLI::App& command) {
-  command.add_option("--degree", degree, fmt::format("degree of the basis, 1 to {}", max_degree))->required();
+  command.add_option("--degree", degree, fmt::format("degree of the basis, 1 to {}", max_degree))
+      ->required();
   command.add_option("--knots", knots,
-                     "all knots, separated by commas, each repeated to its multiplicity; may begin with a minus sign");
-  command.add_option("--knots-file", file, "file with the knots, separated by commas or white space");
+                     "all knots, separated by commas, each repeated to its multiplicity; may begin "
+                     "with a minus sign");
+  command.add_option("--knots-file", file,
+                     "file with the knots, separated by commas or white space");
 }
 
 Expected<KnotVector> KnotsOption::read() const {
   if (knots.empty() == file.empty()) {
-    return usage_error(knots.empty() ? "no knots are given" : "the knots are given twice", "command line",
-                       "give either --knots or --knots-file");
+    return usage_error(knots.empty() ? "no knots are given" : "the knots are given twice",
+                       "command line", "give either --knots or --knots-file");
   }
   if (degree < 1 || degree > max_degree) {
     return usage_error(fmt::format("degree {} is out of range", degree), "--degree",

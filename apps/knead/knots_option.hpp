@@ -13,8 +13,8 @@ struct KnotsOption {
   std::string knots, file;
 
   void add_to(CLI::App& command);
-  /// Usage errors: neither or both are given, an entry is not a number. Input errors: the file cannot be read, or its
-  /// content is not a knot vector of the degree; the index is named.
+  /// Usage errors: neither or both are given, an entry is not a number. Input errors: the file
+  /// cannot be read, or its content is not a knot vector of the degree; the index is named.
   [[nodiscard]] Expected<KnotVector> read() const;
 };
 

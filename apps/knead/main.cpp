@@ -30,7 +30,8 @@ int exit_code(knead::ErrorKind kind) {
 }
 
 /// CLI11's description of an error in the arguments, with the command concerned, in one line.
-knead::Error usage_error(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
+knead::Error usage_error(const CLI::App& app, const CLI::ParseError& error,
+                         const std::string& first) {
   const auto used = app.get_subcommands();
   if (used.empty() && !first.empty() && first.front() != '-') {
     std::string known;
@@ -55,10 +56,11 @@ int fail(const knead::Error& error) {
   return exit_code(error.kind);
 }
 
-/// The value of these options may begin with a minus sign, which would read as an option: joined with "=".
+/// The value of these options may begin with a minus sign, which would read as an option: joined
+/// with "=".
 std::vector<std::string> joined_arguments(int argc, char** argv) {
-  static constexpr std::array<std::string_view, 6> number_lists = {"--knots", "--alpha", "--beta", "--rational-weights",
-                                                                   "--from",  "--to"};
+  static constexpr std::array<std::string_view, 6> number_lists = {
+      "--knots", "--alpha", "--beta", "--rational-weights", "--from", "--to"};
   std::vector<std::string> arguments(argv + 1, argv + argc);
   for (std::size_t k = 0; k + 1 < arguments.size(); ++k) {
     for (std::string_view option : number_lists) {
@@ -71,8 +73,8 @@ std::vector<std::string> joined_arguments(int argc, char** argv) {
   return {arguments.rbegin(), arguments.rend()};  // CLI11 takes them in reverse order
 }
 
-/// Opens what standard streams are closed, so that no file takes their place and gets what is printed; writing to them
-/// still fails.
+/// Opens what standard streams are closed, so that no file takes their place and gets what is
+/// printed; writing to them still fails.
 void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
@@ -82,14 +84,17 @@ void occupy_standard_streams() {
 
 /// What is printed is lost; the files are not.
 knead::Error lost_output(const std::string& reason) {
-  const char* const what = knead::cli::written_outputs().empty() ? "the output could not be written"
-                                                                 : "what is printed could not be written";
-  return {knead::ErrorKind::input, what + reason, "standard output", "is it closed, or the disk full?"};
+  const char* const what = knead::cli::written_outputs().empty()
+                               ? "the output could not be written"
+                               : "what is printed could not be written";
+  return {knead::ErrorKind::input, what + reason, "standard output",
+          "is it closed, or the disk full?"};
 }
 
 int run(int argc, char** argv) {
   CLI::App app(
-      "Knead sculpts exact B-spline and NURBS geometry: the CAD file that comes out is the one that went in,\n"
+      "Knead sculpts exact B-spline and NURBS geometry: the CAD file that comes out is the one "
+      "that went in,\n"
       "with the sculpted surface changed and nothing else.",
       "knead");
   app.set_version_flag("--version", std::string("knead ") + KNEAD_VERSION);
@@ -125,8 +130,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   occupy_standard_streams();
-  // The library's failures are values. What is left comes from the standard library: no memory, or no place to print
-  // to.
+  // The library's failures are values. What is left comes from the standard library: no memory, or
+  // no place to print to.
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -43,7 +43,8 @@ Expected<std::array<double, N>> list(const std::string& text, const std::string&
   const auto numbers = parse_numbers(text, option);
   if (!numbers) return std::unexpected(numbers.error());
   if (numbers->size() != N) {
-    return usage_error(fmt::format("{} numbers do not fit", numbers->size()), option, fmt::format("write {}", N));
+    return usage_error(fmt::format("{} numbers do not fit", numbers->size()), option,
+                       fmt::format("write {}", N));
   }
   std::array<double, N> result{};
   std::ranges::copy(*numbers, result.begin());
@@ -54,16 +55,19 @@ Expected<std::array<double, N>> list(const std::string& text, const std::string&
 Expected<void> check_used(const MatricesArguments& options) {
   const bool file = !options.file.empty();
   if (!file && !options.surface.empty()) {
-    return usage_error("there is no file that would have it", "--surface", "name a CAD file, or leave it out");
+    return usage_error("there is no file that would have it", "--surface",
+                       "name a CAD file, or leave it out");
   }
   if (file && (options.degree || !options.knots.weights.empty())) {
-    return usage_error("a surface of a file has its own", options.degree ? "--degree" : "--weights", "leave it out");
+    return usage_error("a surface of a file has its own", options.degree ? "--degree" : "--weights",
+                       "leave it out");
   }
   if (!file && options.knots.weights.empty() && options.rational.given()) {
     return usage_error("without weights nothing is rational", "--tolerance, --denominator",
                        "leave them out, or give --weights");
   }
-  for (const auto& [option, value] : {std::pair("--mass", options.mass), std::pair("--damping", options.damping)}) {
+  for (const auto& [option, value] :
+       {std::pair("--mass", options.mass), std::pair("--damping", options.damping)}) {
     if (std::isfinite(value)) continue;
     return usage_error(fmt::format("{} is no finite number", value), option, "write a decimal");
   }
@@ -81,8 +85,9 @@ Expected<Surface> read_shape(const MatricesArguments& options, std::string& id) 
   if (!source) return std::unexpected(source.error());
   const auto& surfaces = (*source)->surfaces();
   if (options.surface.empty() && surfaces.size() != 1) {
-    return usage_error(fmt::format("{} has {}", options.file, counted(surfaces.size(), "surface", "surfaces")),
-                       "--surface", "name one; `knead info` lists them");
+    return usage_error(
+        fmt::format("{} has {}", options.file, counted(surfaces.size(), "surface", "surfaces")),
+        "--surface", "name one; `knead info` lists them");
   }
   for (const SourceSurface& s : surfaces) {
     if (!options.surface.empty() && s.id != options.surface) continue;
@@ -102,12 +107,12 @@ class Writer {
     return {};
   }
 
-  /// Writes all into `directory`, by way of one beside them. Errors (input): what the system says; the directory is as
-  /// it was then.
+  /// Writes all into `directory`, by way of one beside them. Errors (input): what the system says;
+  /// the directory is as it was then.
   [[nodiscard]] Expected<void> write(const std::filesystem::path& directory) const;
 
-  Expected<void> matrix(const std::string& name, const std::string& formula, const SparseMatrix& matrix,
-                        double error_bound) {
+  Expected<void> matrix(const std::string& name, const std::string& formula,
+                        const SparseMatrix& matrix, double error_bound) {
     if (auto done = file(name + ".mtx", matrix_market(matrix, true)); !done) return done;
     if (auto done = file(name + ".npz", npz(matrix)); !done) return done;
     written.push_back({{"name", name},
@@ -120,7 +125,8 @@ class Writer {
     return {};
   }
 
-  Expected<void> array(const std::string& name, const std::string& formula, const Expected<std::string>& bytes) {
+  Expected<void> array(const std::string& name, const std::string& formula,
+                       const Expected<std::string>& bytes) {
     written.push_back({{"name", name}, {"formula", formula}, {"files", {name + ".npy"}}});
     return file(name + ".npy", bytes);
   }
@@ -157,12 +163,15 @@ Expected<void> Writer::write(const fs::path& directory) const {
   const std::vector<fs::path> made = missing(directory);
   std::error_code problem;
   fs::create_directories(directory, problem);
-  if (problem) return input_error("the directory cannot be made: " + problem.message(), "--out", "name another one");
+  if (problem)
+    return input_error("the directory cannot be made: " + problem.message(), "--out",
+                       "name another one");
   const auto write_all = [&]() -> Expected<void> {
     std::string name = (directory / ".knead-set-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
-      return input_error("nothing can be written into the directory: " + std::generic_category().message(errno),
-                         "--out", "name another one");
+      return input_error(
+          "nothing can be written into the directory: " + std::generic_category().message(errno),
+          "--out", "name another one");
     }
     const Passing beside(name);
     for (const auto& [file, bytes] : files_) {
@@ -175,13 +184,16 @@ Expected<void> Writer::write(const fs::path& directory) const {
     }
     for (const auto& [file, bytes] : files_) {
       fs::rename(beside.path / file, directory / file, problem);
-      if (problem) return input_error("it cannot be replaced: " + problem.message(), (directory / file).string());
+      if (problem)
+        return input_error("it cannot be replaced: " + problem.message(),
+                           (directory / file).string());
     }
     return {};
   };
   auto done = write_all();
   if (done) return done;
-  for (auto at = made.rbegin(); at != made.rend(); ++at) fs::remove(*at, problem);  // if they are empty
+  for (auto at = made.rbegin(); at != made.rend(); ++at)
+    fs::remove(*at, problem);  // if they are empty
   return done;
 }
 
@@ -192,11 +204,13 @@ Expected<void> run(const MatricesArguments& options) {
   }
   if (auto used = check_used(options); !used) return used;
   if (options.units != "raw" && options.units != "normalised") {
-    return usage_error(fmt::format("\"{}\" is no kind of units", options.units), "--units", "write raw or normalised");
+    return usage_error(fmt::format("\"{}\" is no kind of units", options.units), "--units",
+                       "write raw or normalised");
   }
   const auto alpha = list<3>(options.alpha, "--alpha"), beta = list<3>(options.beta, "--beta");
   const auto load = list<3>(options.load, "--load");
-  if (!alpha || !beta || !load) return std::unexpected(!alpha ? alpha.error() : !beta ? beta.error() : load.error());
+  if (!alpha || !beta || !load)
+    return std::unexpected(!alpha ? alpha.error() : !beta ? beta.error() : load.error());
   const auto material = of_option(validated({*alpha, *beta}), "--alpha, --beta");
   if (!material) return std::unexpected(material.error());
   std::string id;
@@ -218,13 +232,18 @@ Expected<void> run(const MatricesArguments& options) {
   for (const NamedEnergy& named : system_energies(*material, options.mass, options.damping)) {
     const auto made = system.of(named.energy);
     if (!made) return std::unexpected(made.error());
-    if (auto done = writer.matrix(named.name, named.formula, made->matrix, made->error_bound); !done) return done;
+    if (auto done = writer.matrix(named.name, named.formula, made->matrix, made->error_bound);
+        !done)
+      return done;
   }
   const auto forces = system.forces({(*load)[0], (*load)[1], (*load)[2]});
   if (!forces) return std::unexpected(forces.error());
   if (auto done = writer.array("F", "load int R_i", npy(*forces)); !done) return done;
-  if (auto done = writer.array("points", "control points", npy(system.points())); !done) return done;
-  if (auto done = writer.array("free", "unknowns of the rows, of all m n", npy(system.free())); !done) return done;
+  if (auto done = writer.array("points", "control points", npy(system.points())); !done)
+    return done;
+  if (auto done = writer.array("free", "unknowns of the rows, of all m n", npy(system.free()));
+      !done)
+    return done;
 
   Json knots = Json::array();
   for (int d = 0; d < 2; ++d) {
@@ -239,7 +258,8 @@ Expected<void> run(const MatricesArguments& options) {
       {"net", net},
       {"knots", std::move(knots)},
       {"weights", std::vector<double>(weights.begin(), weights.end())},
-      {"ordering", "control point (i, j) of the net m x n is unknown i n + j, from 0; the same for x, y and z"},
+      {"ordering",
+       "control point (i, j) of the net m x n is unknown i n + j, from 0; the same for x, y and z"},
       {"units", options.units},
       {"length", scaling.length},
       {"factors", scaling.factors},
@@ -253,7 +273,8 @@ Expected<void> run(const MatricesArguments& options) {
       {"matrices", writer.written}};
   if (auto done = writer.file("matrices.json", description.dump(1) + "\n"); !done) return done;
   if (auto done = writer.write(options.out); !done) return done;
-  say("wrote {} matrices and arrays of {} unknowns to {}\n", writer.written.size(), system.free().size(), options.out);
+  say("wrote {} matrices and arrays of {} unknowns to {}\n", writer.written.size(),
+      system.free().size(), options.out);
   return {};
 }
 
@@ -261,27 +282,35 @@ Expected<void> run(const MatricesArguments& options) {
 
 Action add_matrices(CLI::App& app) {
   auto options = std::make_shared<MatricesArguments>();
-  CLI::App* command =
-      app.add_subcommand("matrices", "write stiffness, mass, damping and load of a surface for other programs");
+  CLI::App* command = app.add_subcommand(
+      "matrices", "write stiffness, mass, damping and load of a surface for other programs");
   command->add_option("FILE", options->file, cad_file_help())->type_name("");
-  command->add_option("--surface", options->surface, "its surface, such as #285; may be left out where there is one");
+  command->add_option("--surface", options->surface,
+                      "its surface, such as #285; may be left out where there is one");
   command->add_option("--degree", options->degree,
                       "without a file: degree, or one per direction as in 3x2 (default 3)");
   options->knots.add_to(*command, "without a file: ");
-  command->add_option("--out", options->out, "directory for the files; made if it is missing")->required();
-  command->add_option("--alpha", options->alpha, "stretch coefficients a11,a12,a22 (default 1,0,1)");
-  command->add_option("--beta", options->beta, "bend coefficients b11,b12,b22 (default 0.01,0.01,0.01)");
+  command->add_option("--out", options->out, "directory for the files; made if it is missing")
+      ->required();
+  command->add_option("--alpha", options->alpha,
+                      "stretch coefficients a11,a12,a22 (default 1,0,1)");
+  command->add_option("--beta", options->beta,
+                      "bend coefficients b11,b12,b22 (default 0.01,0.01,0.01)");
   command->add_option("--mass", options->mass, "mass per measure of the domain (default 1)");
-  command->add_option("--damping", options->damping, "damping per measure of the domain (default 1)");
-  command->add_option("--load", options->load, "load per measure of the domain, x,y,z (default 0,0,1)");
+  command->add_option("--damping", options->damping,
+                      "damping per measure of the domain (default 1)");
+  command->add_option("--load", options->load,
+                      "load per measure of the domain, x,y,z (default 0,0,1)");
   command->add_option("--units", options->units, "raw, or normalised as in scripts (default raw)");
   options->rational.add_to(*command);
   command->add_option("--hold", options->hold,
                       "rows of control points held on each side, which are left out (default 0)");
   options->unpack.add_to(*command);
   command->footer(
-      "Each matrix is written as Matrix Market text (lower triangle) and as NumPy's .npz for scipy.sparse.load_npz,\n"
-      "F, the control points and the numbers of the free unknowns as .npy, all described in matrices.json.\n" +
+      "Each matrix is written as Matrix Market text (lower triangle) and as NumPy's .npz for "
+      "scipy.sparse.load_npz,\n"
+      "F, the control points and the numbers of the free unknowns as .npy, all described in "
+      "matrices.json.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };
 }

@@ -17,7 +17,8 @@ Expected<std::vector<double>> parse_numbers(const std::string& text, const std::
     while (at != end && is_space(*at)) ++at;
     if (at == end) return numbers;
     if (*at == ',') {
-      return usage_error("there is no number before this comma", fmt::format("{} entry {}", option, numbers.size()),
+      return usage_error("there is no number before this comma",
+                         fmt::format("{} entry {}", option, numbers.size()),
                          "write decimals separated by single commas");
     }
     const char* stop = at;
@@ -27,11 +28,13 @@ Expected<std::vector<double>> parse_numbers(const std::string& text, const std::
     const auto [parsed, code] = std::from_chars(first, stop, value);
     if (code == std::errc::result_out_of_range || (code == std::errc{} && !std::isfinite(value))) {
       return usage_error(fmt::format("\"{}\" is not a finite number", std::string(at, stop)),
-                         fmt::format("{} entry {}", option, numbers.size()), "use numbers below 1.8e308");
+                         fmt::format("{} entry {}", option, numbers.size()),
+                         "use numbers below 1.8e308");
     }
     if (code != std::errc{} || parsed != stop) {
       return usage_error(fmt::format("\"{}\" is not a number", std::string(at, stop)),
-                         fmt::format("{} entry {}", option, numbers.size()), "write decimals separated by commas");
+                         fmt::format("{} entry {}", option, numbers.size()),
+                         "write decimals separated by commas");
     }
     numbers.push_back(value);
     at = stop;
@@ -42,11 +45,13 @@ Expected<std::vector<double>> parse_numbers(const std::string& text, const std::
 
 std::string gramian_method_help() {
   return fmt::format("Gramians by: {}, {}, {} or {} (default {})", name(GramianMethod::gauss),
-                     name(GramianMethod::gauss_reduced), name(GramianMethod::analytic), name(GramianMethod::recurrence),
-                     name(default_gramian_method));
+                     name(GramianMethod::gauss_reduced), name(GramianMethod::analytic),
+                     name(GramianMethod::recurrence), name(default_gramian_method));
 }
 
-std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null"; }
+std::string json_number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null";
+}
 
 std::string counted(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);

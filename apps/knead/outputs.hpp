@@ -14,18 +14,20 @@ struct NamedFile {
   std::string option, path;
 };
 
-/// Checks before the work begins whether the results can be written. Errors: an output that is the same
-/// file as another output or as one of `inputs` (usage); a directory that is missing or not writable (input). Devices
-/// and pipes are always assumed writable, and different from one another.
-[[nodiscard]] Expected<void> check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
+/// Checks before the work begins whether the results can be written. Errors: an output that is the
+/// same file as another output or as one of `inputs` (usage); a directory that is missing or not
+/// writable (input). Devices and pipes are always assumed writable, and different from one another.
+[[nodiscard]] Expected<void> check_outputs(const std::vector<NamedFile>& outputs,
+                                           const std::vector<NamedFile>& inputs);
 
 /// A new file of the faces of a session as they are now. Warns of what it leaves out.
 [[nodiscard]] Expected<std::string> bytes_of_faces(const Session& session, const Format& format,
                                                    const SaveOptions& how);
 
-/// A usage error where `path` has another ending than `ending`: its name would promise what is not written. A name
-/// without an ending, and a device, promise nothing.
-[[nodiscard]] Expected<void> check_name(const NamedFile& output, std::string_view ending, std::string_view content);
+/// A usage error where `path` has another ending than `ending`: its name would promise what is not
+/// written. A name without an ending, and a device, promise nothing.
+[[nodiscard]] Expected<void> check_name(const NamedFile& output, std::string_view ending,
+                                        std::string_view content);
 
 /// `write_file_atomically`, remembered: an error that comes later says that this one is written.
 [[nodiscard]] Expected<void> write_output(const std::string& path, std::string_view bytes);

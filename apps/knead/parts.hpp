@@ -4,7 +4,8 @@
 
 namespace knead::cli {
 
-/// The parts of an assembly and where they stand; nothing for a file whose coordinates are the model's.
+/// The parts of an assembly and where they stand; nothing for a file whose coordinates are the
+/// model's.
 void print_parts(const FileInfo& info);
 
 }  // namespace knead::cli

@@ -6,11 +6,12 @@
 
 namespace knead::cli {
 
-Expected<std::array<int, 2>> parse_pair(const std::string& text, const std::string& option, bool one_for_both) {
+Expected<std::array<int, 2>> parse_pair(const std::string& text, const std::string& option,
+                                        bool one_for_both) {
   const auto wrong = [&] {
-    return usage_error(
-        fmt::format("\"{}\" does not fit", text), option,
-        one_for_both ? "write one whole number, or two as in 3x2" : "write two whole numbers as in 64x64");
+    return usage_error(fmt::format("\"{}\" does not fit", text), option,
+                       one_for_both ? "write one whole number, or two as in 3x2"
+                                    : "write two whole numbers as in 64x64");
   };
   std::array<int, 2> pair{};
   const char *at = text.data(), *end = at + text.size();
@@ -30,11 +31,13 @@ Expected<std::array<int, 2>> parse_pair(const std::string& text, const std::stri
 void PlainSurfaceOption::add_to(CLI::App& command, const std::string& purpose) {
   command.add_option("--knots-u", u, purpose + "knots of the first direction");
   command.add_option("--knots-v", v, purpose + "knots of the second direction");
-  command.add_option("--weights", weights, purpose + "weights of all control points, v fast (default: none)");
+  command.add_option("--weights", weights,
+                     purpose + "weights of all control points, v fast (default: none)");
 }
 
 Expected<Surface> PlainSurfaceOption::read(const std::array<int, 2>& degree) const {
-  std::array<KnotVector, 2> knots = {*KnotVector::clamped_uniform(1, 2), *KnotVector::clamped_uniform(1, 2)};
+  std::array<KnotVector, 2> knots = {*KnotVector::clamped_uniform(1, 2),
+                                     *KnotVector::clamped_uniform(1, 2)};
   for (std::size_t d = 0; d < 2; ++d) {
     const std::string option = d == 0 ? "--knots-u" : "--knots-v";
     auto values = parse_numbers(d == 0 ? u : v, option);
@@ -51,7 +54,8 @@ Expected<Surface> PlainSurfaceOption::read(const std::array<int, 2>& degree) con
   }
   const int m = knots[0].count(), n = knots[1].count();
   Points points(m * n, 3);
-  for (int k = 0; k < m * n; ++k) points.row(k) << knots[0].greville(k / n), knots[1].greville(k % n), 0;
+  for (int k = 0; k < m * n; ++k)
+    points.row(k) << knots[0].greville(k / n), knots[1].greville(k % n), 0;
   return of_option(Surface::create(std::move(knots), std::move(points), std::move(all)),
                    weights.empty() ? "--knots-u, --knots-v" : "--weights");
 }

@@ -9,10 +9,11 @@
 namespace knead::cli {
 
 /// "3" or "3x2": one whole number per direction. A usage error names `option`.
-[[nodiscard]] Expected<std::array<int, 2>> parse_pair(const std::string& text, const std::string& option,
-                                                      bool one_for_both);
+[[nodiscard]] Expected<std::array<int, 2>> parse_pair(const std::string& text,
+                                                      const std::string& option, bool one_for_both);
 
-/// --knots-u, --knots-v and --weights: a surface over its own parameters, S(s, t) = (s, t, 0) where it has no weights.
+/// --knots-u, --knots-v and --weights: a surface over its own parameters, S(s, t) = (s, t, 0) where
+/// it has no weights.
 struct PlainSurfaceOption {
   std::string u, v, weights;
 

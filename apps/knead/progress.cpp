@@ -25,7 +25,9 @@ void remember_interrupt(int) {
 }  // namespace
 
 ProgressLine::ProgressLine()
-    : terminal_(isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()), shown_(start_) {}
+    : terminal_(isatty(STDERR_FILENO) != 0),
+      start_(std::chrono::steady_clock::now()),
+      shown_(start_) {}
 
 ProgressLine::~ProgressLine() {
   if (shown_ > start_) say(stderr, "\r\x1b[K");
@@ -33,7 +35,9 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::show(const char* what, std::size_t done, std::size_t total) {
   const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ || now - start_ < std::chrono::seconds(1) || now - shown_ < std::chrono::milliseconds(100)) return;
+  if (!terminal_ || now - start_ < std::chrono::seconds(1) ||
+      now - shown_ < std::chrono::milliseconds(100))
+    return;
   print(fmt::format("{} {} of {}", what, done, total));
 }
 
@@ -51,7 +55,8 @@ void announce_reading(ProgressLine& line, const std::string& name) {
   constexpr std::uintmax_t large = 8U << 20U;
   std::error_code failed;
   const std::uintmax_t size = std::filesystem::file_size(name, failed);
-  if (!failed && size >= large) line.announce(fmt::format("reading {}, {} MB", printable(name, 60), size >> 20U));
+  if (!failed && size >= large)
+    line.announce(fmt::format("reading {}, {} MB", printable(name, 60), size >> 20U));
 }
 
 Interrupt::Interrupt() { std::signal(SIGINT, remember_interrupt); }

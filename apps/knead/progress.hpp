@@ -6,8 +6,8 @@
 
 namespace knead::cli {
 
-/// A line on standard error that says how far the work has come, when that is a terminal and the work has taken more
-/// than a second; removed at the end.
+/// A line on standard error that says how far the work has come, when that is a terminal and the
+/// work has taken more than a second; removed at the end.
 class ProgressLine {
  public:
   ProgressLine();
@@ -30,7 +30,8 @@ class ProgressLine {
 /// Announces that a file is read, where that takes a while.
 void announce_reading(ProgressLine& line, const std::string& name);
 
-/// From its construction on, Ctrl+C asks to stop instead of ending the program; a second one ends it at once.
+/// From its construction on, Ctrl+C asks to stop instead of ending the program; a second one ends
+/// it at once.
 class Interrupt {
  public:
   Interrupt();

@@ -7,10 +7,12 @@
 namespace knead::cli {
 
 void RationalOption::add_to(CLI::App& command) {
-  command.add_option("--tolerance", tolerance,
-                     "with weights: the largest error of an entry, relative to its diagonal (default 1e-10)");
+  command.add_option(
+      "--tolerance", tolerance,
+      "with weights: the largest error of an entry, relative to its diagonal (default 1e-10)");
   command.add_option("--denominator", denominator,
-                     "with weights: exact, or constant on every element as in the thesis, whose error has no bound");
+                     "with weights: exact, or constant on every element as in the thesis, whose "
+                     "error has no bound");
 }
 
 Expected<StiffnessOptions> RationalOption::read() const {
@@ -26,12 +28,14 @@ Expected<StiffnessOptions> RationalOption::read() const {
   }
   StiffnessOptions options;
   options.rational_tolerance = wanted;
-  options.denominator = kind == "exact" ? RationalDenominator::exact : RationalDenominator::constant;
+  options.denominator =
+      kind == "exact" ? RationalDenominator::exact : RationalDenominator::constant;
   return options;
 }
 
 std::string RationalOption::describe(double error_bound) {
-  if (!std::isfinite(error_bound)) return "the denominator is constant on every element: the error has no bound";
+  if (!std::isfinite(error_bound))
+    return "the denominator is constant on every element: the error has no bound";
   return fmt::format("no entry errs by more than {:.2g} of its diagonal", error_bound);
 }
 

@@ -34,8 +34,9 @@ Expected<Script> read_script(const std::string& name) {
 
 Expected<void> check_source(const std::string& file, bool fresh) {
   if (fresh != file.empty()) {
-    return usage_error(fresh ? "both a file and --new are given" : "neither a file nor --new is given", "FILE",
-                       "name a STEP file, or give --new to start without one");
+    return usage_error(
+        fresh ? "both a file and --new are given" : "neither a file nor --new is given", "FILE",
+        "name a STEP file, or give --new to start without one");
   }
   return {};
 }
@@ -56,13 +57,15 @@ Expected<Execution> execute(Session& session, const Script& script, bool stops) 
   const auto go_on = [&] { return !(stops && Interrupt::asked()); };
   Execution execution;
   for (const Command& command : script.commands) {
-    if (execution.commands == script.implied) session.begin_history();  // what a script begins with is not undone
+    if (execution.commands == script.implied)
+      session.begin_history();  // what a script begins with is not undone
     const auto place = place_in(script, execution.commands);
     work_on(script.name + (place ? fmt::format(": commands[{}]", *place) : ""));
     auto done = session.execute(command, progress, go_on);
     if (stops && Interrupt::asked()) return execution;
     if (!done)
-      return std::unexpected(error_at_command(std::move(done.error()), session.document(), script.name, place));
+      return std::unexpected(
+          error_at_command(std::move(done.error()), session.document(), script.name, place));
     ++execution.commands;
   }
   work_on({});

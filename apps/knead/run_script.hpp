@@ -21,16 +21,20 @@ struct Script {
 /// A usage error where both a file and none, or neither, is asked for.
 [[nodiscard]] Expected<void> check_source(const std::string& file, bool fresh);
 /// Opens a CAD file, or begins without one.
-[[nodiscard]] Expected<Document> open_document(const std::string& file, bool fresh, const UnpackOption& most);
+[[nodiscard]] Expected<Document> open_document(const std::string& file, bool fresh,
+                                               const UnpackOption& most);
 
 /// How far a script came.
 struct Execution {
-  std::size_t commands = 0;  ///< so many are done; of the next one, if it is `step`, some steps may be
+  /// So many are done; of the next one, if it is `step`, some steps may be.
+  std::size_t commands = 0;
   bool complete = false;
 };
 
-/// Executes all commands, with progress on a terminal; with `stops`, until Ctrl+C is pressed (`Interrupt`). The error
-/// names the script, the command, and the CAD file where it is about an entity of that.
-[[nodiscard]] Expected<Execution> execute(Session& session, const Script& script, bool stops = false);
+/// Executes all commands, with progress on a terminal; with `stops`, until Ctrl+C is pressed
+/// (`Interrupt`). The error names the script, the command, and the CAD file where it is about an
+/// entity of that.
+[[nodiscard]] Expected<Execution> execute(Session& session, const Script& script,
+                                          bool stops = false);
 
 }  // namespace knead::cli

@@ -8,12 +8,14 @@ namespace knead::cli {
 
 Action add_schema(CLI::App& app) {
   auto form = std::make_shared<std::string>("script");
-  CLI::App* command = app.add_subcommand("schema", "print the JSON schema of scripts or of Knead documents");
+  CLI::App* command =
+      app.add_subcommand("schema", "print the JSON schema of scripts or of Knead documents");
   command->add_option("FORM", *form, "script (default) or document")->type_name("");
   command->footer(std::string(exit_codes));
   return [form]() -> Expected<void> {
     if (*form != "script" && *form != "document") {
-      return usage_error("there is no schema of \"" + *form + "\"", "FORM", "the forms are: script, document");
+      return usage_error("there is no schema of \"" + *form + "\"", "FORM",
+                         "the forms are: script, document");
     }
     say("{}", *form == "script" ? script_schema() : document_schema());
     return {};

@@ -34,9 +34,10 @@ Expected<void> write_results(const std::vector<SnakeResult>& snakes, const Snake
                              const Image& image) {
   if (!options.output.empty()) {
     const std::string ending = std::filesystem::path(options.output).extension().string();
-    const std::string text = ending == ".csv"   ? snakes_csv(snakes)
-                             : ending == ".svg" ? snakes_svg(snakes, image.width, image.height)
-                                                : snakes_json(snakes, options.image, image.width, image.height);
+    const std::string text = ending == ".csv" ? snakes_csv(snakes)
+                             : ending == ".svg"
+                                 ? snakes_svg(snakes, image.width, image.height)
+                                 : snakes_json(snakes, options.image, image.width, image.height);
     if (auto done = write_output(options.output, text); !done) return done;
   }
   if (options.mask.empty()) return {};
@@ -48,7 +49,8 @@ Expected<void> write_results(const std::vector<SnakeResult>& snakes, const Snake
 Expected<void> run_image_snake(const SnakeArguments& options, std::string_view bytes) {
   const std::string ending = std::filesystem::path(options.output).extension().string();
   if (!options.output.empty() && ending != ".json" && ending != ".csv" && ending != ".svg") {
-    return usage_error(fmt::format("\"{}\" is no kind of contour", ending), "--output", "name it .json, .csv or .svg");
+    return usage_error(fmt::format("\"{}\" is no kind of contour", ending), "--output",
+                       "name it .json, .csv or .svg");
   }
   const std::string kind = std::filesystem::path(options.mask).extension().string();
   if (!options.mask.empty() && kind != ".png") {
@@ -86,9 +88,9 @@ Expected<void> run_image_snake(const SnakeArguments& options, std::string_view b
     say("snake {}: {} control points, {} iterations, {}{}\n", k,
         s.curve.size() - (s.closed ? s.curve.knots()[0].degree() : 0), s.iterations,
         s.converged ? "at rest" : "not at rest",
-        crossed > 0
-            ? fmt::format(", crosses itself at {}", counted(static_cast<std::size_t>(crossed), "place", "places"))
-            : "");
+        crossed > 0 ? fmt::format(", crosses itself at {}",
+                                  counted(static_cast<std::size_t>(crossed), "place", "places"))
+                    : "");
   }
   return write_results(*snakes, options, *image);
 }
@@ -105,17 +107,23 @@ Expected<void> run(const SnakeArguments& options) {
 
 Action add_snake(CLI::App& app) {
   auto options = std::make_shared<SnakeArguments>();
-  CLI::App* command =
-      app.add_subcommand("snake", "find contours in an image, or surfaces in a volume, by active B-splines");
-  command->add_option("IMAGE", options->image, "PNG or JPEG file; or a volume (raw NRRD)")->required()->type_name("");
+  CLI::App* command = app.add_subcommand(
+      "snake", "find contours in an image, or surfaces in a volume, by active B-splines");
+  command->add_option("IMAGE", options->image, "PNG or JPEG file; or a volume (raw NRRD)")
+      ->required()
+      ->type_name("");
   command->add_option("--script,-s", options->script,
-                      "JSON: energies, settings and where snakes start (default: one around nearly all of the image)");
-  command->add_option("--output,-o", options->output,
-                      "contours: .json, .csv or .svg; surfaces: .step, .json or triangles (.stl, .obj)");
-  command->add_option("--mask", options->mask,
-                      "PNG file for what is inside of closed contours, white on black; NRRD file in volumes");
-  command->footer("docs/snakes.md and docs/voxels.md explain the energies and the fields of a script.\n" +
-                  std::string(exit_codes));
+                      "JSON: energies, settings and where snakes start (default: one around nearly "
+                      "all of the image)");
+  command->add_option(
+      "--output,-o", options->output,
+      "contours: .json, .csv or .svg; surfaces: .step, .json or triangles (.stl, .obj)");
+  command->add_option(
+      "--mask", options->mask,
+      "PNG file for what is inside of closed contours, white on black; NRRD file in volumes");
+  command->footer(
+      "docs/snakes.md and docs/voxels.md explain the energies and the fields of a script.\n" +
+      std::string(exit_codes));
   return [options] { return run(*options); };
 }
 

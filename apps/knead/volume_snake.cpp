@@ -28,7 +28,8 @@ Expected<VolumeSnakeScript> script_of(const SnakeArguments& options, const Volum
 }
 
 /// The surfaces in any format that can be written anew, or their points as triangles.
-Expected<std::string> surfaces_in(const std::vector<SurfaceSnakeResult>& snakes, const std::string& name) {
+Expected<std::string> surfaces_in(const std::vector<SurfaceSnakeResult>& snakes,
+                                  const std::string& name) {
   auto format = format_of_name(name, FormatContent::surfaces);
   if (!format) format = format_of_name(name, FormatContent::triangles);
   if (!format) return std::unexpected(format.error());
@@ -48,7 +49,8 @@ Expected<void> check_arguments(const SnakeArguments& options) {
     auto format = format_of_name(options.output, FormatContent::surfaces);
     if (!format) format = format_of_name(options.output, FormatContent::triangles);
     if (!format || ((*format)->content == FormatContent::surfaces && (*format)->save == nullptr)) {
-      return usage_error(fmt::format("\"{}\" is no kind of surface to write", options.output), "--output",
+      return usage_error(fmt::format("\"{}\" is no kind of surface to write", options.output),
+                         "--output",
                          "name it .step, .json, " + list_of_endings(FormatContent::triangles));
     }
   }
@@ -60,16 +62,18 @@ Expected<void> check_arguments(const SnakeArguments& options) {
                        {{"IMAGE", options.image}, {"--script", options.script}});
 }
 
-Expected<void> write_results(const std::vector<SurfaceSnakeResult>& snakes, const SnakeArguments& options,
-                             const NrrdFile& file) {
+Expected<void> write_results(const std::vector<SurfaceSnakeResult>& snakes,
+                             const SnakeArguments& options, const NrrdFile& file) {
   if (!options.output.empty()) {
-    const auto bytes = is_json(options.output) ? Expected<std::string>(volume_snakes_json(snakes, options.image))
-                                               : surfaces_in(snakes, options.output);
+    const auto bytes = is_json(options.output)
+                           ? Expected<std::string>(volume_snakes_json(snakes, options.image))
+                           : surfaces_in(snakes, options.output);
     if (!bytes) return std::unexpected(bytes.error());
     if (auto done = write_output(options.output, *bytes); !done) return done;
   }
   if (options.mask.empty()) return {};
-  return write_output(options.mask, nrrd_bytes(volume_snakes_mask(snakes, file.volume), file.header.space));
+  return write_output(options.mask,
+                      nrrd_bytes(volume_snakes_mask(snakes, file.volume), file.header.space));
 }
 
 }  // namespace

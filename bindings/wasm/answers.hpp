@@ -13,8 +13,9 @@ inline int answer_in(std::string& text, const nlohmann::json& json) {
   return 1;
 }
 
-/// {"error": {kind, what, where, remedy, message}} as the text of one that has not: 0. Modules without commands have no
-/// codes; `error_json`, which knows them, would make the lab two fifths larger.
+/// {"error": {kind, what, where, remedy, message}} as the text of one that has not: 0. Modules
+/// without commands have no codes; `error_json`, which knows them, would make the lab two fifths
+/// larger.
 inline int fail_in(std::string& text, const Error& error) {
   const char* kind = error.kind == ErrorKind::numerical ? "numerical"
                      : error.kind == ErrorKind::usage   ? "usage"

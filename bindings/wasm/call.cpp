@@ -13,7 +13,8 @@ namespace knead::studio {
 namespace {
 
 Expected<void> read(const Json& json, Commands& commands) {
-  if (!json.is(Json::Kind::list)) return input_error("this is no list of commands", "commands", R"(write [{"do": …}])");
+  if (!json.is(Json::Kind::list))
+    return input_error("this is no list of commands", "commands", R"(write [{"do": …}])");
   for (const Json& one : json.list) {
     auto command = read_command(one);
     if (!command) return std::unexpected(std::move(command.error()));
@@ -28,7 +29,8 @@ void read(const Json& json, Settings& settings) {
     auto& numbers = settings.emplace_back(name, std::vector<double>{}).second;
     if (value.is(Json::Kind::number)) numbers.push_back(value.number);
     for (const Json& entry : value.list) {
-      numbers.push_back(entry.is(Json::Kind::number) ? entry.number : std::numeric_limits<double>::quiet_NaN());
+      numbers.push_back(entry.is(Json::Kind::number) ? entry.number
+                                                     : std::numeric_limits<double>::quiet_NaN());
     }
   }
 }
@@ -51,9 +53,12 @@ Expected<Answer> answered(Studio& studio, std::string input, std::size_t json_si
   input.resize(begin);
   const Json* const name = json->find("query");
   const std::string_view named = name != nullptr ? std::string_view(name->text) : "";
-  const auto query = std::ranges::find(queries(), named, [](const Query& q) { return q.request->name; });
-  if (query == queries().end()) return usage_error(fmt::format("the engine answers no query \"{}\"", named));
-  const auto request = std::ranges::find(json->members, "request", &std::pair<std::string, Json>::first);
+  const auto query =
+      std::ranges::find(queries(), named, [](const Query& q) { return q.request->name; });
+  if (query == queries().end())
+    return usage_error(fmt::format("the engine answers no query \"{}\"", named));
+  const auto request =
+      std::ranges::find(json->members, "request", &std::pair<std::string, Json>::first);
   if (request == json->members.end()) return usage_error("the query has no request");
   Asked asked{std::move(request->second), std::move(input)};
   return query->ask(studio, asked);
@@ -61,7 +66,8 @@ Expected<Answer> answered(Studio& studio, std::string input, std::size_t json_si
 
 /// What of a value lies in memory: `"name":["Float32Array",1234,96]`.
 std::string memory(std::string_view name, const Type& type, const void* value) {
-  const auto at = reinterpret_cast<std::uintptr_t>(type.count(value) > 0 ? type.part(value) : nullptr);
+  const auto at =
+      reinterpret_cast<std::uintptr_t>(type.count(value) > 0 ? type.part(value) : nullptr);
   return fmt::format(R"("{}":["{}",{},{}])", name, type.name, at, type.count(value));
 }
 
@@ -89,7 +95,8 @@ Expected<void> read_request(Asked& asked, const Type& type, void* request) {
   const auto is_own = [](const Field& field) { return field.type->kind == Kind::opaque; };
   for (const Field& field : type.fields) {
     const bool missing = is_own(field) && asked.json.find(field.name) == nullptr;
-    if (missing && field.presence == Presence::required) return input_error("the field is missing", field.name);
+    if (missing && field.presence == Presence::required)
+      return input_error("the field is missing", field.name);
   }
   for (const auto& [name, json] : asked.json.members) {
     const Field* const field = type.find(name);
@@ -98,7 +105,8 @@ Expected<void> read_request(Asked& asked, const Type& type, void* request) {
     Expected<void> done;
     if (field->type == &type_of<Commands>()) done = read(json, *static_cast<Commands*>(member));
     if (field->type == &type_of<Settings>()) read(json, *static_cast<Settings*>(member));
-    if (field->type == &type_of<Bytes>()) done = read(json, *static_cast<Bytes*>(member), asked.bytes);
+    if (field->type == &type_of<Bytes>())
+      done = read(json, *static_cast<Bytes*>(member), asked.bytes);
     if (!done) return done;
   }
   Type others = type;

@@ -1,7 +1,8 @@
-// Basis functions and Gramians of one knot vector as WebAssembly exports them: the studio's lab. The caller
-// writes doubles to `lab_input(count)`, calls, and reads JSON from `lab_text()` and doubles from `lab_buffer(which)`;
-// every call may grow the memory, so views of it must be renewed. Functions that can fail return 0 on failure; the text
-// is then {"error": …}, and the previous state stays.
+// Basis functions and Gramians of one knot vector as WebAssembly exports them: the studio's lab.
+// The caller writes doubles to `lab_input(count)`, calls, and reads JSON from `lab_text()` and
+// doubles from `lab_buffer(which)`; every call may grow the memory, so views of it must be renewed.
+// Functions that can fail return 0 on failure; the text is then {"error": …}, and the previous
+// state stays.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -40,14 +41,17 @@ Lab& held() {
 int answer(const Json& json) { return answer_in(held().text, json); }
 int fail(const Error& error) { return fail_in(held().text, error); }
 
-int without_knots() { return fail({ErrorKind::usage, "there are no knots", {}, "give a knot vector first"}); }
+int without_knots() {
+  return fail({ErrorKind::usage, "there are no knots", {}, "give a knot vector first"});
+}
 
 std::optional<Error> wrong_order(int order) {
   if (-most_integrals <= order && order <= highest_order) return {};
-  return Error{ErrorKind::usage,
-               fmt::format("order {} is out of range", order),
-               {},
-               fmt::format("use {} to {}; negative orders are integrals", -most_integrals, highest_order)};
+  return Error{
+      ErrorKind::usage,
+      fmt::format("order {} is out of range", order),
+      {},
+      fmt::format("use {} to {}; negative orders are integrals", -most_integrals, highest_order)};
 }
 
 Json names(const std::array<GramianMethod, 3>& methods) {
@@ -70,8 +74,8 @@ KNEAD_EXPORT(lab_input) double* lab_input(std::size_t count) {
 KNEAD_EXPORT(lab_text) const char* lab_text() { return held().text.data(); }
 KNEAD_EXPORT(lab_text_size) std::size_t lab_text_size() { return held().text.size(); }
 
-/// Sets the knot vector of all following calls from the input: {"count", "domain", "clamped", "greville", "integrals"},
-/// the last two per function, ∫N_i over the line.
+/// Sets the knot vector of all following calls from the input: {"count", "domain", "clamped",
+/// "greville", "integrals"}, the last two per function, ∫N_i over the line.
 KNEAD_EXPORT(lab_knots) int lab_knots(int degree) {
   auto made = KnotVector::create(degree, held().input);
   if (!made) return fail(made.error());
@@ -89,12 +93,16 @@ KNEAD_EXPORT(lab_knots) int lab_knots(int degree) {
                  {"integrals", std::move(integrals)}});
 }
 
-/// Samples all functions: buffers 0 points, 1 offsets (32-bit integers), 2 impulses, as in `Curves`.
+/// Samples all functions: buffers 0 points, 1 offsets (32-bit integers), 2 impulses, as in
+/// `Curves`.
 KNEAD_EXPORT(lab_curves) int lab_curves(int order, int pixels) {
   if (!held().knots) return without_knots();
   if (const auto wrong = wrong_order(order)) return fail(*wrong);
   const Curves& c = held().curves = sample_curves(*held().knots, order, pixels);
-  return answer({{"lowest", c.lowest}, {"highest", c.highest}, {"weight", c.largest_weight}, {"unity", c.unity}});
+  return answer({{"lowest", c.lowest},
+                 {"highest", c.highest},
+                 {"weight", c.largest_weight},
+                 {"unity", c.unity}});
 }
 
 /// Values of all functions at u, anywhere on the line: buffer 3, and their sum.
@@ -107,11 +115,13 @@ KNEAD_EXPORT(lab_probe) int lab_probe(int order, double u) {
   return answer({{"sum", sum}});
 }
 
-/// Where and how function i is not smooth: [{"knot", "multiplicity", "orders", "jumps"}], jumps of these derivatives.
+/// Where and how function i is not smooth: [{"knot", "multiplicity", "orders", "jumps"}], jumps of
+/// these derivatives.
 KNEAD_EXPORT(lab_jumps) int lab_jumps(int i) {
   if (!held().knots) return without_knots();
   const KnotVector& knots = *held().knots;
-  if (i < 0 || i >= knots.count()) return fail({ErrorKind::usage, fmt::format("there is no basis function {}", i)});
+  if (i < 0 || i >= knots.count())
+    return fail({ErrorKind::usage, fmt::format("there is no basis function {}", i)});
   Json all = Json::array();
   for (const KnotJumps& at : derivative_jumps(knots, i)) {
     all.push_back({{"knot", at.knot},
@@ -122,8 +132,9 @@ KNEAD_EXPORT(lab_jumps) int lab_jumps(int i) {
   return answer(all);
 }
 
-/// The Gramian G^ab by all methods: buffers 4 to 6 values by gauss, analytic, recurrence; 7 the absolute integrals; 8
-/// to 10 differences gauss − recurrence, analytic − recurrence, analytic − gauss; 11 to 13 the same relative to 7.
+/// The Gramian G^ab by all methods: buffers 4 to 6 values by gauss, analytic, recurrence; 7 the
+/// absolute integrals; 8 to 10 differences gauss − recurrence, analytic − recurrence, analytic −
+/// gauss; 11 to 13 the same relative to 7.
 KNEAD_EXPORT(lab_gramians) int lab_gramians(int a, int b) {
   if (!held().knots) return without_knots();
   auto all = compare_gramians(*held().knots, a, b);
@@ -137,10 +148,14 @@ KNEAD_EXPORT(lab_gramians) int lab_gramians(int a, int b) {
                      {"relative", w.relative},
                      {"relativeAt", {w.relative_row, w.relative_column}}});
   }
-  return answer({{"size", g.size}, {"bandwidth", g.half_bandwidth}, {"used", names(g.used)}, {"worst", worst}});
+  return answer({{"size", g.size},
+                 {"bandwidth", g.half_bandwidth},
+                 {"used", names(g.used)},
+                 {"worst", worst}});
 }
 
-/// Seconds per Gramian G^ab of each method, [gauss, analytic, recurrence], measured for `budget` seconds each.
+/// Seconds per Gramian G^ab of each method, [gauss, analytic, recurrence], measured for `budget`
+/// seconds each.
 KNEAD_EXPORT(lab_times) int lab_times(int a, int b, double budget) {
   if (!held().knots) return without_knots();
   const auto seconds = time_gramians(*held().knots, a, b, budget);

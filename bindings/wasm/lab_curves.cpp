@@ -8,8 +8,8 @@
 namespace knead::lab {
 namespace {
 
-/// The same functions, plus `before` in front, on knots whose domain is their whole range: every piece of every
-/// function can be evaluated from either side of its ends.
+/// The same functions, plus `before` in front, on knots whose domain is their whole range: every
+/// piece of every function can be evaluated from either side of its ends.
 struct WholeLine {
   KnotVector knots;
   int before;
@@ -17,9 +17,11 @@ struct WholeLine {
   static WholeLine of(const KnotVector& knots) {
     const int p = knots.degree();
     const auto x = knots.knots();
-    const int before = p + 1 - knots.multiplicity(x.front()), after = p + 1 - knots.multiplicity(x.back());
+    const int before = p + 1 - knots.multiplicity(x.front()),
+              after = p + 1 - knots.multiplicity(x.back());
     auto made = KnotVector::create(p, extended_knots(knots, before, after));
-    return made ? WholeLine{std::move(*made), before} : WholeLine{knots, 0};  // it is valid: nothing else can fail
+    return made ? WholeLine{std::move(*made), before}
+                : WholeLine{knots, 0};  // it is valid: nothing else can fail
   }
 };
 
@@ -84,7 +86,8 @@ class Sampler {
         const double weight = at.of_order(order_ - 1 - k, p);
         if (weight == 0) continue;
         out_.impulses.insert(out_.impulses.end(), {double(i), at.knot, double(k), weight});
-        if (k == 0 && std::isfinite(weight)) out_.largest_weight = std::max(out_.largest_weight, std::abs(weight));
+        if (k == 0 && std::isfinite(weight))
+          out_.largest_weight = std::max(out_.largest_weight, std::abs(weight));
       }
     }
   }
@@ -111,14 +114,17 @@ class Sampler {
 
 }  // namespace
 
-Curves sample_curves(const KnotVector& knots, int order, int pixels) { return Sampler(knots, order, pixels).run(); }
+Curves sample_curves(const KnotVector& knots, int order, int pixels) {
+  return Sampler(knots, order, pixels).run();
+}
 
 std::vector<double> values_at(const KnotVector& knots, int order, double u) {
   std::vector<double> values(static_cast<std::size_t>(knots.count()));
   const WholeLine whole = WholeLine::of(knots);
   for (int i = 0; i < knots.count(); ++i) {
     values[static_cast<std::size_t>(i)] =
-        order < 0 ? basis_integral(knots, i, -order, u) : basis_function(whole.knots, whole.before + i, order, u);
+        order < 0 ? basis_integral(knots, i, -order, u)
+                  : basis_function(whole.knots, whole.before + i, order, u);
   }
   return values;
 }

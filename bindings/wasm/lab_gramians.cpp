@@ -12,9 +12,12 @@ namespace {
 
 struct Band {
   int n, p;
-  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(n) * static_cast<std::size_t>(2 * p + 1); }
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(n) * static_cast<std::size_t>(2 * p + 1);
+  }
   [[nodiscard]] std::size_t at(int i, int j) const {
-    return static_cast<std::size_t>(i) * static_cast<std::size_t>(2 * p + 1) + static_cast<std::size_t>(j - i + p);
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(2 * p + 1) +
+           static_cast<std::size_t>(j - i + p);
   }
   /// act(i, j, place) for all entries of the band.
   template <class Act>
@@ -48,7 +51,8 @@ std::vector<double> absolute_integral(const KnotVector& knots, int a, int b) {
 void subtract(Comparison& all, std::size_t pair) {
   const Band band{all.size, all.half_bandwidth};
   const auto [x, y] = compared_pairs[pair];
-  const auto &first = all.values[static_cast<std::size_t>(x)], &second = all.values[static_cast<std::size_t>(y)];
+  const auto &first = all.values[static_cast<std::size_t>(x)],
+             &second = all.values[static_cast<std::size_t>(y)];
   auto &difference = all.differences[pair], &relative = all.relative[pair];
   difference.assign(band.size(), 0.0);
   relative.assign(band.size(), 0.0);
@@ -57,7 +61,8 @@ void subtract(Comparison& all, std::size_t pair) {
     difference[at] = first[at] - second[at];
     const double size = std::abs(difference[at]);
     relative[at] = size == 0 ? 0 : size / all.absolute_integral[at];
-    if (size > worst.absolute) worst.absolute = size, worst.absolute_row = i, worst.absolute_column = j;
+    if (size > worst.absolute)
+      worst.absolute = size, worst.absolute_row = i, worst.absolute_column = j;
     if (relative[at] > worst.relative) {
       worst.relative = relative[at], worst.relative_row = i, worst.relative_column = j;
     }
@@ -81,7 +86,8 @@ Expected<Comparison> compare_gramians(const KnotVector& knots, int a, int b) {
   return all;
 }
 
-Expected<std::array<double, 3>> time_gramians(const KnotVector& knots, int a, int b, double budget) {
+Expected<std::array<double, 3>> time_gramians(const KnotVector& knots, int a, int b,
+                                              double budget) {
   using Clock = std::chrono::steady_clock;
   std::array<double, 3> seconds{};
   for (std::size_t k = 0; k < compared_methods.size(); ++k) {
@@ -92,7 +98,8 @@ Expected<std::array<double, 3>> time_gramians(const KnotVector& knots, int a, in
     // Browser clocks tick only every 0.1 ms: batches are doubled until they take longer than that.
     constexpr double readable = 0.4e-3;
     double quickest = std::numeric_limits<double>::infinity();
-    for (int runs = 1; quickest == std::numeric_limits<double>::infinity() || passed(start) < budget;) {
+    for (int runs = 1;
+         quickest == std::numeric_limits<double>::infinity() || passed(start) < budget;) {
       const auto begin = Clock::now();
       for (int run = 0; run < runs; ++run) {
         const auto matrix = gramian(knots, a, b, compared_methods[k]);

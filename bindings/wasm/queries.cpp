@@ -20,8 +20,9 @@ std::vector<Query> assembly_queries();
 std::span<const Query> queries() {
   static const std::vector<Query> all = [] {
     std::vector<Query> list;
-    for (auto* const part : {document_queries, act_queries, reading_queries, picture_queries, comb_queries,
-                             body_queries, surface_queries, material_queries, context_queries, assembly_queries}) {
+    for (auto* const part :
+         {document_queries, act_queries, reading_queries, picture_queries, comb_queries,
+          body_queries, surface_queries, material_queries, context_queries, assembly_queries}) {
       std::ranges::copy(part(), std::back_inserter(list));
     }
     return list;

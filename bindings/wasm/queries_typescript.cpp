@@ -13,7 +13,8 @@ std::string request_name(std::string_view query) {
   std::string name;
   bool upper = true;
   for (const char c : query) {
-    if (c != '_') name += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    if (c != '_')
+      name += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
     upper = c == '_';
   }
   return name + "Request";
@@ -29,7 +30,8 @@ void declare_queries(TypeScript& types) {
     table += fmt::format("  {}: {{ request: {}; answer: {} }};\n", query.request->name, name,
                          types.written(*query.answer, "Info", Absent::null));
   }
-  types.text += "/** What the page can ask the engine for. */\nexport interface Queries {\n" + table + "}\n\n";
+  types.text += "/** What the page can ask the engine for. */\nexport interface Queries {\n" +
+                table + "}\n\n";
 }
 
 }  // namespace knead::studio

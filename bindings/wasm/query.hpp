@@ -25,14 +25,16 @@ struct Asked {
 /// What a query answers, in its type.
 struct Answer {
   const Type* type = nullptr;
-  std::unique_ptr<const void, void (*)(const void*)> value = {nullptr, [](const void*) {}};  ///< null: `json`
+  std::unique_ptr<const void, void (*)(const void*)> value = {
+      nullptr, [](const void*) {}};  ///< null: `json`
   std::string json = {};
 };
 
 /// One whose JSON is written already.
 [[nodiscard]] Expected<Answer> written_answer(const Type& type, Expected<std::string> json);
 
-/// The answer A of a result: itself, where it stays until the next call, the text of one of text or bytes, or its JSON.
+/// The answer A of a result: itself, where it stays until the next call, the text of one of text or
+/// bytes, or its JSON.
 template <class A, class Result>
 Expected<Answer> answer_of(Expected<Result> result) {
   constexpr bool text = std::is_same_v<Result, std::string>;
@@ -43,13 +45,15 @@ Expected<Answer> answer_of(Expected<Result> result) {
     if constexpr (std::is_pointer_v<Result>) {
       return Answer{&type_of<A>(), {*result, [](const void*) {}}};
     } else {
-      return Answer{&type_of<A>(),
-                    {new A{*std::move(result)}, [](const void* value) { delete static_cast<const A*>(value); }}};
+      return Answer{&type_of<A>(), {new A{*std::move(result)}, [](const void* value) {
+                                      delete static_cast<const A*>(value);
+                                    }}};
     }
   }
 }
 
-/// A question of the page to the engine. The name, the meaning and the fields are those of the request's description.
+/// A question of the page to the engine. The name, the meaning and the fields are those of the
+/// request's description.
 struct Query {
   const Type* request = nullptr;
   const Type* answer = nullptr;
@@ -57,7 +61,8 @@ struct Query {
   Expected<Answer> (*ask)(Studio& studio, Asked& asked) = nullptr;
 };
 
-/// What a function of the session, or of the studio, answers. Errors: its own; without a session (usage).
+/// What a function of the session, or of the studio, answers. Errors: its own; without a session
+/// (usage).
 template <class A, class Ask>
 Expected<Answer> answer_by(Studio& studio, const Ask& ask) {
   if constexpr (std::is_invocable_v<Ask, Studio&>) {
@@ -67,11 +72,13 @@ Expected<Answer> answer_by(Studio& studio, const Ask& ask) {
   }
 }
 
-/// The query of a described request R, which says the type of its answer (`R::Answer`). Beside it `ask(Studio&, R)` or
-/// `ask(Session&, R)` is defined, which `answer_of` understands; without a session the second is an error (usage).
+/// The query of a described request R, which says the type of its answer (`R::Answer`). Beside it
+/// `ask(Studio&, R)` or `ask(Session&, R)` is defined, which `answer_of` understands; without a
+/// session the second is an error (usage).
 template <class R>
 Query query() {
-  return {&type_of<R>(), &type_of<typename R::Answer>(), [](Studio& studio, Asked& asked) -> Expected<Answer> {
+  return {&type_of<R>(), &type_of<typename R::Answer>(),
+          [](Studio& studio, Asked& asked) -> Expected<Answer> {
             R request;
             if (auto done = read_request(asked, type_of<R>(), &request); !done) {
               return std::unexpected(std::move(done.error()));
@@ -92,21 +99,24 @@ inline void describe(OfSurface& q, Fields& fields) {
   fields.add("surface", q.surface, {.help = "its number", .presence = Presence::required});
 }
 
-/// One whose request has no fields, or is a surface; `ask(Studio&)` or `ask(Studio&, int)`, or of a Session&, answers
-/// an A.
+/// One whose request has no fields, or is a surface; `ask(Studio&)` or `ask(Studio&, int)`, or of a
+/// Session&, answers an A.
 template <class A, auto ask>
 Query query(std::string_view name, std::string_view help) {
-  constexpr bool alone = std::is_invocable_v<decltype(ask), Studio&> || std::is_invocable_v<decltype(ask), Session&>;
+  constexpr bool alone =
+      std::is_invocable_v<decltype(ask), Studio&> || std::is_invocable_v<decltype(ask), Session&>;
   static Type request = alone ? Type() : type_of<OfSurface>();
   request.name = name;
   request.help = help;
   return {&request, &type_of<A>(), [](Studio& studio, Asked& asked) -> Expected<Answer> {
             OfSurface of;
-            if (auto done = read_request(asked, request, &of); !done) return std::unexpected(std::move(done.error()));
+            if (auto done = read_request(asked, request, &of); !done)
+              return std::unexpected(std::move(done.error()));
             if constexpr (alone) {
               return answer_by<A>(studio, ask);
             } else {
-              return answer_by<A>(studio, [&of](auto& by) -> decltype(ask(by, 0)) { return ask(by, of.surface); });
+              return answer_by<A>(
+                  studio, [&of](auto& by) -> decltype(ask(by, 0)) { return ask(by, of.surface); });
             }
           }};
 }

@@ -1,5 +1,5 @@
-// Symbols that Debian's WebAssembly libraries expect and nothing provides: they are compiled with stack protection,
-// which the sandbox does not need.
+// Symbols that Debian's WebAssembly libraries expect and nothing provides: they are compiled with
+// stack protection, which the sandbox does not need.
 #include <cstdint>
 
 extern "C" {

@@ -1,6 +1,7 @@
-// Snakes in an image as WebAssembly exports them: the studio's panel of images. The caller writes bytes to
-// `snake_input(count)`, calls, and reads JSON from `snake_text()` and arrays from `snake_buffer(which)`; every call may
-// grow the memory, so views of it must be renewed. Functions that can fail return 0 on failure; the text is then
+// Snakes in an image as WebAssembly exports them: the studio's panel of images. The caller writes
+// bytes to `snake_input(count)`, calls, and reads JSON from `snake_text()` and arrays from
+// `snake_buffer(which)`; every call may grow the memory, so views of it must be renewed. Functions
+// that can fail return 0 on failure; the text is then
 // {"error": …}, and the previous state stays.
 #include <nlohmann/json.hpp>
 
@@ -28,7 +29,9 @@ Held& held() {
   return value;
 }
 
-std::string_view input_text() { return {reinterpret_cast<const char*>(held().input.data()), held().input.size()}; }
+std::string_view input_text() {
+  return {reinterpret_cast<const char*>(held().input.data()), held().input.size()};
+}
 
 int answer(const Json& json) { return answer_in(held().text, json); }
 int fail(const Error& error) { return fail_in(held().text, error); }
@@ -66,16 +69,20 @@ KNEAD_EXPORT(snake_image) int snake_image(int width, int height) {
 
 /// The mask that `distance` counts from, likewise; 0 × 0: none.
 KNEAD_EXPORT(snake_mask) int snake_mask(int width, int height) {
-  held().room.set_mask(width > 0 ? std::optional(grey_of(held().input, width, height)) : std::nullopt);
+  held().room.set_mask(width > 0 ? std::optional(grey_of(held().input, width, height))
+                                 : std::nullopt);
   return state();
 }
 
-/// The script in the input: settings, and snakes, of which those that are there go on unless `again` is 1.
+/// The script in the input: settings, and snakes, of which those that are there go on unless
+/// `again` is 1.
 KNEAD_EXPORT(snake_script) int snake_script(int again) {
   return state_after(held().room.set_script(input_text(), again != 0));
 }
 
-KNEAD_EXPORT(snake_advance) int snake_advance(int iterations) { return state_after(held().room.advance(iterations)); }
+KNEAD_EXPORT(snake_advance) int snake_advance(int iterations) {
+  return state_after(held().room.advance(iterations));
+}
 
 /// No snakes; the image and the mask stay.
 KNEAD_EXPORT(snake_clear) int snake_clear() {
@@ -87,7 +94,9 @@ KNEAD_EXPORT(snake_clear) int snake_clear() {
 KNEAD_EXPORT(snake_keep) int snake_keep() { return answer({{"kept", held().room.keep()}}); }
 
 /// All is as it was when it was kept.
-KNEAD_EXPORT(snake_restore) int snake_restore(int kept) { return state_after(held().room.restore(kept)); }
+KNEAD_EXPORT(snake_restore) int snake_restore(int kept) {
+  return state_after(held().room.restore(kept));
+}
 
 KNEAD_EXPORT(snake_forget) void snake_forget(int kept) { held().room.forget(kept); }
 
@@ -97,7 +106,8 @@ KNEAD_EXPORT(snake_wake) int snake_wake() { return state_after(held().room.wake(
 /// The user's hand draws the point at the fraction `at` of a snake; snake −1: it lets go.
 KNEAD_EXPORT(snake_pull) int snake_pull(int snake, double at, double x, double y, double strength) {
   if (snake < 0) return state_after(held().room.pull({}));
-  return state_after(held().room.pull(Hand{static_cast<std::size_t>(snake), {at, {x, y}, strength}}));
+  return state_after(
+      held().room.pull(Hand{static_cast<std::size_t>(snake), {at, {x, y}, strength}}));
 }
 
 KNEAD_EXPORT(snake_move) int snake_move(int snake, int point, double x, double y) {
@@ -115,7 +125,8 @@ KNEAD_EXPORT(snake_save) int snake_save(int kind) {
   return 1;
 }
 
-/// Buffer 4 becomes pixels, a byte each: 0 white inside of the contours, 1 the energy that attracts them.
+/// Buffer 4 becomes pixels, a byte each: 0 white inside of the contours, 1 the energy that attracts
+/// them.
 KNEAD_EXPORT(snake_picture) int snake_picture(int kind) {
   const auto& image = held().room.image();
   if (!image) return fail({ErrorKind::usage, "there is no image", {}, "open one first"});
@@ -162,4 +173,6 @@ Bytes buffer(int which) {
 
 /// 0 to 3: `Lines` in the order of its fields; 4: `snake_picture`.
 KNEAD_EXPORT(snake_buffer) const void* snake_buffer(int which) { return buffer(which).data; }
-KNEAD_EXPORT(snake_buffer_size) std::size_t snake_buffer_size(int which) { return buffer(which).size; }
+KNEAD_EXPORT(snake_buffer_size) std::size_t snake_buffer_size(int which) {
+  return buffer(which).size;
+}

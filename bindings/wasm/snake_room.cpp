@@ -87,7 +87,8 @@ Expected<Room::Moved> Room::goes_on(const One& before, SnakeResult now, const Sn
   if (is.degree == was.degree && is.control_points == was.control_points && is.units == was.units) {
     return Moved{one, std::move(now.curve)};
   }
-  // Another net: through the contour as it is, with the same length of the parameter unless that is given.
+  // Another net: through the contour as it is, with the same length of the parameter unless that is
+  // given.
   SnakeSettings settings = is;
   const auto [lower, upper] = now.curve.knots()[0].domain();
   if (settings.units == 0) settings.units = upper - lower;
@@ -102,7 +103,8 @@ Expected<void> Room::set_script(std::string_view json, bool again) {
   if (!script) return std::unexpected(script.error());
   std::optional<ImagePotential> potential = now_.potential;
   if (!potential || now_.energy != script->image) {
-    auto made = ImagePotential::create(*image_, script->image, now_.mask ? std::optional(*now_.mask) : std::nullopt);
+    auto made = ImagePotential::create(*image_, script->image,
+                                       now_.mask ? std::optional(*now_.mask) : std::nullopt);
     if (!made) return std::unexpected(made.error());
     potential = std::move(*made);
   }
@@ -114,9 +116,12 @@ Expected<void> Room::set_script(std::string_view json, bool again) {
   for (std::size_t k = 0; k < script->snakes.size(); ++k) {
     const SnakeStart& start = script->snakes[k];
     std::size_t known = 0;
-    while (known < now_.snakes.size() && (taken[known] || !same_place(now_.snakes[known].start, start))) ++known;
+    while (known < now_.snakes.size() &&
+           (taken[known] || !same_place(now_.snakes[known].start, start)))
+      ++known;
     const bool there = known < now_.snakes.size();
-    auto moved = there ? goes_on(now_.snakes[known], now[known], *script, start) : begun(*script, start);
+    auto moved =
+        there ? goes_on(now_.snakes[known], now[known], *script, start) : begun(*script, start);
     if (!moved) return std::unexpected(moved.error().within(fmt::format("snakes[{}]", k)));
     if (there) taken[known] = true;
     settings.push_back(moved->one.settings);
@@ -151,7 +156,8 @@ SnakeSettings Room::settings_now(std::size_t snake) const {
 Expected<void> Room::change(std::size_t snake) {
   const auto now = now_.run->result(static_cast<int>(snake));
   if (!now) return std::unexpected(now.error());
-  if (auto done = now_.run->change(static_cast<int>(snake), settings_now(snake)); !done) return done;
+  if (auto done = now_.run->change(static_cast<int>(snake), settings_now(snake)); !done)
+    return done;
   now_.snakes[snake].earlier += now->iterations;
   return {};
 }
@@ -164,7 +170,8 @@ Expected<void> Room::wake() {
 }
 
 Expected<void> Room::pull(const std::optional<Hand>& hand) {
-  if (hand && hand->snake >= now_.snakes.size()) return usage_error(fmt::format("there is no snake {}", hand->snake));
+  if (hand && hand->snake >= now_.snakes.size())
+    return usage_error(fmt::format("there is no snake {}", hand->snake));
   const std::optional<Hand> before = hand_;
   hand_ = hand;
   if (before && (!hand || hand->snake != before->snake)) {
@@ -178,13 +185,15 @@ Expected<void> Room::move_point(std::size_t snake, int point, double x, double y
   const auto now = now_.run->result(static_cast<int>(snake));
   if (!now) return std::unexpected(now.error());
   const int n = unknowns(*now);
-  if (point < 0 || point >= n) return usage_error(fmt::format("there is no control point {}", point));
+  if (point < 0 || point >= n)
+    return usage_error(fmt::format("there is no control point {}", point));
   if (!std::isfinite(x) || !std::isfinite(y)) return usage_error("the place is not finite");
   Points c = now->curve.control_points();
   for (Eigen::Index i = point; i < c.rows(); i += n) c.row(i).head<2>() << x, y;
   const auto curve = Curve::create({now->curve.knots()[0]}, std::move(c));
   if (!curve) return std::unexpected(curve.error());
-  if (auto done = now_.run->replace(static_cast<int>(snake), *curve, settings_now(snake)); !done) return done;
+  if (auto done = now_.run->replace(static_cast<int>(snake), *curve, settings_now(snake)); !done)
+    return done;
   now_.snakes[snake].earlier += now->iterations;
   return {};
 }
@@ -211,12 +220,14 @@ Lines Room::lines() const {
       const std::size_t span = k / drawn_per_span;
       const double share = double(k % drawn_per_span) / drawn_per_span;
       const double u = span + 1 < at.size() ? std::lerp(at[span], at[span + 1], share) : at.back();
-      for (const double x : {places[k][0], places[k][1], (u - at.front()) / (at.back() - at.front())}) {
+      for (const double x :
+           {places[k][0], places[k][1], (u - at.front()) / (at.back() - at.front())}) {
         lines.points.push_back(static_cast<float>(x));
       }
     }
     for (int i = 0; i < unknowns(s); ++i) {
-      for (const int d : {0, 1}) lines.net.push_back(static_cast<float>(s.curve.control_points()(i, d)));
+      for (const int d : {0, 1})
+        lines.net.push_back(static_cast<float>(s.curve.control_points()(i, d)));
     }
   }
   lines.offsets.push_back(static_cast<std::uint32_t>(lines.points.size() / 3));
@@ -234,7 +245,8 @@ std::vector<std::uint8_t> Room::energy() const {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(values.size());
   for (const double v : values) {
-    bytes.push_back(static_cast<std::uint8_t>(most > least ? std::lround(255 * (v - least) / (most - least)) : 0));
+    bytes.push_back(static_cast<std::uint8_t>(
+        most > least ? std::lround(255 * (v - least) / (most - least)) : 0));
   }
   return bytes;
 }

@@ -36,8 +36,8 @@ class Room {
   /// The mask stays.
   void remove_snakes();
   void set_mask(std::optional<Image> mask);
-  /// The snakes of a script whose starts stand in the one before go on from where they are, under the new settings; the
-  /// others begin, as all do with `again`. On failure everything stays.
+  /// The snakes of a script whose starts stand in the one before go on from where they are, under
+  /// the new settings; the others begin, as all do with `again`. On failure everything stays.
   [[nodiscard]] Expected<void> set_script(std::string_view json, bool again);
   /// Some iterations of all snakes that do not rest.
   [[nodiscard]] Expected<void> advance(int iterations);
@@ -49,8 +49,8 @@ class Room {
 
   /// Keeps everything but the image as it is now, under a number.
   [[nodiscard]] int keep();
-  /// Everything is as it was when it was kept, bit for bit, and goes on as it did then; the hand has let go. Errors:
-  /// there is no such number (usage).
+  /// Everything is as it was when it was kept, bit for bit, and goes on as it did then; the hand
+  /// has let go. Errors: there is no such number (usage).
   [[nodiscard]] Expected<void> restore(int kept);
   void forget(int kept) { kept_.erase(kept); }
 
@@ -82,8 +82,8 @@ class Room {
     Curve curve;
   };
   [[nodiscard]] Expected<Moved> begun(const SnakeScript& script, const SnakeStart& start) const;
-  [[nodiscard]] Expected<Moved> goes_on(const One& before, SnakeResult now, const SnakeScript& script,
-                                        const SnakeStart& start) const;
+  [[nodiscard]] Expected<Moved> goes_on(const One& before, SnakeResult now,
+                                        const SnakeScript& script, const SnakeStart& start) const;
   /// Its settings with the hand's spring, if it is this one that is pulled.
   [[nodiscard]] SnakeSettings settings_now(std::size_t snake) const;
   [[nodiscard]] Expected<void> change(std::size_t snake);
@@ -95,7 +95,8 @@ class Room {
   int next_ = 0;
 };
 
-/// A grey image of pixels with four bytes each, as the command line makes one; the fourth does not count.
+/// A grey image of pixels with four bytes each, as the command line makes one; the fourth does not
+/// count.
 [[nodiscard]] Image grey_of(std::span<const std::uint8_t> rgba, int width, int height);
 
 }  // namespace knead::snakes

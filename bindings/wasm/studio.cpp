@@ -1,12 +1,14 @@
-// The studio's engine as WebAssembly exports it. The page writes a request and its bytes to `knead_input(size)`, calls,
-// and reads the answer from `knead_text()`; every call may grow the memory, so that views of it must be taken anew.
+// The studio's engine as WebAssembly exports it. The page writes a request and its bytes to
+// `knead_input(size)`, calls, and reads the answer from `knead_text()`; every call may grow the
+// memory, so that views of it must be taken anew.
 #include <string>
 #include <utility>
 
 #include "queries.hpp"
 
 /// Of the host: how many steps of the command under way are done, of how many.
-extern "C" __attribute__((import_module("studio"), import_name("progress"))) void knead_progress(int done, int total);
+extern "C" __attribute__((import_module("studio"), import_name("progress"))) void knead_progress(
+    int done, int total);
 
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 

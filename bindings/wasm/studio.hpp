@@ -33,7 +33,8 @@ struct Studio {
 }
 
 /// What the faces of the open file show of a surface, once its trims have been asked for.
-[[nodiscard]] inline std::shared_ptr<const VisibleRegion> visible_part(const Studio& studio, int surface) {
+[[nodiscard]] inline std::shared_ptr<const VisibleRegion> visible_part(const Studio& studio,
+                                                                       int surface) {
   return studio.shown.visible(studio.session->document(), place_in_file(*studio.session, surface));
 }
 

@@ -32,9 +32,10 @@ Point middle_of(const Document& document) {
 Point origin_near(const SessionState& now, const Point& otherwise) {
   constexpr double far = 100;
   if (now.surfaces.empty() && now.bodies.empty()) return otherwise;
-  const Points& points =
-      now.surfaces.empty() ? control_points_of(now.bodies.front()) : now.surfaces.front().current->control_points();
-  const Point lower = points.colwise().minCoeff().transpose(), upper = points.colwise().maxCoeff().transpose();
+  const Points& points = now.surfaces.empty() ? control_points_of(now.bodies.front())
+                                              : now.surfaces.front().current->control_points();
+  const Point lower = points.colwise().minCoeff().transpose(),
+              upper = points.colwise().maxCoeff().transpose();
   const Point centre = (lower + upper) / 2;
   return centre.norm() > far * (upper - lower).norm() ? centre : Point(Point::Zero());
 }

@@ -7,11 +7,12 @@
 namespace knead::studio {
 namespace {
 
-/// Of the size of the scene: how far chords may be from a surface as opened. A quarter of a pixel where the scene takes
-/// 2000 pixels.
+/// Of the size of the scene: how far chords may be from a surface as opened. A quarter of a pixel
+/// where the scene takes 2000 pixels.
 constexpr double chord = 1.25e-4;
 
-std::optional<GridWindow> window_of(const Surface& surface, const std::optional<PictureWindow>& asked) {
+std::optional<GridWindow> window_of(const Surface& surface,
+                                    const std::optional<PictureWindow>& asked) {
   if (!asked) return {};
   GridWindow window{.tolerance = asked->tolerance};
   for (int d = 0; d < 2; ++d) {
@@ -29,8 +30,8 @@ void append(std::vector<float>& to, const Point& p) {
 
 }  // namespace
 
-Expected<AskedDisplay> asked_display(std::string_view name,
-                                     std::span<const std::pair<std::string, std::vector<double>>> settings) {
+Expected<AskedDisplay> asked_display(
+    std::string_view name, std::span<const std::pair<std::string, std::vector<double>>> settings) {
   if (name == "none") return AskedDisplay{};
   const auto display = find_display(name);
   if (!display) return std::unexpected(display.error());
@@ -39,11 +40,13 @@ Expected<AskedDisplay> asked_display(std::string_view name,
   return AskedDisplay{*display, *std::move(values)};
 }
 
-Expected<std::array<GridLines, 2>> PictureMaker::lines(const Scene& scene, int index, const Surface& drawn, int detail,
+Expected<std::array<GridLines, 2>> PictureMaker::lines(const Scene& scene, int index,
+                                                       const Surface& drawn, int detail,
                                                        const std::optional<GridWindow>& window) {
   const auto& opened = scene.surfaces[static_cast<std::size_t>(index)].opened;
-  const auto known = std::ranges::find_if(
-      lines_, [&](const KeptLines& l) { return l.of == opened && l.detail == detail && l.window == window; });
+  const auto known = std::ranges::find_if(lines_, [&](const KeptLines& l) {
+    return l.of == opened && l.detail == detail && l.window == window;
+  });
   // Another net than that of the surface as opened has another grid.
   if (known != lines_.end() && opened->knots() == drawn.knots()) return known->lines;
   Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
@@ -70,7 +73,9 @@ Expected<void> PictureMaker::tabulate(const Scene& scene, int index, const Surfa
   const int detail = options.detail;
   const auto window = window_of(surface, options.window);
   const auto& opened = scene.surfaces[static_cast<std::size_t>(index)].opened;
-  if (knots_ && *knots_ == surface.knots() && detail_ == detail && window_ == window && of_ == opened) return {};
+  if (knots_ && *knots_ == surface.knots() && detail_ == detail && window_ == window &&
+      of_ == opened)
+    return {};
   knots_.reset();
   auto grids = lines(scene, index, surface, detail, window);
   if (!grids) return std::unexpected(grids.error());
@@ -84,7 +89,8 @@ Expected<void> PictureMaker::tabulate(const Scene& scene, int index, const Surfa
     fractions.clear();
     (d == 0 ? picture_.lines_u : picture_.lines_v) = std::move(grid.knot_lines);
     (d == 0 ? picture_.coarse_u : picture_.coarse_v) = std::move(grid.coarse);
-    for (double u : parameters) fractions.push_back(static_cast<float>((u - domain.lower) / domain.length()));
+    for (double u : parameters)
+      fractions.push_back(static_cast<float>((u - domain.lower) / domain.length()));
     picture_.counts[static_cast<std::size_t>(d)] = static_cast<int>(parameters.size());
     auto table = tabulate_basis(knots, parameters, 2);
     if (!table) return std::unexpected(table.error());
@@ -102,7 +108,9 @@ Expected<void> PictureMaker::make(const Scene& scene, int index, const PictureOp
   const Surface& drawn = options.opened ? *surface.opened : *surface.current;
   if (auto done = tabulate(scene, index, drawn, options); !done) return done;
   const int order = options.display.display ? options.display.display->order : 1;
-  if (auto done = evaluate_grid<2>(drawn, {&tables_[0], &tables_[1]}, std::max(1, order), evaluation_); !done) {
+  if (auto done =
+          evaluate_grid<2>(drawn, {&tables_[0], &tables_[1]}, std::max(1, order), evaluation_);
+      !done) {
     return done;
   }
 
@@ -154,11 +162,13 @@ void PictureMaker::find_normals() {
   for (int k = 0; k < rows; ++k) {
     for (int l = 0; l < columns; ++l) {
       Point normal;
-      // At a pole the derivatives vanish or are parallel: the next point inside gives the limit, up to a pixel.
+      // At a pole the derivatives vanish or are parallel: the next point inside gives the limit, up
+      // to a pixel.
       if (!normal_at(k, l, normal)) {
         const int inner_k = std::clamp(k, 1, std::max(1, rows - 2)),
                   inner_l = std::clamp(l, 1, std::max(1, columns - 2));
-        if (!normal_at(inner_k, l, normal) && !normal_at(k, inner_l, normal) && !normal_at(inner_k, inner_l, normal)) {
+        if (!normal_at(inner_k, l, normal) && !normal_at(k, inner_l, normal) &&
+            !normal_at(inner_k, inner_l, normal)) {
           normal = Point::UnitZ();
         }
       }
@@ -168,7 +178,8 @@ void PictureMaker::find_normals() {
   }
 }
 
-Expected<void> PictureMaker::find_values(const Scene& scene, int index, const PictureOptions& options) {
+Expected<void> PictureMaker::find_values(const Scene& scene, int index,
+                                         const PictureOptions& options) {
   picture_.values.clear();
   const auto& [display, settings] = options.display;
   if (index == 0 || display != display_) range_.clear();
@@ -187,7 +198,8 @@ Expected<void> PictureMaker::find_values(const Scene& scene, int index, const Pi
                            .around = options.around};
   const auto values = display->values(input);
   if (!values) return std::unexpected(values.error());
-  for (const double x : *values) picture_.values.push_back(std::isnan(x) ? no_value : static_cast<float>(x));
+  for (const double x : *values)
+    picture_.values.push_back(std::isnan(x) ? no_value : static_cast<float>(x));
   range_.add(input, *values);
   return {};
 }

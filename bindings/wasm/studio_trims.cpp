@@ -16,7 +16,8 @@ const std::vector<SurfaceTrim>& ShownParts::trims(const Document& document) {
   return trims_->surfaces;
 }
 
-std::shared_ptr<const VisibleRegion> ShownParts::visible(const Document& document, std::size_t surface) const {
+std::shared_ptr<const VisibleRegion> ShownParts::visible(const Document& document,
+                                                         std::size_t surface) const {
   if (converted_ != document.converted()) return nullptr;
   return surface < visible_.size() ? visible_[surface] : nullptr;
 }
@@ -35,7 +36,8 @@ std::size_t place_in_file(const Session& session, int surface) {
   const auto& surfaces = session.state().surfaces;
   const auto& in_file = session.document().surfaces();
   if (surface < 0 || surface >= static_cast<int>(surfaces.size())) return in_file.size();
-  const auto found = std::ranges::find(in_file, surfaces[static_cast<std::size_t>(surface)].id, &DocumentSurface::id);
+  const auto found = std::ranges::find(in_file, surfaces[static_cast<std::size_t>(surface)].id,
+                                       &DocumentSurface::id);
   return static_cast<std::size_t>(found - in_file.begin());
 }
 

@@ -59,8 +59,10 @@ class Builder {
       for (int c = 0; c < 3; ++c) sum_at(i[c]) += normal;
     }
     for (std::size_t k = 0; 3 * k < picture_.positions.size(); ++k) {
-      const Point sum = sum_at(k), n = sum.norm() > 0 ? Point(sum.normalized()) : Point(Point::UnitZ());
-      for (int d = 0; d < 3; ++d) picture_.normals[3 * k + static_cast<std::size_t>(d)] = static_cast<float>(n[d]);
+      const Point sum = sum_at(k),
+                  n = sum.norm() > 0 ? Point(sum.normalized()) : Point(Point::UnitZ());
+      for (int d = 0; d < 3; ++d)
+        picture_.normals[3 * k + static_cast<std::size_t>(d)] = static_cast<float>(n[d]);
     }
   }
 
@@ -98,11 +100,13 @@ ToolPicture turned(const std::vector<ProfilePoint>& profile, bool open = false) 
 }
 
 /// Points of a circle about (r, z), from one angle to the other; the first and last exactly.
-void arc(std::vector<ProfilePoint>& to, double r, double z, double radius, double from, double until, int pieces) {
+void arc(std::vector<ProfilePoint>& to, double r, double z, double radius, double from,
+         double until, int pieces) {
   const double side = radius < 0 ? -1 : 1;  // a negative radius: seen from inside
   for (int k = 0; k <= pieces; ++k) {
     const double a = from + (until - from) * k / pieces;
-    const double c = k % pieces == 0 && std::abs(std::cos(a)) < 1e-12 ? 0 : std::cos(a), s = std::sin(a);
+    const double c = k % pieces == 0 && std::abs(std::cos(a)) < 1e-12 ? 0 : std::cos(a),
+                 s = std::sin(a);
     to.push_back({r + std::abs(radius) * c, z + std::abs(radius) * s, side * c, side * s});
   }
 }
@@ -137,25 +141,28 @@ struct PictureOf {
     std::vector<std::array<double, 2>> rows;     // angle, side of z
     std::vector<std::array<double, 3>> columns;  // angle, sides of x and y
     for (const double side : {-1.0, 1.0}) {
-      for (int k = 0; k <= pieces; ++k) rows.push_back({pi / 2 * (side < 0 ? k - pieces : k) / pieces, side});
+      for (int k = 0; k <= pieces; ++k)
+        rows.push_back({pi / 2 * (side < 0 ? k - pieces : k) / pieces, side});
     }
     constexpr double sides[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
     for (int q = 0; q <= 4; ++q) {
       const auto& [x, y] = sides[q % 4];
-      for (int k = 0; k <= (q < 4 ? pieces : 0); ++k) columns.push_back({pi / 2 * (q % 4 + double(k) / pieces), x, y});
+      for (int k = 0; k <= (q < 4 ? pieces : 0); ++k)
+        columns.push_back({pi / 2 * (q % 4 + double(k) / pieces), x, y});
     }
     std::array<double, 3> core;
     for (std::size_t d = 0; d < 3; ++d) core[d] = s.half_sizes[d] - s.rounding;
     const auto corner = [&](double eta, double omega, double x, double y, double z) {
       const auto exact = [](double value) { return std::abs(value) < 1e-12 ? 0.0 : value; };
-      const Point n(exact(std::cos(eta)) * exact(std::cos(omega)), exact(std::cos(eta)) * exact(std::sin(omega)),
-                    std::sin(eta));
+      const Point n(exact(std::cos(eta)) * exact(std::cos(omega)),
+                    exact(std::cos(eta)) * exact(std::sin(omega)), std::sin(eta));
       b.point(Point(x * core[0], y * core[1], z * core[2]) + s.rounding * n, n);
     };
     for (const auto& [eta, z] : rows) {
       for (const auto& [omega, x, y] : columns) corner(eta, omega, x, y, z);
     }
-    const auto n = static_cast<std::uint32_t>(columns.size()), m = static_cast<std::uint32_t>(rows.size());
+    const auto n = static_cast<std::uint32_t>(columns.size()),
+               m = static_cast<std::uint32_t>(rows.size());
     b.grid(static_cast<int>(m), static_cast<int>(n));
     constexpr std::uint32_t quarter = pieces + 1;
     const std::uint32_t top = (m - 1) * n;
@@ -166,7 +173,8 @@ struct PictureOf {
 
   ToolPicture operator()(const CylinderShape& s) const {
     const double r = s.radius, h = s.half_height;
-    return turned({{0, -h, 0, -1}, {r, -h, 0, -1}, {r, -h, 1, 0}, {r, h, 1, 0}, {r, h, 0, 1}, {0, h, 0, 1}});
+    return turned(
+        {{0, -h, 0, -1}, {r, -h, 0, -1}, {r, -h, 1, 0}, {r, h, 1, 0}, {r, h, 0, 1}, {0, h, 0, 1}});
   }
 
   ToolPicture operator()(const ConeShape& s) const {
@@ -218,8 +226,8 @@ struct PictureOf {
     const auto& [a, b, c] = s.semi_axes;
     return superquadric(-pi / 2, pi / 2, [&](double eta, double omega) {
       const double across = power(std::cos(eta), s.e1);
-      return Point(a * across * power(std::cos(omega), s.e2), b * across * power(std::sin(omega), s.e2),
-                   c * power(std::sin(eta), s.e1));
+      return Point(a * across * power(std::cos(omega), s.e2),
+                   b * across * power(std::sin(omega), s.e2), c * power(std::sin(eta), s.e1));
     });
   }
 
@@ -232,7 +240,8 @@ struct PictureOf {
   }
 
   ToolPicture operator()(const SplineShape& s) const {
-    const std::array lines = {grid_lines(s.surface->knots(0), 32), grid_lines(s.surface->knots(1), 32)};
+    const std::array lines = {grid_lines(s.surface->knots(0), 32),
+                              grid_lines(s.surface->knots(1), 32)};
     const auto points = evaluate_grid<2>(*s.surface, {lines[0].parameters, lines[1].parameters});
     if (!points) return {};
     Builder b;
@@ -242,7 +251,8 @@ struct PictureOf {
     const auto m = static_cast<std::uint32_t>(lines[0].parameters.size()),
                n = static_cast<std::uint32_t>(lines[1].parameters.size());
     for (std::uint32_t k = 0; k + 1 < m; ++k) {
-      for (std::uint32_t l = 0; l + 1 < n; ++l) b.quad(k * n + l, (k + 1) * n + l, (k + 1) * n + l + 1, k * n + l + 1);
+      for (std::uint32_t l = 0; l + 1 < n; ++l)
+        b.quad(k * n + l, (k + 1) * n + l, (k + 1) * n + l + 1, k * n + l + 1);
     }
     b.smooth();
     return b.take(true);
@@ -266,7 +276,8 @@ struct PictureOf {
     Builder b;
     for (int k = 0; k <= rows; ++k) {
       for (int l = 0; l <= turns; ++l) {
-        b.point(at(from + (until - from) * k / rows, l == turns ? 0 : 2 * pi * l / turns), Point::UnitZ());
+        b.point(at(from + (until - from) * k / rows, l == turns ? 0 : 2 * pi * l / turns),
+                Point::UnitZ());
       }
     }
     b.grid(rows + 1, turns + 1);
@@ -286,13 +297,17 @@ ToolPicture from_distances(const PlacedShape& shape, int cells) {
   const double side = extent.maxCoeff() / cells;
   const Point origin = box.lower - Point::Constant(side);
   std::array<int, 3> n;  // points per direction, one cell beyond the box on either side
-  for (int d = 0; d < 3; ++d) n[static_cast<std::size_t>(d)] = static_cast<int>(std::ceil(extent[d] / side)) + 3;
-  const auto index = [&](int i, int j, int k) { return static_cast<std::size_t>((i * n[1] + j) * n[2] + k); };
+  for (int d = 0; d < 3; ++d)
+    n[static_cast<std::size_t>(d)] = static_cast<int>(std::ceil(extent[d] / side)) + 3;
+  const auto index = [&](int i, int j, int k) {
+    return static_cast<std::size_t>((i * n[1] + j) * n[2] + k);
+  };
   const auto place = [&](int i, int j, int k) { return Point(origin + side * Point(i, j, k)); };
   std::vector<double> distance(index(n[0] - 1, n[1] - 1, n[2] - 1) + 1);
   for (int i = 0; i < n[0]; ++i) {
     for (int j = 0; j < n[1]; ++j) {
-      for (int k = 0; k < n[2]; ++k) distance[index(i, j, k)] = shape.nearest(place(i, j, k)).distance;
+      for (int k = 0; k < n[2]; ++k)
+        distance[index(i, j, k)] = shape.nearest(place(i, j, k)).distance;
     }
   }
   Builder b;
@@ -303,7 +318,8 @@ ToolPicture from_distances(const PlacedShape& shape, int cells) {
     for (int j = 0; j + 1 < n[1]; ++j) {
       for (int k = 0; k + 1 < n[2]; ++k) {
         int inside = 0;
-        for (int c = 0; c < 8; ++c) inside += distance[index(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))] < 0 ? 1 : 0;
+        for (int c = 0; c < 8; ++c)
+          inside += distance[index(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))] < 0 ? 1 : 0;
         if (inside == 0 || inside == 8) continue;
         const Nearest at = shape.nearest(place(i, j, k) + Point::Constant(side / 2));
         b.point(at.point, at.normal.squaredNorm() > 0 ? at.normal : Point(Point::UnitZ()));
@@ -316,7 +332,8 @@ ToolPicture from_distances(const PlacedShape& shape, int cells) {
     for (int j = 1; j + 1 < n[1]; ++j) {
       for (int k = 1; k + 1 < n[2]; ++k) {
         const bool here = distance[index(i, j, k)] < 0;
-        const auto join = [&](bool there, std::size_t p, std::size_t q, std::size_t r, std::size_t s) {
+        const auto join = [&](bool there, std::size_t p, std::size_t q, std::size_t r,
+                              std::size_t s) {
           if (here == there) return;
           if (here)
             b.quad(point_of[p], point_of[q], point_of[r], point_of[s]);
@@ -324,9 +341,12 @@ ToolPicture from_distances(const PlacedShape& shape, int cells) {
             b.quad(point_of[s], point_of[r], point_of[q], point_of[p]);
         };
         const std::size_t o = index(i, j, k);
-        join(distance[index(i + 1, j, k)] < 0, index(i, j - 1, k - 1), index(i, j, k - 1), o, index(i, j - 1, k));
-        join(distance[index(i, j + 1, k)] < 0, index(i - 1, j, k - 1), index(i - 1, j, k), o, index(i, j, k - 1));
-        join(distance[index(i, j, k + 1)] < 0, index(i - 1, j - 1, k), index(i, j - 1, k), o, index(i - 1, j, k));
+        join(distance[index(i + 1, j, k)] < 0, index(i, j - 1, k - 1), index(i, j, k - 1), o,
+             index(i, j - 1, k));
+        join(distance[index(i, j + 1, k)] < 0, index(i - 1, j, k - 1), index(i - 1, j, k), o,
+             index(i, j, k - 1));
+        join(distance[index(i, j, k + 1)] < 0, index(i - 1, j - 1, k), index(i, j - 1, k), o,
+             index(i - 1, j, k));
       }
     }
   }

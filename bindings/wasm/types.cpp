@@ -1,4 +1,5 @@
-// What the build of the page needs of the session, and the page itself does not: the types of what it says.
+// What the build of the page needs of the session, and the page itself does not: the types of what
+// it says.
 #include <fmt/format.h>
 
 #include <string>
@@ -19,7 +20,8 @@ std::string& text() {
 
 }  // namespace
 
-/// The text becomes a TypeScript module with the types of the session's answers, the queries and the file formats.
+/// The text becomes a TypeScript module with the types of the session's answers, the queries and
+/// the file formats.
 KNEAD_EXPORT(knead_types) int knead_types() {
   text() = knead::session_typescript(knead::studio::declare_queries) +
            "\nexport const fileFormats = " + knead::format_json() + " as const;\n";

@@ -10,8 +10,8 @@
 
 namespace knead::studio {
 
-// Fields of requests and answers that are no JSON of their own; their descriptions name the page's type. Numbers, bytes
-// and long texts lie in the module's memory beside the JSON, which says where.
+// Fields of requests and answers that are no JSON of their own; their descriptions name the page's
+// type. Numbers, bytes and long texts lie in the module's memory beside the JSON, which says where.
 
 struct Bytes {
   std::string data;
@@ -33,7 +33,9 @@ using Settings = std::vector<std::pair<std::string, std::vector<double>>>;
 namespace knead::detail {
 
 /// Of a value that is read and written by itself, `page_type` in TypeScript.
-inline Type own_type(std::string_view page_type) { return {.kind = Kind::opaque, .name = page_type}; }
+inline Type own_type(std::string_view page_type) {
+  return {.kind = Kind::opaque, .name = page_type};
+}
 
 /// Of elements one after the other in memory.
 template <class T>
@@ -46,7 +48,9 @@ Type memory_type(std::string_view page_type) {
     }
   };
   Type type = own_type(page_type);
-  type.count = [](const void* v) { return data(*static_cast<T*>(const_cast<void*>(v))).size(); };  // NOLINT: as `part`
+  type.count = [](const void* v) {
+    return data(*static_cast<T*>(const_cast<void*>(v))).size();
+  };  // NOLINT: as `part`
   type.at = [](void* v, std::size_t k) -> void* { return data(*static_cast<T*>(v)).data() + k; };
   return type;
 }

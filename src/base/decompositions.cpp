@@ -19,12 +19,14 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr int safe_exponent = 300;  // products of two entries of any matrix that fits into memory stay finite
+// Products of two entries of any matrix that fits into memory stay finite.
+constexpr int safe_exponent = 300;
 constexpr double vanishing = 1e-15;
 
 std::unexpected<Error> not_finite(Eigen::Index row, Eigen::Index column) {
-  return numerical_error("an entry of a matrix is not a finite number", fmt::format("({}, {})", row, column),
-                         "look for coordinates, weights or knots that are extremely large or small");
+  return numerical_error(
+      "an entry of a matrix is not a finite number", fmt::format("({}, {})", row, column),
+      "look for coordinates, weights or knots that are extremely large or small");
 }
 
 template <class Matrix>
@@ -38,8 +40,8 @@ Expected<void> check_finite(const Matrix& a) {
   return {};
 }
 
-/// The power of two by which a matrix is multiplied so that squares of its entries neither overflow nor vanish: 0 for
-/// all but extreme ones.
+/// The power of two by which a matrix is multiplied so that squares of its entries neither overflow
+/// nor vanish: 0 for all but extreme ones.
 template <class Matrix>
 int exponent_of(const Matrix& a) {
   const double largest = a.size() > 0 ? a.cwiseAbs().maxCoeff() : 0;
@@ -73,7 +75,8 @@ Expected<LeftSingular> left_singular(const Eigen::Matrix3Xd& a) {
   if (auto finite = check_finite(a); !finite) return std::unexpected(finite.error());
   if (a.cols() == 0) return LeftSingular{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
   const int exponent = exponent_of(a);
-  // With the QR decomposition Aᵀ P = Q R, the left singular vectors of A = (P Rᵀ) Qᵀ are those of the small P Rᵀ.
+  // With the QR decomposition Aᵀ P = Q R, the left singular vectors of A = (P Rᵀ) Qᵀ are those of
+  // the small P Rᵀ.
   const Eigen::MatrixXd transposed = scaled(a, exponent).transpose();
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(transposed);
   const Eigen::Index rank = std::min<Eigen::Index>(3, a.cols());
@@ -82,7 +85,8 @@ Expected<LeftSingular> left_singular(const Eigen::Matrix3Xd& a) {
     for (Eigen::Index i = 0; i <= std::min(j, rank - 1); ++i)
       small(qr.colsPermutation().indices()[j], i) = qr.matrixR()(i, j);
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> svd(small, Eigen::ComputeFullU);
+  const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> svd(small,
+                                                                         Eigen::ComputeFullU);
   return LeftSingular{svd.matrixU(), scaled(Eigen::Vector3d(svd.singularValues()), -exponent)};
 }
 
@@ -90,7 +94,8 @@ Expected<Eigen::VectorXd> least_squares(const Eigen::MatrixXd& a, const Eigen::V
   return by_least_squares(a, b);
 }
 
-Expected<Eigen::Vector2d> least_squares(const Eigen::Matrix<double, 3, 2>& a, const Eigen::Vector3d& b) {
+Expected<Eigen::Vector2d> least_squares(const Eigen::Matrix<double, 3, 2>& a,
+                                        const Eigen::Vector3d& b) {
   return by_least_squares(a, b);
 }
 
@@ -131,7 +136,8 @@ Eigen::MatrixXd PivotedQr::remainder(Eigen::Index rank) const {
   const Eigen::Index most = pivots(), columns = r.cols() - rank;
   Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(r.rows(), columns);
   if (rank >= most) return rest;
-  rest.middleRows(rank, most - rank) = r.block(rank, rank, most - rank, columns).triangularView<Eigen::Upper>();
+  rest.middleRows(rank, most - rank) =
+      r.block(rank, rank, most - rank, columns).triangularView<Eigen::Upper>();
   rest.applyOnTheLeft(factors_->qr.householderQ());
   return rest;
 }
@@ -139,7 +145,8 @@ Eigen::MatrixXd PivotedQr::remainder(Eigen::Index rank) const {
 Eigen::MatrixXd PivotedQr::coefficients(Eigen::Index rank) const {
   const Eigen::MatrixXd& r = factors_->r;
   Eigen::MatrixXd others = r.topRightCorner(rank, r.cols() - rank);
-  if (others.size() > 0) r.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(others);
+  if (others.size() > 0)
+    r.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(others);
   Eigen::MatrixXd result(rank, r.cols());
   for (Eigen::Index k = 0; k < r.cols(); ++k) {
     if (k < rank)
@@ -169,7 +176,8 @@ Expected<SymmetricEigen<Matrix>> symmetric_eigen(const Matrix& a) {
   if (auto finite = check_finite(a); !finite) return std::unexpected(finite.error());
   if (a.size() == 0) return SymmetricEigen<Matrix>{{}, a};
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(a);  // scales by itself
-  if (solver.info() != Eigen::Success) return numerical_error("the iteration for eigenvalues did not end", "matrix");
+  if (solver.info() != Eigen::Success)
+    return numerical_error("the iteration for eigenvalues did not end", "matrix");
   return SymmetricEigen<Matrix>{solver.eigenvalues(), solver.eigenvectors()};
 }
 
@@ -181,7 +189,8 @@ template Expected<SymmetricEigen<Eigen::MatrixXd>> symmetric_eigen(const Eigen::
 Expected<Eigen::Vector3d> symmetric_eigenvalues(const Eigen::Matrix3d& a) {
   if (auto finite = check_finite(a); !finite) return std::unexpected(finite.error());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(a, Eigen::EigenvaluesOnly);
-  if (solver.info() != Eigen::Success) return numerical_error("the iteration for eigenvalues did not end", "matrix");
+  if (solver.info() != Eigen::Success)
+    return numerical_error("the iteration for eigenvalues did not end", "matrix");
   return solver.eigenvalues();
 }
 
@@ -189,7 +198,8 @@ struct DenseCholesky::Factors {
   Eigen::LLT<Eigen::MatrixXd> llt;
 };
 
-DenseCholesky::DenseCholesky(std::shared_ptr<const Factors> factors) : factors_(std::move(factors)) {}
+DenseCholesky::DenseCholesky(std::shared_ptr<const Factors> factors)
+    : factors_(std::move(factors)) {}
 
 Expected<DenseCholesky> DenseCholesky::factor(const Eigen::MatrixXd& a) {
   if (auto finite = check_finite(a); !finite) return std::unexpected(finite.error());
@@ -212,8 +222,10 @@ struct SparseLdlt::Factors {
   double least = 1, least_magnitude = 1;
 
   [[nodiscard]] bool knows(const Sparse& a) const {
-    return std::ranges::equal(starts, std::span(a.outerIndexPtr(), static_cast<std::size_t>(a.cols() + 1))) &&
-           std::ranges::equal(rows, std::span(a.innerIndexPtr(), static_cast<std::size_t>(a.nonZeros())));
+    return std::ranges::equal(
+               starts, std::span(a.outerIndexPtr(), static_cast<std::size_t>(a.cols() + 1))) &&
+           std::ranges::equal(rows,
+                              std::span(a.innerIndexPtr(), static_cast<std::size_t>(a.nonZeros())));
   }
 };
 

@@ -17,17 +17,20 @@ std::unexpected<Error> error_of(ErrorKind kind, std::string_view what, std::stri
 
 std::unexpected<Error> coded_error(ErrorKind kind, std::string_view what, std::string_view where,
                                    std::string_view remedy, Diagnostic diagnostic) {
-  return std::unexpected(std::move(error_of(kind, what, where, remedy).error()).with(std::move(diagnostic)));
+  return std::unexpected(
+      std::move(error_of(kind, what, where, remedy).error()).with(std::move(diagnostic)));
 }
 
 }  // namespace
 
 NamedValue::NamedValue(std::string_view of, double number) : name(of), value(number) {}
 NamedValue::NamedValue(std::string_view of, std::string text) : name(of), value(std::move(text)) {}
-NamedValue::NamedValue(std::string_view of, std::vector<std::string> ids) : name(of), value(std::move(ids)) {}
+NamedValue::NamedValue(std::string_view of, std::vector<std::string> ids)
+    : name(of), value(std::move(ids)) {}
 
 Error::Error() = default;
-Error::Error(ErrorKind of, std::string is, std::string at, std::string helps, std::string in, int in_line)
+Error::Error(ErrorKind of, std::string is, std::string at, std::string helps, std::string in,
+             int in_line)
     : kind(of),
       what(std::move(is)),
       where(std::move(at)),
@@ -66,25 +69,28 @@ Error Error::with(Diagnostic read) && {
   return std::move(*this);
 }
 
-std::unexpected<Error> input_error(std::string_view what, std::string_view where, std::string_view remedy) {
+std::unexpected<Error> input_error(std::string_view what, std::string_view where,
+                                   std::string_view remedy) {
   return error_of(ErrorKind::input, what, where, remedy);
 }
 
-std::unexpected<Error> input_error(std::string_view what, std::string_view where, std::string_view remedy,
-                                   Diagnostic diagnostic) {
+std::unexpected<Error> input_error(std::string_view what, std::string_view where,
+                                   std::string_view remedy, Diagnostic diagnostic) {
   return coded_error(ErrorKind::input, what, where, remedy, std::move(diagnostic));
 }
 
-std::unexpected<Error> numerical_error(std::string_view what, std::string_view where, std::string_view remedy) {
+std::unexpected<Error> numerical_error(std::string_view what, std::string_view where,
+                                       std::string_view remedy) {
   return error_of(ErrorKind::numerical, what, where, remedy);
 }
 
-std::unexpected<Error> numerical_error(std::string_view what, std::string_view where, std::string_view remedy,
-                                       Diagnostic diagnostic) {
+std::unexpected<Error> numerical_error(std::string_view what, std::string_view where,
+                                       std::string_view remedy, Diagnostic diagnostic) {
   return coded_error(ErrorKind::numerical, what, where, remedy, std::move(diagnostic));
 }
 
-std::unexpected<Error> usage_error(std::string_view what, std::string_view where, std::string_view remedy) {
+std::unexpected<Error> usage_error(std::string_view what, std::string_view where,
+                                   std::string_view remedy) {
   return error_of(ErrorKind::usage, what, where, remedy);
 }
 

@@ -10,12 +10,13 @@
 namespace knead {
 namespace {
 
-// 113 bits: near the ends a weight is about 1 / (1 − x²) times more sensitive than its abscissa, so 80-bit numbers lose
-// the last bit of the weights above 60 points.
+// 113 bits: near the ends a weight is about 1 / (1 − x²) times more sensitive than its abscissa, so
+// 80-bit numbers lose the last bit of the weights above 60 points.
 #if LDBL_MANT_DIG >= 113
 using Wide = long double;
 #else
-__extension__ typedef __float128 Wide;  // NOLINT(modernize-use-using): __extension__ takes a typedef only
+__extension__ typedef __float128
+    Wide;  // NOLINT(modernize-use-using): __extension__ takes a typedef only
 #endif
 
 template <class Real>
@@ -34,10 +35,11 @@ struct Node {
   double abscissa, weight;
 };
 
-/// The k-th root of P_n from the left and its weight 2 / ((1 − x²) P_n'(x)²), for the right half of the roots.
+/// The k-th root of P_n from the left and its weight 2 / ((1 − x²) P_n'(x)²), for the right half of
+/// the roots.
 Node node(int n, int k) {
-  // Tricomi's initial guess, Newton's iteration in double, and one more step that squares the remaining error: up to
-  // 1e-13 near the ends, where P_n is steep.
+  // Tricomi's initial guess, Newton's iteration in double, and one more step that squares the
+  // remaining error: up to 1e-13 near the ends, where P_n is steep.
   double guess = std::cos(std::numbers::pi * (n - 1 - k + 0.75) / (n + 0.5));
   if (2 * k == n - 1) guess = 0;
   for (int iteration = 0; iteration < 8; ++iteration) {

@@ -32,8 +32,8 @@ bool compiled([[maybe_unused]] InstructionSet set) {
 
 std::vector<InstructionSet> find_available() {
   std::vector<InstructionSet> sets;
-  for (const InstructionSet set :
-       {InstructionSet::scalar, InstructionSet::vector128, InstructionSet::avx2, InstructionSet::avx512}) {
+  for (const InstructionSet set : {InstructionSet::scalar, InstructionSet::vector128,
+                                   InstructionSet::avx2, InstructionSet::avx512}) {
     if (compiled(set) && runs_here(set)) sets.push_back(set);
   }
   return sets;

@@ -9,7 +9,8 @@ thread_local Interruption* innermost = nullptr;
 
 }  // namespace
 
-Interruption::Interruption(std::function<bool()> go_on) : go_on_(std::move(go_on)), outer_(innermost) {
+Interruption::Interruption(std::function<bool()> go_on)
+    : go_on_(std::move(go_on)), outer_(innermost) {
   innermost = this;
 }
 

@@ -6,13 +6,15 @@
 
 namespace knead {
 
-/// Lets whoever starts a long computation end it early. While one exists, computations of the same thread ask it now
-/// and then whether to go on: within iterations, factorisations and the integration of forces. After the first no they
-/// return as soon as they can, with an error or with values that mean nothing: whoever made it then throws away what
-/// they made. Only the innermost one is asked.
+/// Lets whoever starts a long computation end it early. While one exists, computations of the same
+/// thread ask it now and then whether to go on: within iterations, factorisations and the
+/// integration of forces. After the first no they return as soon as they can, with an error or with
+/// values that mean nothing: whoever made it then throws away what they made. Only the innermost
+/// one is asked.
 class Interruption {
  public:
-  /// \param go_on is asked often and should take no longer than reading a flag; empty: computations go on.
+  /// \param go_on is asked often and should take no longer than reading a flag; empty: computations
+  /// go on.
   explicit Interruption(std::function<bool()> go_on);
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;

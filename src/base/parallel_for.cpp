@@ -23,9 +23,13 @@ thread_local bool inside = false;
 /// One call of `run_blocks`.
 class Loop {
  public:
-  Loop(std::ptrdiff_t count, std::ptrdiff_t size, void (*body)(const void*, std::ptrdiff_t, std::ptrdiff_t),
-       const void* context, int threads)
-      : count_(count), size_(size), body_(body), context_(context), thrown_(static_cast<std::size_t>(threads)) {}
+  Loop(std::ptrdiff_t count, std::ptrdiff_t size,
+       void (*body)(const void*, std::ptrdiff_t, std::ptrdiff_t), const void* context, int threads)
+      : count_(count),
+        size_(size),
+        body_(body),
+        context_(context),
+        thrown_(static_cast<std::size_t>(threads)) {}
 
   /// Does blocks until none is left. `thread` counts those that take part.
   void take_part(int thread) noexcept {
@@ -67,11 +71,12 @@ class Loop {
   std::vector<std::exception_ptr> thrown_;
 };
 
-/// Threads that wait for loops. It is never destroyed, and they are never joined: they wait when the process ends.
+/// Threads that wait for loops. It is never destroyed, and they are never joined: they wait when
+/// the process ends.
 class Pool {
  public:
-  /// Runs the loop with up to that many helpers beside this thread; false, with nothing done, where another thread of
-  /// the program does so at this time.
+  /// Runs the loop with up to that many helpers beside this thread; false, with nothing done, where
+  /// another thread of the program does so at this time.
   bool run(Loop& loop, int helpers) {
     const std::unique_lock owner(owner_, std::try_to_lock);
     if (!owner) return false;
@@ -132,13 +137,14 @@ class Pool {
   std::mutex mutex_;  // the rest
   std::condition_variable wake_, left_;
   Loop* loop_ = nullptr;
-  int wanted_ = 0, joined_ = 0, working_ = 0;  // helpers that may still come, have come, and have not left
+  int wanted_ = 0, joined_ = 0,
+      working_ = 0;  // helpers that may still come, have come, and have not left
 };
 
 std::atomic<Pool*> current = nullptr;
 
-/// A child has none of its parent's threads, and what they held stays held: it starts with a pool of its own. The old
-/// one is kept in sight of those who look for leaks.
+/// A child has none of its parent's threads, and what they held stays held: it starts with a pool
+/// of its own. The old one is kept in sight of those who look for leaks.
 void abandon() {
   Pool* const old = current.load();
   if (old == nullptr) return;
@@ -161,9 +167,10 @@ Pool& pool() {
 
 void give_way() { sched_yield(); }
 
-void run_blocks(std::ptrdiff_t count, std::ptrdiff_t size, void (*body)(const void*, std::ptrdiff_t, std::ptrdiff_t),
-                const void* context) {
-  const int threads = static_cast<int>(std::min<std::ptrdiff_t>(thread_count(), (count + size - 1) / size));
+void run_blocks(std::ptrdiff_t count, std::ptrdiff_t size,
+                void (*body)(const void*, std::ptrdiff_t, std::ptrdiff_t), const void* context) {
+  const int threads =
+      static_cast<int>(std::min<std::ptrdiff_t>(thread_count(), (count + size - 1) / size));
   if (threads > 1 && !inside) {
     Loop loop(count, size, body, context, threads);
     if (pool().run(loop, threads - 1)) return loop.finish();

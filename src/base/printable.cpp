@@ -8,7 +8,8 @@ namespace {
 
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-/// Bytes of the UTF-8 character at the start of the text; 0 if there is none, or it controls the terminal.
+/// Bytes of the UTF-8 character at the start of the text; 0 if there is none, or it controls the
+/// terminal.
 std::size_t length_of_character(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   if (lead < 0x20 || lead == 0x7F) return 0;
@@ -17,9 +18,11 @@ std::size_t length_of_character(std::string_view text) {
   if (lead < 0xC2 || lead >= 0xF5 || text.size() < length) return 0;
   if (!std::ranges::all_of(text.substr(1, length - 1), continues)) return 0;
   const auto second = static_cast<unsigned char>(text[1]);
-  if (lead == 0xC2 && second < 0xA0) return 0;                                         // C1
-  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90)) return 0;    // longer than needed
-  if ((lead == 0xED && second >= 0xA0) || (lead == 0xF4 && second >= 0x90)) return 0;  // not characters
+  if (lead == 0xC2 && second < 0xA0) return 0;  // C1
+  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90))
+    return 0;  // longer than needed
+  if ((lead == 0xED && second >= 0xA0) || (lead == 0xF4 && second >= 0x90))
+    return 0;  // not characters
   return length;
 }
 
@@ -50,7 +53,8 @@ std::string printable(std::string_view text, std::size_t most) {
   assert(most >= 16);
   constexpr std::string_view dots = "…";
   if (text.size() <= most) return escaped(text);
-  std::size_t first = (most - dots.size()) * 3 / 4, last = text.size() - (most - dots.size() - first);
+  std::size_t first = (most - dots.size()) * 3 / 4,
+              last = text.size() - (most - dots.size() - first);
   while (first > 0 && continues(text[first])) --first;
   while (last < text.size() && continues(text[last])) ++last;
   return escaped(text.substr(0, first)) + std::string(dots) + escaped(text.substr(last));

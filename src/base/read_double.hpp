@@ -25,7 +25,8 @@ inline std::from_chars_result read_double(const char* first, const char* last, d
   const double read = std::strtod(number.c_str(), &end);
   const char* const stop = first + (end - number.c_str());
   if (stop == first) return {first, std::errc::invalid_argument};
-  if (errno == ERANGE && (read == 0 || std::isinf(read))) return {stop, std::errc::result_out_of_range};
+  if (errno == ERANGE && (read == 0 || std::isinf(read)))
+    return {stop, std::errc::result_out_of_range};
   value = read;
   return {stop, std::errc()};
 #endif

@@ -9,11 +9,11 @@
 
 namespace knead {
 
-/// A list of large items whose copies share those that neither has changed: a history of states, each with all items,
-/// needs the memory of one and of what was changed.
+/// A list of large items whose copies share those that neither has changed: a history of states,
+/// each with all items, needs the memory of one and of what was changed.
 ///
-/// Reading never copies; an item is copied when it is asked for to be changed and another list has it too. Copying a
-/// list costs a pointer per item. Equality is that of the items. Not thread-safe.
+/// Reading never copies; an item is copied when it is asked for to be changed and another list has
+/// it too. Copying a list costs a pointer per item. Equality is that of the items. Not thread-safe.
 template <class T>
 class SharedItems {
   using Pointers = std::vector<std::shared_ptr<T>>;
@@ -87,7 +87,8 @@ class SharedItems {
   void erase(Iterator at) { items_.erase(items_.begin() + (at - begin())); }
 
   friend bool operator==(const SharedItems& a, const SharedItems& b) {
-    return std::ranges::equal(a.items_, b.items_, [](const auto& x, const auto& y) { return x == y || *x == *y; });
+    return std::ranges::equal(a.items_, b.items_,
+                              [](const auto& x, const auto& y) { return x == y || *x == *y; });
   }
 
  private:

@@ -8,11 +8,11 @@
 
 namespace knead {
 
-/// A list that grows at its end and whose copies share what they have in common: a history of thousands of states, each
-/// with all records so far, needs the memory of one.
+/// A list that grows at its end and whose copies share what they have in common: a history of
+/// thousands of states, each with all records so far, needs the memory of one.
 ///
-/// Copying n items costs O(n / 128); appending and changing one copy at most 128 items. Equality is that of
-/// the items. Not thread-safe.
+/// Copying n items costs O(n / 128); appending and changing one copy at most 128 items. Equality is
+/// that of the items. Not thread-safe.
 template <class T>
 class SharedList {
  public:
@@ -52,7 +52,9 @@ class SharedList {
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
-  [[nodiscard]] const T& operator[](std::size_t k) const { return (*chunks_[k / chunk])[k % chunk]; }
+  [[nodiscard]] const T& operator[](std::size_t k) const {
+    return (*chunks_[k / chunk])[k % chunk];
+  }
   [[nodiscard]] const T& front() const { return (*this)[0]; }
   [[nodiscard]] const T& back() const { return (*this)[size_ - 1]; }
   [[nodiscard]] Iterator begin() const { return {this, 0}; }
@@ -79,7 +81,8 @@ class SharedList {
     chunks_.resize((size + chunk - 1) / chunk);
     if (size % chunk == 0) return;
     own_chunk(chunks_.size() - 1);
-    chunks_.back()->erase(chunks_.back()->begin() + static_cast<std::ptrdiff_t>(size % chunk), chunks_.back()->end());
+    chunks_.back()->erase(chunks_.back()->begin() + static_cast<std::ptrdiff_t>(size % chunk),
+                          chunks_.back()->end());
   }
 
   friend bool operator==(const SharedList& a, const SharedList& b) {
@@ -95,7 +98,8 @@ class SharedList {
     if (chunks_[k].use_count() > 1) chunks_[k] = std::make_shared<std::vector<T>>(*chunks_[k]);
   }
 
-  std::vector<std::shared_ptr<std::vector<T>>> chunks_;  // full but for the last one; shared ones do not change
+  std::vector<std::shared_ptr<std::vector<T>>>
+      chunks_;  // full but for the last one; shared ones do not change
   std::size_t size_ = 0;
 };
 

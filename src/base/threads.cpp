@@ -33,12 +33,15 @@ int from_environment() {
 
 int find_default() {
   const int wanted = from_environment();
-  return std::clamp(wanted > 0 ? wanted : static_cast<int>(std::thread::hardware_concurrency()), 1, max_thread_count);
+  return std::clamp(wanted > 0 ? wanted : static_cast<int>(std::thread::hardware_concurrency()), 1,
+                    max_thread_count);
 }
 
 }  // namespace
 
-void set_thread_count(int count) { chosen.store(std::clamp(count, 0, max_thread_count), std::memory_order_relaxed); }
+void set_thread_count(int count) {
+  chosen.store(std::clamp(count, 0, max_thread_count), std::memory_order_relaxed);
+}
 
 int thread_count() {
   static const int otherwise = find_default();

@@ -26,20 +26,22 @@ Expected<Curve> isocurve(const Surface& surface, int direction, double at, Side 
   const Eigen::Index step_across = direction == 0 ? net[1] : 1;
   const Eigen::Index step_along = direction == 0 ? 1 : net[1];
   Points points = Points::Zero(along.count(), 3);
-  std::vector<double> weights(surface.rational() ? static_cast<std::size_t>(along.count()) : 0, 0.0);
+  std::vector<double> weights(surface.rational() ? static_cast<std::size_t>(along.count()) : 0,
+                              0.0);
   for (int j = 0; j < along.count(); ++j) {
     double denominator = 0;
     for (int r = 0; r <= across.degree(); ++r) {
       const Eigen::Index k = (span - across.degree() + r) * step_across + j * step_along;
-      const double factor = basis[static_cast<std::size_t>(r)] *
-                            (surface.rational() ? surface.weights()[static_cast<std::size_t>(k)] : 1.0);
+      const double factor =
+          basis[static_cast<std::size_t>(r)] *
+          (surface.rational() ? surface.weights()[static_cast<std::size_t>(k)] : 1.0);
       points.row(j) += factor * surface.control_points().row(k);
       denominator += factor;
     }
     if (!surface.rational()) continue;
     weights[static_cast<std::size_t>(j)] = denominator;
-    points.row(j) =
-        denominator == 0 ? Points::RowXpr::PlainObject::Zero().eval() : (points.row(j) / denominator).eval();
+    points.row(j) = denominator == 0 ? Points::RowXpr::PlainObject::Zero().eval()
+                                     : (points.row(j) / denominator).eval();
   }
   return Curve::create({along}, std::move(points), std::move(weights));
 }
@@ -55,7 +57,8 @@ Curve turned(const Curve& curve) {
 }
 
 double net_diagonal(const Points& points) {
-  return points.rows() == 0 ? 0.0 : (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+  return points.rows() == 0 ? 0.0
+                            : (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
 std::array<bool, 2> closed_directions(const Surface& surface) {
@@ -66,16 +69,18 @@ std::array<bool, 2> closed_directions(const Surface& surface) {
     const auto first = boundary_curve(surface, direction, 0);
     const auto last = boundary_curve(surface, direction, 1);
     if (!first || !last) continue;
-    bool same = (first->control_points() - last->control_points()).rowwise().norm().maxCoeff() <= tolerance;
+    bool same =
+        (first->control_points() - last->control_points()).rowwise().norm().maxCoeff() <= tolerance;
     // Weights with a common factor describe the same curve.
     if (surface.rational()) {
       const auto a = first->weights();
       const auto b = last->weights();
-      const auto largest =
-          std::max_element(a.begin(), a.end(), [](double x, double y) { return std::abs(x) < std::abs(y); });
+      const auto largest = std::max_element(
+          a.begin(), a.end(), [](double x, double y) { return std::abs(x) < std::abs(y); });
       const double w_a = *largest;
       const double w_b = b[static_cast<std::size_t>(largest - a.begin())];
-      for (std::size_t k = 0; k < a.size(); ++k) same = same && std::abs(a[k] / w_a - b[k] / w_b) <= relative;
+      for (std::size_t k = 0; k < a.size(); ++k)
+        same = same && std::abs(a[k] / w_a - b[k] / w_b) <= relative;
     }
     // A net collapsed along this whole direction has no interior to close around.
     const auto net = surface.net();
@@ -84,7 +89,9 @@ std::array<bool, 2> closed_directions(const Surface& surface) {
     for (Eigen::Index k = 0; k < surface.size() && collapsed; ++k) {
       const auto position = direction == 0 ? k / net[1] : k % net[1];
       if (position == 0) continue;
-      collapsed = (surface.control_points().row(k) - surface.control_points().row(k - step)).norm() <= tolerance;
+      collapsed =
+          (surface.control_points().row(k) - surface.control_points().row(k - step)).norm() <=
+          tolerance;
     }
     closed[static_cast<std::size_t>(direction)] = same && !collapsed;
   }

@@ -11,8 +11,8 @@ namespace knead::brep {
 namespace {
 
 constexpr std::size_t most_compared = 4000;  // edges or vertices with about the same x
-constexpr double least_length = 4;           // of sewn pieces, in distances within which points are one
-constexpr double least_same = 1e-6;          // of the size of a boundary
+constexpr double least_length = 4;   // of sewn pieces, in distances within which points are one
+constexpr double least_same = 1e-6;  // of the size of a boundary
 constexpr std::array quarters = {0.25, 0.5, 0.75};
 
 }  // namespace
@@ -26,19 +26,25 @@ void BoundaryPiece::set(std::shared_ptr<const Curve> curve, const Interval& rang
   };
 }
 
-/// Turns pieces, and returns the distance within which their points are one. A piece that is closed to this begins and
-/// ends there both ways: it keeps its direction, in which roundings of its ends say nothing.
+/// Turns pieces, and returns the distance within which their points are one. A piece that is closed
+/// to this begins and ends there both ways: it keeps its direction, in which roundings of its ends
+/// say nothing.
 double BoundaryEdges::chain(const std::vector<BoundaryPiece*>& pieces, double resolution) {
   Eigen::AlignedBox3d box;
   for (const BoundaryPiece* piece : pieces) box.extend(piece->from()).extend(piece->at(0.5));
   const double same = std::max(resolution, least_same * box.diagonal().norm());
-  if (pieces.size() < 2 || (pieces.size() == 2 && (pieces[0]->to() - pieces[1]->from()).norm() == 0)) return same;
+  if (pieces.size() < 2 ||
+      (pieces.size() == 2 && (pieces[0]->to() - pieces[1]->from()).norm() == 0))
+    return same;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     BoundaryPiece& piece = *pieces[k];
-    if ((piece.from() - piece.to()).norm() <= same && (piece.at(0.5) - piece.from()).norm() > same) continue;
+    if ((piece.from() - piece.to()).norm() <= same && (piece.at(0.5) - piece.from()).norm() > same)
+      continue;
     if (k == 0) {
       const BoundaryPiece& next = *pieces[1];
-      const auto gap = [&](const Point& p) { return std::min((next.from() - p).norm(), (next.to() - p).norm()); };
+      const auto gap = [&](const Point& p) {
+        return std::min((next.from() - p).norm(), (next.to() - p).norm());
+      };
       if (gap(piece.from()) < gap(piece.to())) piece.reversed = !piece.reversed;
       continue;
     }
@@ -57,7 +63,8 @@ void BoundaryEdges::begin(double same, Group group) {
 Index BoundaryEdges::vertex(const Point& p) {
   const auto end = corners_.upper_bound(p.x() + same_);
   std::size_t compared = 0;
-  for (auto at = corners_.lower_bound(p.x() - same_); at != end && compared < most_compared; ++at, ++compared) {
+  for (auto at = corners_.lower_bound(p.x() - same_); at != end && compared < most_compared;
+       ++at, ++compared) {
     const Corner& corner = at->second;
     if ((sews(corner.group) || corner.loop == loop_) && meet(corner.place, p)) return corner.vertex;
   }
@@ -70,7 +77,8 @@ std::optional<bool> BoundaryEdges::against(const Known& known, const BoundaryPie
   const BoundaryPiece& other = known.piece;
   const auto run = [&](double t) { return piece.at(piece.reversed ? 1 - t : t); };
   if (known.loop == loop_) {  // there and back
-    if (!meet(other.from(), piece.to()) || !meet(other.to(), piece.from()) || !meet(other.at(0.5), piece.at(0.5)))
+    if (!meet(other.from(), piece.to()) || !meet(other.to(), piece.from()) ||
+        !meet(other.at(0.5), piece.at(0.5)))
       return std::nullopt;
     return !other.reversed;
   }
@@ -88,7 +96,8 @@ BoundaryEdges::Use BoundaryEdges::of(const BoundaryPiece& piece) {
   const double x = piece.at(0.5).x();
   const auto end = known_.upper_bound(x + same_);
   std::size_t compared = 0;
-  for (auto at = known_.lower_bound(x - same_); at != end && compared < most_compared; ++at, ++compared) {
+  for (auto at = known_.lower_bound(x - same_); at != end && compared < most_compared;
+       ++at, ++compared) {
     const auto back = against(at->second, piece);
     if (back) return {at->second.edge, !*back, *back != piece.reversed};
   }

@@ -29,14 +29,16 @@ struct CoveredEdge {
 /// What faces and their edges say about one direction of the parameters.
 struct Direction {
   double period = 0;
-  double tolerance = 0;              // in parameters
-  std::vector<Interval> covered;     // by parts of faces
-  std::vector<double> seams, lines;  // where edges run along it: those on both sides of a face, and the others
+  double tolerance = 0;           // in parameters
+  std::vector<Interval> covered;  // by parts of faces
+  std::vector<double> seams,
+      lines;  // where edges run along it: those on both sides of a face, and the others
 };
 
 Interval hull(const std::vector<Interval>& parts) {
   Interval all = parts.front();
-  for (const Interval& part : parts) all = {std::min(all.lower, part.lower), std::max(all.upper, part.upper)};
+  for (const Interval& part : parts)
+    all = {std::min(all.lower, part.lower), std::max(all.upper, part.upper)};
   return all;
 }
 
@@ -62,7 +64,8 @@ std::optional<Point> main_direction(const std::vector<CoveredEdge>& edges) {
 }
 
 /// Where the direction d is constant along an edge.
-std::optional<double> line_along(const FaceSurface& surface, const Loop& points, int d, const Direction& direction) {
+std::optional<double> line_along(const FaceSurface& surface, const Loop& points, int d,
+                                 const Direction& direction) {
   std::optional<double> first;
   for (const Point& p : points) {
     const Foot foot = surface.foot(p);
@@ -85,8 +88,8 @@ bool on_a_line(const Direction& direction, double at) {
   return std::ranges::any_of(direction.seams, near) || std::ranges::any_of(direction.lines, near);
 }
 
-/// The ends of what is covered, or `beyond` farther where no edge runs along them: a curve may bulge between the points
-/// at which it was followed.
+/// The ends of what is covered, or `beyond` farther where no edge runs along them: a curve may
+/// bulge between the points at which it was followed.
 Interval with_ends(const Direction& direction, Interval covered, double beyond) {
   if (!on_a_line(direction, covered.lower)) covered.lower -= beyond;
   if (!on_a_line(direction, covered.upper)) covered.upper += beyond;
@@ -130,14 +133,16 @@ Interval covered_of(const Direction& direction) {
 }
 
 /// The limits of v at poles: none is passed, and one that is reached is met.
-Interval within_poles(const Interval& range, const Interval& covered, const std::array<std::optional<double>, 2>& poles,
-                      double tolerance) {
+Interval within_poles(const Interval& range, const Interval& covered,
+                      const std::array<std::optional<double>, 2>& poles, double tolerance) {
   Interval result = range;
   if (poles[0] && result.lower < *poles[0] + tolerance) {
-    result.lower = covered.lower > *poles[0] + tolerance ? (covered.lower + *poles[0]) / 2 : *poles[0];
+    result.lower =
+        covered.lower > *poles[0] + tolerance ? (covered.lower + *poles[0]) / 2 : *poles[0];
   }
   if (poles[1] && result.upper > *poles[1] - tolerance) {
-    result.upper = covered.upper < *poles[1] - tolerance ? (covered.upper + *poles[1]) / 2 : *poles[1];
+    result.upper =
+        covered.upper < *poles[1] - tolerance ? (covered.upper + *poles[1]) / 2 : *poles[1];
   }
   return result;
 }
@@ -146,7 +151,10 @@ Interval within_poles(const Interval& range, const Interval& covered, const std:
 class CoveredPart {
  public:
   CoveredPart(const Model& model, std::span<const Face* const> faces)
-      : model_(model), support_(model.supports[faces.front()->support]), faces_(faces), sampler_(model, {fine_chord}) {}
+      : model_(model),
+        support_(model.supports[faces.front()->support]),
+        faces_(faces),
+        sampler_(model, {fine_chord}) {}
 
   Expected<Surface> spline() {
     if (auto read = read_surface(); !read) return std::unexpected(read.error());
@@ -159,7 +167,8 @@ class CoveredPart {
       if (!(range[std::size_t(d)].length() > 0)) return error("the faces on it cover no area");
     }
     if (!surface_->whole()[1] && !(directions_[1].period > 0)) {
-      range[1] = within_poles(range[1], hull(directions_[1].covered), surface_->poles(), directions_[1].tolerance);
+      range[1] = within_poles(range[1], hull(directions_[1].covered), surface_->poles(),
+                              directions_[1].tolerance);
     }
     auto made = surface_->patch(range[0], range[1]);
     if (!made) return error(made.error().what);
@@ -168,7 +177,8 @@ class CoveredPart {
 
  private:
   std::unexpected<Error> error(std::string what) const {
-    return model_.error(support_, std::move(what), "it stays as it is: hold the edges of its faces");
+    return model_.error(support_, std::move(what),
+                        "it stays as it is: hold the edges of its faces");
   }
 
   Expected<void> read_surface() {
@@ -187,7 +197,8 @@ class CoveredPart {
       points_.insert(points_.end(), edge.points->begin(), edge.points->end());
     }
     auto surface = FaceSurface::create(model_, support_, points_);
-    if (!surface) return error("it has no exact B-spline form that is known here: " + surface.error().what);
+    if (!surface)
+      return error("it has no exact B-spline form that is known here: " + surface.error().what);
     if (surface->turned()) return error("its swept curve is trimmed against its own direction");
     if (const auto direction = main_direction(edges_)) surface->align(*direction);
     surface_ = *std::move(surface);
@@ -198,10 +209,12 @@ class CoveredPart {
   Expected<void> cut_open() {
     for (const Face* face : faces_) {
       const auto loops = sampler_.loops(*face);
-      auto read = loops ? FaceSurface::under(model_, *face, *loops) : std::unexpected(loops.error());
+      auto read =
+          loops ? FaceSurface::under(model_, *face, *loops) : std::unexpected(loops.error());
       if (!read) return std::unexpected(read.error());
       read->set_steps({fine_chord});
-      const auto charted = charted_face(model_, *face, sampler_, std::make_shared<const FaceSurface>(*std::move(read)));
+      const auto charted = charted_face(model_, *face, sampler_,
+                                        std::make_shared<const FaceSurface>(*std::move(read)));
       if (!charted) return std::unexpected(charted.error());
       for (const RegionPart& part : charted->parts) add(part, charted->chart);
     }
@@ -217,7 +230,9 @@ class CoveredPart {
       if (speed > 0) direction.tolerance = near / speed;
       for (const CoveredEdge& edge : edges_) {
         const auto line = line_along(*surface_, *edge.points, d, direction);
-        if (line) (edge.uses > 1 && faces_.size() == 1 ? direction.seams : direction.lines).push_back(*line);
+        if (line)
+          (edge.uses > 1 && faces_.size() == 1 ? direction.seams : direction.lines)
+              .push_back(*line);
       }
     }
     return {};
@@ -227,7 +242,8 @@ class CoveredPart {
     Vector2d lower = Vector2d::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
     for (const RegionPoint& p : part.outer) {
       Vector2d at = chart.from(p.at);
-      if (surface_->plane()) at = surface_->foot(chart.surface().at(at)).parameters;  // it may have been aligned
+      if (surface_->plane())
+        at = surface_->foot(chart.surface().at(at)).parameters;  // it may have been aligned
       lower = lower.cwiseMin(at);
       upper = upper.cwiseMax(at);
     }

@@ -17,7 +17,8 @@ Expected<CurveTable> CurveTable::create(Curve curve) {
   for (const int s : spans) {
     for (int k = 0; k < per_span; ++k) {
       const double t = static_cast<double>(k) / per_span;
-      result.parameters_.push_back(std::clamp((1 - t) * knots[s] + t * knots[s + 1], knots[s], knots[s + 1]));
+      result.parameters_.push_back(
+          std::clamp((1 - t) * knots[s] + t * knots[s + 1], knots[s], knots[s + 1]));
     }
   }
   result.parameters_.push_back(knots.domain().upper);
@@ -29,13 +30,14 @@ Expected<CurveTable> CurveTable::create(Curve curve) {
   result.lower_ = result.points_.colwise().minCoeff().transpose();
   result.upper_ = result.points_.colwise().maxCoeff().transpose();
   for (Eigen::Index k = 1; k < result.points_.rows(); ++k) {
-    result.longest_chord_ = std::max(result.longest_chord_, (result.points_.row(k) - result.points_.row(k - 1)).norm());
+    result.longest_chord_ =
+        std::max(result.longest_chord_, (result.points_.row(k) - result.points_.row(k - 1)).norm());
   }
   return result;
 }
 
-/// The curve and its first two derivatives; none where a denominator is not positive. Nothing is allocated: this is
-/// asked several times for every point of every edge of a file.
+/// The curve and its first two derivatives; none where a denominator is not positive. Nothing is
+/// allocated: this is asked several times for every point of every edge of a file.
 std::optional<std::array<Point, 3>> CurveTable::jet(double t) const {
   const KnotVector& knots = curve_.knots(0);
   const auto p = static_cast<std::size_t>(knots.degree());
@@ -63,10 +65,12 @@ std::optional<std::array<Point, 3>> CurveTable::jet(double t) const {
   return result;
 }
 
-/// By Newton's iteration from the k-th tabulated point, between its neighbours, if that improves the foot.
+/// By Newton's iteration from the k-th tabulated point, between its neighbours, if that improves
+/// the foot.
 void CurveTable::descend(const Point& point, Eigen::Index k, Foot& foot) const {
   const double lower = parameters_[static_cast<std::size_t>(std::max<Eigen::Index>(k - 1, 0))];
-  const double upper = parameters_[static_cast<std::size_t>(std::min<Eigen::Index>(k + 1, points_.rows() - 1))];
+  const double upper =
+      parameters_[static_cast<std::size_t>(std::min<Eigen::Index>(k + 1, points_.rows() - 1))];
   double t = parameters_[static_cast<std::size_t>(k)];
   for (int iteration = 0; iteration < 10; ++iteration) {
     const auto value = jet(t);
@@ -107,9 +111,10 @@ CurveTable::Foot CurveTable::closest(const Point& point, double limit) const {
   for (Eigen::Index k = 0; k < size; ++k) {
     const double after = k + 1 < size ? squared(k + 1) : infinity;
     if (before >= here && after >= here) {
-      const Eigen::Index left = std::max<Eigen::Index>(k - 1, 0), right = std::min<Eigen::Index>(k + 1, size - 1);
-      const double reach =
-          std::max((points_.row(k) - points_.row(left)).norm(), (points_.row(k) - points_.row(right)).norm());
+      const Eigen::Index left = std::max<Eigen::Index>(k - 1, 0),
+                         right = std::min<Eigen::Index>(k + 1, size - 1);
+      const double reach = std::max((points_.row(k) - points_.row(left)).norm(),
+                                    (points_.row(k) - points_.row(right)).norm());
       if (std::sqrt(here) - 2 * reach <= std::min(foot.distance, limit)) descend(point, k, foot);
     }
     before = here;

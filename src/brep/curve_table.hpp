@@ -10,8 +10,8 @@
 
 namespace knead::brep {
 
-/// The parameter of the point of a curve nearest to `point`, and the distance: the best of the tabulated points and
-/// their neighbourhoods, by Newton's iteration.
+/// The parameter of the point of a curve nearest to `point`, and the distance: the best of the
+/// tabulated points and their neighbourhoods, by Newton's iteration.
 class CurveTable {
  public:
   /// Tabulates the curve. Errors: as for `evaluate`.
@@ -22,7 +22,8 @@ class CurveTable {
     double distance = 0;
   };
   /// Feet farther away than `limit` may be approximate.
-  [[nodiscard]] Foot closest(const Point& point, double limit = std::numeric_limits<double>::infinity()) const;
+  [[nodiscard]] Foot closest(const Point& point,
+                             double limit = std::numeric_limits<double>::infinity()) const;
   [[nodiscard]] const Curve& curve() const { return curve_; }
   [[nodiscard]] const std::vector<double>& parameters() const { return parameters_; }
   [[nodiscard]] const Points& points() const { return points_; }

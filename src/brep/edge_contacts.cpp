@@ -21,7 +21,8 @@ using Eigen::Vector2d;
 /// Follows edges over the surfaces of the faces around them.
 class Follower {
  public:
-  explicit Follower(const Model& model) : model_(model), edges_(model, {under_chord}), feet_(model.surfaces.size()) {}
+  explicit Follower(const Model& model)
+      : model_(model), edges_(model, {under_chord}), feet_(model.surfaces.size()) {}
 
   Expected<EdgeContactFace> follow(const Face& face, const std::vector<Point>& points) {
     EdgeContactFace result;
@@ -30,28 +31,35 @@ class Follower {
     if (points.empty()) return result;
     const SplineSurface* const on = model_.spline_under(face);
     if (on == nullptr) {
-      if (auto done = along_other(face, points, result); !done) return std::unexpected(done.error());
+      if (auto done = along_other(face, points, result); !done)
+        return std::unexpected(done.error());
       return result;
     }
     result.surface = on->id;
-    if (auto done = along_spline(model_.supports[face.support].spline, points, result.feet); !done) {
+    if (auto done = along_spline(model_.supports[face.support].spline, points, result.feet);
+        !done) {
       return std::unexpected(done.error());
     }
     return result;
   }
 
  private:
-  Expected<void> along_spline(Index k, const std::vector<Point>& points, std::vector<Vector2d>& feet) {
+  Expected<void> along_spline(Index k, const std::vector<Point>& points,
+                              std::vector<Vector2d>& feet) {
     if (!feet_[k]) {
       auto made = SurfaceFoot::create(model_.surfaces[k].surface);
       if (!made) return std::unexpected(made.error());
       feet_[k] = *std::move(made);
     }
-    feet = feet_[k]->along(points, on_surface * net_diagonal(model_.surfaces[k].surface.control_points())).feet;
+    feet =
+        feet_[k]
+            ->along(points, on_surface * net_diagonal(model_.surfaces[k].surface.control_points()))
+            .feet;
     return {};
   }
 
-  Expected<void> along_other(const Face& face, const std::vector<Point>& points, EdgeContactFace& result) {
+  Expected<void> along_other(const Face& face, const std::vector<Point>& points,
+                             EdgeContactFace& result) {
     const auto surface = FaceSurface::under(model_, face, edges_);
     if (!surface) return std::unexpected(surface.error());
     for (const Point& p : points) {
@@ -62,7 +70,8 @@ class Follower {
       const auto curvature = surface->curvature(at);
       for (std::size_t k = 0; curvature && k < 2; ++k) {
         const Point& along = curvature->directions[k];
-        result.bending.back() += (face.same_sense ? 1 : -1) * curvature->principal[k] * along * along.transpose();
+        result.bending.back() +=
+            (face.same_sense ? 1 : -1) * curvature->principal[k] * along * along.transpose();
       }
     }
     return {};
@@ -78,7 +87,8 @@ Expected<std::vector<Point>> points_along(const Model& model, Index edge, int sa
   if (!piece) return std::unexpected(piece.error());
   std::vector<Point> result;
   for (int k = 0; k < samples; ++k) {
-    result.push_back(piece->curve.at(std::lerp(piece->from, piece->to, static_cast<double>(k) / (samples - 1))));
+    result.push_back(
+        piece->curve.at(std::lerp(piece->from, piece->to, static_cast<double>(k) / (samples - 1))));
   }
   return result;
 }
@@ -105,7 +115,8 @@ EdgesOfFaces edges_of_faces(const Model& model, const std::set<Index>& surfaces)
 
 }  // namespace
 
-Expected<std::vector<EdgeContact>> edge_contacts(const Model& model, std::span<const std::string> surfaces,
+Expected<std::vector<EdgeContact>> edge_contacts(const Model& model,
+                                                 std::span<const std::string> surfaces,
                                                  int samples) {
   std::set<Index> on;
   for (const std::string& surface : surfaces) {
@@ -144,7 +155,8 @@ Expected<std::vector<EdgeContact>> edge_contacts(const Model& model, std::span<c
   return result;
 }
 
-Expected<std::vector<EdgeContact>> edge_contacts(const Model& model, const std::string& surface, int samples) {
+Expected<std::vector<EdgeContact>> edge_contacts(const Model& model, const std::string& surface,
+                                                 int samples) {
   return edge_contacts(model, std::span(&surface, 1), samples);
 }
 

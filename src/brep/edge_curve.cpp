@@ -13,7 +13,8 @@ namespace {
 
 constexpr int max_halvings = 12;       // of one piece of a curve
 constexpr double close_enough = 1e-6;  // of the extent: ends of a closed spline
-constexpr double point_rounding = 64 * std::numeric_limits<double>::epsilon();  // of coordinates: what is a point
+// Of coordinates: what is a point.
+constexpr double point_rounding = 64 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -36,7 +37,8 @@ Expected<EdgeCurve> EdgeCurve::create(const CurveGeometry& geometry) {
   }
   auto table = CurveTable::create(*std::get<std::shared_ptr<const Curve>>(geometry.form));
   if (!table) return std::unexpected(std::move(table.error()));
-  const double extent = (table->points().colwise().maxCoeff() - table->points().colwise().minCoeff()).norm();
+  const double extent =
+      (table->points().colwise().maxCoeff() - table->points().colwise().minCoeff()).norm();
   const bool closed = table->closed(close_enough * extent);
   const auto domain = table->curve().knots(0).domain();
   EdgeCurve curve = made(*std::move(table));
@@ -112,7 +114,8 @@ std::vector<double> EdgeCurve::corners() const {
   if (table == nullptr) return result;
   const KnotVector& knots = table->curve().knots(0);
   for (const int s : knots.spans()) {
-    if (knots[s] > knots.domain().lower && knots.multiplicity(knots[s]) >= knots.degree()) result.push_back(knots[s]);
+    if (knots[s] > knots.domain().lower && knots.multiplicity(knots[s]) >= knots.degree())
+      result.push_back(knots[s]);
   }
   return result;
 }
@@ -121,7 +124,8 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, ChordLimit cho
   if (straight()) return {from, to};
   const auto* conic = std::get_if<Conic>(&form_);
   const double angle =
-      chord_angle(conic != nullptr && domain_ ? chord.of(std::max(conic->a.norm(), conic->b.norm())) : chord.share);
+      chord_angle(conic != nullptr && domain_ ? chord.of(std::max(conic->a.norm(), conic->b.norm()))
+                                              : chord.share);
   std::vector<double> coarse = {from, to};
   if (const auto* table = std::get_if<CurveTable>(&form_)) {
     const auto& knots = table->curve().knots(0);
@@ -134,11 +138,13 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, ChordLimit cho
     std::sort(coarse.begin(), coarse.end());
     coarse.erase(std::unique(coarse.begin(), coarse.end()), coarse.end());
   } else {
-    // An ellipse is divided evenly by angle: its chords are then within `chord` times the longer semi-axis. The others
-    // are refined from a few pieces.
-    const int pieces = domain_ ? std::max(1, static_cast<int>(std::ceil((to - from) / angle - 1e-9))) : 4;
+    // An ellipse is divided evenly by angle: its chords are then within `chord` times the longer
+    // semi-axis. The others are refined from a few pieces.
+    const int pieces =
+        domain_ ? std::max(1, static_cast<int>(std::ceil((to - from) / angle - 1e-9))) : 4;
     coarse.clear();
-    for (int k = 0; k <= pieces; ++k) coarse.push_back(k == pieces ? to : from + (to - from) * k / pieces);
+    for (int k = 0; k <= pieces; ++k)
+      coarse.push_back(k == pieces ? to : from + (to - from) * k / pieces);
     if (domain_) return coarse;
   }
   Eigen::AlignedBox3d box;
@@ -147,7 +153,8 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, ChordLimit cho
     if (k > 0) box.extend(at((coarse[k - 1] + coarse[k]) / 2));
   }
   const double tolerance = std::min(chord.share * box.diagonal().norm() / 2, chord.length);
-  const double rounding = point_rounding * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const double rounding =
+      point_rounding * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   // Halved from the left, with the far ends on a stack.
   std::vector<double> result = {from};
   std::vector<std::pair<double, int>> waiting;
@@ -165,7 +172,8 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, ChordLimit cho
     // A piece that turns both ways may meet its chord in the middle.
     if (off <= tolerance && std::isfinite(chord.length)) {
       const double start = result.back();
-      off = std::max({off, distance(at(start + (end - start) / 4)), distance(at(start + (end - start) * 3 / 4))});
+      off = std::max({off, distance(at(start + (end - start) / 4)),
+                      distance(at(start + (end - start) * 3 / 4))});
     }
     const double turn = std::atan2((m - a).cross(b - m).norm(), (m - a).dot(b - m));
     // Halves of a circular arc turn by half its angle.

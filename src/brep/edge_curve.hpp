@@ -18,11 +18,13 @@ struct ChordLimit {
   double length = std::numeric_limits<double>::infinity();
 
   /// Both, as a share of this radius.
-  [[nodiscard]] double of(double radius) const { return radius > 0 ? std::min(share, length / radius) : share; }
+  [[nodiscard]] double of(double radius) const {
+    return radius > 0 ? std::min(share, length / radius) : share;
+  }
 };
 
-/// A curve of a model in its own parametrisation (ISO 10303-42): lines, circles, ellipses, hyperbolas, parabolas,
-/// polylines and B-spline curves.
+/// A curve of a model in its own parametrisation (ISO 10303-42): lines, circles, ellipses,
+/// hyperbolas, parabolas, polylines and B-spline curves.
 class EdgeCurve {
  public:
   /// Errors: those of evaluating a spline.
@@ -41,22 +43,25 @@ class EdgeCurve {
   [[nodiscard]] bool straight() const { return std::holds_alternative<Line>(form_); }
   /// The domain of a spline or polyline, which `spline` gives as a whole; none of other curves.
   [[nodiscard]] std::optional<Interval> whole() const;
-  /// The curve over `range`, which may lie up to a turn past the domain of an ellipse, as a B-spline curve on the same
-  /// parameters: of degree 1 for lines, 2 for conics, exact but for rounding (`conic_spline`); splines and polylines as
-  /// they are, whatever the range.
+  /// The curve over `range`, which may lie up to a turn past the domain of an ellipse, as a
+  /// B-spline curve on the same parameters: of degree 1 for lines, 2 for conics, exact but for
+  /// rounding (`conic_spline`); splines and polylines as they are, whatever the range.
   [[nodiscard]] Expected<Curve> spline(const Interval& range) const;
   /// It runs against its form.
   [[nodiscard]] bool turned() const { return turned_; }
 
-  /// The parameter in the record of the curve: that of a LINE counts multiples of its VECTOR, here it is a length.
+  /// The parameter in the record of the curve: that of a LINE counts multiples of its VECTOR, here
+  /// it is a length.
   [[nodiscard]] double file_parameter(double t) const;
-  /// Knots inside the domain of a multiplicity that is the degree or more, ascending: the curve may have corners there.
+  /// Knots inside the domain of a multiplicity that is the degree or more, ascending: the curve may
+  /// have corners there.
   [[nodiscard]] std::vector<double> corners() const;
 
-  /// Parameters from `from` to `to` > from, both included. Circles and ellipses at even steps of at most 2 acos(1 −
-  /// share): chords are then within `share` · radius. Others so closely that chords are within `share` · half the
-  /// extent of the whole piece, and turn no more than a circle's would, unless that moves less than a fiftieth of the
-  /// tolerance. `to` may lie up to one period past the domain of a closed curve.
+  /// Parameters from `from` to `to` > from, both included. Circles and ellipses at even steps of at
+  /// most 2 acos(1 − share): chords are then within `share` · radius. Others so closely that chords
+  /// are within `share` · half the extent of the whole piece, and turn no more than a circle's
+  /// would, unless that moves less than a fiftieth of the tolerance. `to` may lie up to one period
+  /// past the domain of a closed curve.
   [[nodiscard]] std::vector<double> subdivided(double from, double to, ChordLimit chord) const;
 
  private:
@@ -67,7 +72,8 @@ class EdgeCurve {
   bool closed_ = false, turned_ = false;
 };
 
-/// Angle between neighbouring points of a circle whose chords are within `chord` · radius: 2 acos(1 − chord).
+/// Angle between neighbouring points of a circle whose chords are within `chord` · radius: 2 acos(1
+/// − chord).
 [[nodiscard]] double chord_angle(double chord);
 
 }  // namespace knead::brep

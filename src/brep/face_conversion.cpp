@@ -43,7 +43,8 @@ std::vector<std::string> surfaces_at_edge(const Model& model, const std::string&
     if (face.support == none) continue;
     const std::string& surface = model.supports[face.support].id;
     const auto edges = edges_around(face);
-    const bool meets = std::ranges::any_of(edges, [&](Index k) { return model.edges[k].id == edge; });
+    const bool meets =
+        std::ranges::any_of(edges, [&](Index k) { return model.edges[k].id == edge; });
     if (meets && std::ranges::find(result, surface) == result.end()) result.push_back(surface);
   }
   return result;
@@ -59,8 +60,11 @@ Expected<std::vector<const Face*>> faces_on_other(const Model& model, const std:
     support = face.support;
     spline = !is_other(model, face);
   }
-  if (spline) return input_error("it lies on a B-spline surface already", id, "select " + model.supports[support].id);
-  if (without) return input_error("the face has no surface", id, "only faces with a surface can be converted");
+  if (spline)
+    return input_error("it lies on a B-spline surface already", id,
+                       "select " + model.supports[support].id);
+  if (without)
+    return input_error("the face has no surface", id, "only faces with a surface can be converted");
   if (support == none) {
     return input_error("no face, and no surface on which one lies, has this name", id,
                        "`knead info --faces` lists those that can be converted");

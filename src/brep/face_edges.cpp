@@ -25,7 +25,8 @@ VisibleRegion within_sides(const Surface& surface, const ParameterSpace& space) 
   VisibleRegion result;
   for (std::size_t d = 0; d < 2; ++d) {
     result.closed[d] = space.periods[d] > 0;
-    for (std::size_t end = 0; end < 2; ++end) result.poles[d][end] = space.poles[d][end].has_value();
+    for (std::size_t end = 0; end < 2; ++end)
+      result.poles[d][end] = space.poles[d][end].has_value();
   }
   for (std::size_t d = 0; d < 2; ++d) {
     const KnotVector& along = surface.knots()[1 - d];
@@ -45,7 +46,8 @@ VisibleRegion within_sides(const Surface& surface, const ParameterSpace& space) 
       };
       for (const int span : along.spans()) {
         for (int k = 0; k < chords; ++k) {
-          append((along[span] + (along[span + 1] - along[span]) * k / chords - domain.lower) / domain.length());
+          append((along[span] + (along[span + 1] - along[span]) * k / chords - domain.lower) /
+                 domain.length());
         }
       }
       append(1);
@@ -110,10 +112,11 @@ class Course {
     edge.points.push_back(p);
     edge.course.push_back(at);
   }
-  void halve(TrimEdge& edge, const Point& p, const Vector2d& a, const Point& q, const Vector2d& b, int depth) {
+  void halve(TrimEdge& edge, const Point& p, const Vector2d& a, const Point& q, const Vector2d& b,
+             int depth) {
     const Point middle = 0.5 * (p + q);
-    // The midpoint of a chord is not on the surface, and where two sides of the surface are close together, as at the
-    // trailing edge of a blade, the other side may be nearer.
+    // The midpoint of a chord is not on the surface, and where two sides of the surface are close
+    // together, as at the trailing edge of a blade, the other side may be nearer.
     LoopPoint m = foot(middle, LoopPoint{0.5 * (a + b)}, near_ + 0.1 * (q - p).norm());
     if (m.free[0] || m.free[1]) return;
     unwrap(m.at, a);
@@ -141,7 +144,8 @@ struct VisibleRegions::Faces {
     for (Index k = 0; k < model.faces.size(); ++k) {
       const Face& face = model.faces[k];
       edges.push_back(edges_around(face));
-      if (model.spline_under(face) != nullptr) on_surface[model.supports[face.support].spline].push_back(k);
+      if (model.spline_under(face) != nullptr)
+        on_surface[model.supports[face.support].spline].push_back(k);
       for (const Index edge : edges.back()) around[edge].push_back(k);
     }
   }
@@ -173,7 +177,8 @@ Expected<VisibleRegion> VisibleRegions::Faces::of(Index k) const {
   result.uncertainty = surface.uncertainty;
   for (std::size_t d = 0; d < 2; ++d) {
     result.closed[d] = feet->space().periods[d] > 0;
-    for (std::size_t end = 0; end < 2; ++end) result.poles[d][end] = feet->space().poles[d][end].has_value();
+    for (std::size_t end = 0; end < 2; ++end)
+      result.poles[d][end] = feet->space().poles[d][end].has_value();
   }
   EdgeSampler sampler(model, {edge_chord});
   Course course(*feet, size);
@@ -228,7 +233,8 @@ Expected<VisibleRegion> region_of_sides(const Surface& surface) {
 }
 
 Expected<VisibleRegion> visible_region(const Model& model, const std::string& surface) {
-  return VisibleRegions(std::shared_ptr<const Model>(std::shared_ptr<const Model>(), &model)).of(surface);
+  return VisibleRegions(std::shared_ptr<const Model>(std::shared_ptr<const Model>(), &model))
+      .of(surface);
 }
 
 }  // namespace knead

@@ -109,11 +109,12 @@ Expected<Loop> EdgeSampler::loop(const Bound& bound) {
     Loop piece = **points;
     if (!use.forward) std::reverse(piece.begin(), piece.end());
     ++ways[use.edge][use.forward ? 0 : 1];
-    result.insert(result.end(), piece.begin(), piece.end() - 1);  // the last one begins the next piece
+    result.insert(result.end(), piece.begin(),
+                  piece.end() - 1);  // the last one begins the next piece
   }
   if (bound.wrong) return std::unexpected(*bound.wrong);
-  const bool seams =
-      std::all_of(ways.begin(), ways.end(), [](const auto& edge) { return edge.second[0] == edge.second[1]; });
+  const bool seams = std::all_of(ways.begin(), ways.end(),
+                                 [](const auto& edge) { return edge.second[0] == edge.second[1]; });
   if (seams) result.clear();
   return result;
 }

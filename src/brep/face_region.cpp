@@ -22,19 +22,24 @@ double extent_of(std::span<const Loop> loops) {
 
 }  // namespace
 
-Expected<void> check_extent(const Model& model, const Face& face, std::span<const Loop> loops, double size) {
+Expected<void> check_extent(const Model& model, const Face& face, std::span<const Loop> loops,
+                            double size) {
   const double extent = extent_of(loops);
   if (extent == 0 || extent >= least_extent * size) return {};
-  return model.error(face,
-                     fmt::format("its edges, {:.3g} in extent, vanish on its surface, {:.3g} in size", extent, size),
-                     "look for a wrong coordinate or weight of the surface");
+  return model.error(
+      face,
+      fmt::format("its edges, {:.3g} in extent, vanish on its surface, {:.3g} in size", extent,
+                  size),
+      "look for a wrong coordinate or weight of the surface");
 }
 
-Expected<std::vector<RegionPart>> region_of(const Model& model, const Face& face, EdgeSampler& edges,
-                                            const SurfaceFoot& feet, double size) {
+Expected<std::vector<RegionPart>> region_of(const Model& model, const Face& face,
+                                            EdgeSampler& edges, const SurfaceFoot& feet,
+                                            double size) {
   auto loops = edges.loops(face);
   if (!loops) return std::unexpected(std::move(loops.error()));
-  if (auto checked = check_extent(model, face, *loops, size); !checked) return std::unexpected(checked.error());
+  if (auto checked = check_extent(model, face, *loops, size); !checked)
+    return std::unexpected(checked.error());
   const double extent = extent_of(*loops);
   std::vector<std::vector<LoopPoint>> in_chart;
   for (Loop& loop : *loops) {

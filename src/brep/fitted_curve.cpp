@@ -13,8 +13,9 @@ namespace {
 constexpr std::size_t most_spans = 4096;
 constexpr int per_span = 5;
 constexpr int first_spans = 8;
-constexpr double beside_corner = 0.25;   // of a first span: divisions nearer to a corner are left out
-constexpr double least_span = 1e-10;     // of all parameters
+constexpr double beside_corner =
+    0.25;                             // of a first span: divisions nearer to a corner are left out
+constexpr double least_span = 1e-10;  // of all parameters
 constexpr double lift_tolerance = 1e-8;  // of a path's size
 
 std::vector<double> first_breaks(const Interval& range, const std::vector<double>& all_corners) {
@@ -40,7 +41,11 @@ Expected<Curve> interpolated(const PathPoint& path, const std::vector<double>& b
   std::vector<double> knots;
   for (std::size_t k = 0; k < breaks.size(); ++k) {
     const bool end = k == 0 || k + 1 == breaks.size();
-    knots.insert(knots.end(), end ? 4 : std::ranges::binary_search(corners, breaks[k]) ? 3 : 1, breaks[k]);
+    knots.insert(knots.end(),
+                 end                                              ? 4
+                 : std::ranges::binary_search(corners, breaks[k]) ? 3
+                                                                  : 1,
+                 breaks[k]);
   }
   auto vector = KnotVector::create(3, std::move(knots));
   if (!vector) return std::unexpected(vector.error());
@@ -56,9 +61,10 @@ Expected<Curve> interpolated(const PathPoint& path, const std::vector<double>& b
   return Curve::create({*std::move(vector)}, std::move(points));
 }
 
-/// The breaks, with those spans halved in which the curve is off the path. Errors: spans that cannot be halved further.
-Expected<std::vector<double>> halved(const PathPoint& path, const Curve& curve, const std::vector<double>& breaks,
-                                     double tolerance) {
+/// The breaks, with those spans halved in which the curve is off the path. Errors: spans that
+/// cannot be halved further.
+Expected<std::vector<double>> halved(const PathPoint& path, const Curve& curve,
+                                     const std::vector<double>& breaks, double tolerance) {
   std::vector<double> result = {breaks.front()};
   for (std::size_t k = 1; k < breaks.size(); ++k) {
     bool off = false;
@@ -80,8 +86,8 @@ Expected<std::vector<double>> halved(const PathPoint& path, const Curve& curve, 
 
 }  // namespace
 
-Expected<Curve> fitted_curve(const PathPoint& path, const Interval& range, const std::vector<double>& corners,
-                             double tolerance) {
+Expected<Curve> fitted_curve(const PathPoint& path, const Interval& range,
+                             const std::vector<double>& corners, double tolerance) {
   std::vector<double> breaks = first_breaks(range, corners);
   while (true) {
     auto curve = interpolated(path, breaks, corners);

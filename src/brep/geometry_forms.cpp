@@ -23,12 +23,15 @@ std::optional<Frame> frame_of(const Point& origin, const Point& axis, const Poin
 }
 
 Expected<CurveGeometry> line_of(const Point& origin, const Point& direction, double magnitude) {
-  if (!usable(origin) || !(direction.norm() > 0)) return input_error("it has no point or direction");
+  if (!usable(origin) || !(direction.norm() > 0))
+    return input_error("it has no point or direction");
   return CurveGeometry{Line{origin, direction.normalized(), is_length(magnitude) ? magnitude : 1}};
 }
 
-Expected<CurveGeometry> conic_of(Conic::Form form, const std::optional<Frame>& frame, double a, double b) {
-  if (!frame || !is_length(a) || !is_length(b)) return input_error("its position or its lengths cannot be read");
+Expected<CurveGeometry> conic_of(Conic::Form form, const std::optional<Frame>& frame, double a,
+                                 double b) {
+  if (!frame || !is_length(a) || !is_length(b))
+    return input_error("its position or its lengths cannot be read");
   return CurveGeometry{Conic{form, frame->origin, a * frame->x, b * frame->y}};
 }
 
@@ -50,16 +53,21 @@ Expected<CurveGeometry> polyline_of(std::span<const Point> corners) {
   return result;
 }
 
-CurveGeometry spline_of(Curve curve) { return CurveGeometry{std::make_shared<const Curve>(std::move(curve))}; }
+CurveGeometry spline_of(Curve curve) {
+  return CurveGeometry{std::make_shared<const Curve>(std::move(curve))};
+}
 
-Expected<ElementarySurface> elementary_of(ElementarySurface::Kind kind, const std::optional<Frame>& frame,
-                                          double radius, double second) {
+Expected<ElementarySurface> elementary_of(ElementarySurface::Kind kind,
+                                          const std::optional<Frame>& frame, double radius,
+                                          double second) {
   using Kind = ElementarySurface::Kind;
   if (!frame) return input_error("its position cannot be read");
   if (kind == Kind::plane) return ElementarySurface{kind, *frame};
-  if (!is_length(radius) && !(radius == 0 && kind == Kind::cone)) return input_error("its radius cannot be read");
+  if (!is_length(radius) && !(radius == 0 && kind == Kind::cone))
+    return input_error("its radius cannot be read");
   const bool two = kind == Kind::cone || kind == Kind::torus;
-  if (two && (!usable(second) || !(second != 0))) return input_error("its second measure cannot be read");
+  if (two && (!usable(second) || !(second != 0)))
+    return input_error("its second measure cannot be read");
   return ElementarySurface{kind, *frame, radius, two ? second : 0};
 }
 

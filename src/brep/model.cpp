@@ -15,7 +15,8 @@ Frame frame_about(const Point& origin, const Point& axis) {
 
 void Model::index_surfaces() {
   surface_index_.clear();
-  for (std::size_t k = 0; k < surfaces.size(); ++k) surface_index_.emplace(surfaces[k].id, static_cast<Index>(k));
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    surface_index_.emplace(surfaces[k].id, static_cast<Index>(k));
 }
 
 Index Model::surface_index(const std::string& id) const {
@@ -49,7 +50,8 @@ std::string Model::length_unit() const {
 }
 
 std::unexpected<Error> Model::error(const Record& at, std::string what, std::string remedy) const {
-  return std::unexpected(Error{ErrorKind::input, std::move(what), at.label(), std::move(remedy), name, at.line});
+  return std::unexpected(
+      Error{ErrorKind::input, std::move(what), at.label(), std::move(remedy), name, at.line});
 }
 
 std::vector<Index> edges_around(const Face& face) {
@@ -67,8 +69,9 @@ bool Assembly::placed() const {
 }
 
 const Part* Assembly::part_of(const std::string& surface) const {
-  const auto found = std::ranges::find_if(
-      parts, [&](const Part& part) { return std::ranges::find(part.surfaces, surface) != part.surfaces.end(); });
+  const auto found = std::ranges::find_if(parts, [&](const Part& part) {
+    return std::ranges::find(part.surfaces, surface) != part.surfaces.end();
+  });
   return found == parts.end() ? nullptr : &*found;
 }
 
@@ -76,13 +79,15 @@ void Part::add(const Model& model, Index face) {
   const Face& own = model.faces[face];
   faces.push_back(own.id);
   const SplineSurface* below = model.spline_under(own);
-  if (below != nullptr && std::ranges::find(surfaces, below->id) == surfaces.end()) surfaces.push_back(below->id);
+  if (below != nullptr && std::ranges::find(surfaces, below->id) == surfaces.end())
+    surfaces.push_back(below->id);
 }
 
 void add_rest(const Model& model, Assembly& assembly) {
   std::unordered_set<std::string> held;
   for (const Part& part : assembly.parts) {
-    for (const auto* ids : {&part.faces, &part.surfaces, &part.curves}) held.insert(ids->begin(), ids->end());
+    for (const auto* ids : {&part.faces, &part.surfaces, &part.curves})
+      held.insert(ids->begin(), ids->end());
   }
   Part rest{{}, model.length_unit(), {}, {}, {}, {PartPlace{}}};
   const auto add = [&](const auto& entities, std::vector<std::string>& ids) {
@@ -96,7 +101,8 @@ void add_rest(const Model& model, Assembly& assembly) {
   }
   add(model.surfaces, rest.surfaces);
   add(model.curves, rest.curves);
-  if (!rest.faces.empty() || !rest.surfaces.empty() || !rest.curves.empty()) assembly.parts.push_back(std::move(rest));
+  if (!rest.faces.empty() || !rest.surfaces.empty() || !rest.curves.empty())
+    assembly.parts.push_back(std::move(rest));
 }
 
 Assembly single_part(const Model& model) {

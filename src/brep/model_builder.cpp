@@ -12,7 +12,8 @@ Index add_vertex(Model& model, std::string id, const Point& place) {
   return static_cast<Index>(model.vertices.size() - 1);
 }
 
-Index add_edge(Model& model, std::string id, Index start, Index end, Expected<CurveGeometry> curve) {
+Index add_edge(Model& model, std::string id, Index start, Index end,
+               Expected<CurveGeometry> curve) {
   Edge& edge = model.edges.emplace_back(std::move(id), start, end);
   if (!curve) {
     edge.wrong = fault(std::move(curve.error()));
@@ -27,8 +28,8 @@ Index ModelBuilder::add_support(Support support) {
   return static_cast<Index>(model_.supports.size() - 1);
 }
 
-Index ModelBuilder::add_surface(int number, std::string label, Surface surface, const std::string& unit,
-                                double uncertainty) {
+Index ModelBuilder::add_surface(int number, std::string label, Surface surface,
+                                const std::string& unit, double uncertainty) {
   Support support;
   support.id = name(number);
   support.kind = surface.rational() ? "BOUNDED_SURFACE" : "B_SPLINE_SURFACE_WITH_KNOTS";
@@ -71,15 +72,17 @@ void complete(Model& model) {
   constexpr double work_per_point = 20;  // multiplications, about
   model.index_surfaces();
   std::size_t points = 0;
-  for (const SplineSurface& surface : model.surfaces) points += static_cast<std::size_t>(surface.surface.size());
+  for (const SplineSurface& surface : model.surfaces)
+    points += static_cast<std::size_t>(surface.surface.size());
   const auto count = static_cast<std::ptrdiff_t>(model.surfaces.size());
-  const double work =
-      work_per_point * static_cast<double>(points) / static_cast<double>(std::max<std::ptrdiff_t>(count, 1));
-  detail::parallel_for(count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      model.surfaces[k].closed = closed_directions(model.surfaces[k].surface);
-    }
-  });
+  const double work = work_per_point * static_cast<double>(points) /
+                      static_cast<double>(std::max<std::ptrdiff_t>(count, 1));
+  detail::parallel_for(
+      count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+          model.surfaces[k].closed = closed_directions(model.surfaces[k].surface);
+        }
+      });
   find_trimming(model);
   if (model.assembly && model.assembly->parts.empty()) model.assembly = single_part(model);
 }

@@ -11,8 +11,8 @@ namespace knead::brep {
 Index add_vertex(Model& model, std::string id, const Point& place);
 Index add_edge(Model& model, std::string id, Index start, Index end, Expected<CurveGeometry> curve);
 
-/// Makes the model of a format that counts its entities. Entity n is "#n"; those that the format does not count have
-/// numbers above.
+/// Makes the model of a format that counts its entities. Entity n is "#n"; those that the format
+/// does not count have numbers above.
 class ModelBuilder {
  public:
   /// \param last the largest number that the format gives itself
@@ -23,16 +23,21 @@ class ModelBuilder {
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] Model& model() { return model_; }
 
-  Index add_vertex(int number, const Point& place) { return brep::add_vertex(model_, name(number), place); }
+  Index add_vertex(int number, const Point& place) {
+    return brep::add_vertex(model_, name(number), place);
+  }
   Index add_edge(int number, Index start, Index end, Expected<CurveGeometry> curve) {
     return brep::add_edge(model_, name(number), start, end, std::move(curve));
   }
   Index add_support(Support support);
   /// With the support that leads to it.
-  Index add_surface(int number, std::string label, Surface surface, const std::string& unit, double uncertainty);
+  Index add_surface(int number, std::string label, Surface surface, const std::string& unit,
+                    double uncertainty);
   void add_face(Face face) { model_.faces.push_back(std::move(face)); }
   void add_shell(Shell shell) { model_.shells.push_back(std::move(shell)); }
-  void add_unreadable(int number, Error reason) { model_.unreadable.push_back({name(number), std::move(reason)}); }
+  void add_unreadable(int number, Error reason) {
+    model_.unreadable.push_back({name(number), std::move(reason)});
+  }
 
   /// The B-spline surface that a support leads to, or null.
   [[nodiscard]] const SplineSurface* spline_at(Index support) const {
@@ -51,9 +56,10 @@ class ModelBuilder {
 /// Of edges where it has some, whose vertex bounds nothing; else of its vertex; else unknown.
 void settle_kind(Bound& bound);
 
-/// Fills what follows from the rest of a model: which of its surfaces are closed and trimmed, and how many faces lie on
-/// each; an assembly of one part where it has none. Cost: some searches for the nearest point of a side per span of
-/// every edge, by several threads where there is much to do.
+/// Fills what follows from the rest of a model: which of its surfaces are closed and trimmed, and
+/// how many faces lie on each; an assembly of one part where it has none. Cost: some searches for
+/// the nearest point of a side per span of every edge, by several threads where there is much to
+/// do.
 void complete(Model& model);
 
 }  // namespace knead::brep

@@ -16,13 +16,15 @@ namespace {
 constexpr double margin = 0.125;            // of the edge, at its ends
 constexpr double share_of_tolerance = 0.1;  // for the fit of a curve
 constexpr double least_tolerance = 1e-7;    // of the size, as for held edges
-constexpr double open_above = 1e-5;  // of the size: surfaces that have parted by more leave the edge where it was
-constexpr double rounding = 1e-11;   // of the size
+// Of the size: surfaces that have parted by more leave the edge where it was.
+constexpr double open_above = 1e-5;
+constexpr double rounding = 1e-11;  // of the size
 
 /// Points of the moved edge.
 class Path {
  public:
-  Path(const SharedEdge& edge, std::span<const Surface* const> before, std::span<const Surface* const> after)
+  Path(const SharedEdge& edge, std::span<const Surface* const> before,
+       std::span<const Surface* const> after)
       : edge_(edge), before_(before), after_(after) {}
 
   [[nodiscard]] Expected<Point> displacement(const SharedEdge::Sample& sample) const {
@@ -63,7 +65,8 @@ class Path {
   }
 
  private:
-  /// 0 at the ends, where the curve must keep its distance from the vertices, and 1 in between; twice differentiable.
+  /// 0 at the ends, where the curve must keep its distance from the vertices, and 1 in between;
+  /// twice differentiable.
   [[nodiscard]] double inner(double t) const {
     const double from = edge_.samples().front().parameter, to = edge_.samples().back().parameter;
     const double x = std::min(1.0, std::min(t - from, to - t) / (margin * (to - from)));
@@ -86,7 +89,8 @@ Expected<Curve> recorded(const SharedEdge& edge, const Curve& curve) {
   for (const double t : own) knots.push_back(edge.file_parameter(t));
   const Points& net = curve.control_points();
   Points points(net.rows(), 3);
-  for (Eigen::Index k = 0; k < net.rows(); ++k) points.row(k) = net.row(edge.turned() ? net.rows() - 1 - k : k);
+  for (Eigen::Index k = 0; k < net.rows(); ++k)
+    points.row(k) = net.row(edge.turned() ? net.rows() - 1 - k : k);
   if (edge.turned()) {
     const double sum = knots.front() + knots.back();
     std::ranges::reverse(knots);
@@ -103,13 +107,15 @@ double size_of(std::span<const Surface* const> surfaces) {
   return size;
 }
 
-/// Takes vertices that are all of a loop, such as a whole sphere's pole, along with the surfaces that replace others.
+/// Takes vertices that are all of a loop, such as a whole sphere's pole, along with the surfaces
+/// that replace others.
 Expected<void> move_loop_vertices(const Model& model, std::span<const Replacement> replacements,
                                   std::map<std::string, Point>& vertices) {
   std::map<Index, const Replacement*> after;  // by the surface
   for (const Replacement& r : replacements) after[model.surface_index(r.id)] = &r;
   for (const Face& face : model.faces) {
-    const auto found = face.support == none ? after.end() : after.find(model.supports[face.support].spline);
+    const auto found =
+        face.support == none ? after.end() : after.find(model.supports[face.support].spline);
     if (found == after.end()) continue;
     std::optional<SurfaceFoot> feet;
     const Surface& before = model.surfaces[found->first].surface;
@@ -139,7 +145,8 @@ Expected<Curve> moved_curve(const SharedEdge& edge, std::span<const Surface* con
                             std::span<const Surface* const> after, double tolerance) {
   const Path path(edge, before, after);
   const Interval range{edge.samples().front().parameter, edge.samples().back().parameter};
-  const auto curve = fitted_curve([&](double t) { return path.at(t); }, range, edge.corners(), tolerance);
+  const auto curve =
+      fitted_curve([&](double t) { return path.at(t); }, range, edge.corners(), tolerance);
   if (!curve && curve.error().what == not_fitted) return not_followed(edge);
   if (!curve) return curve;
   return recorded(edge, *curve);
@@ -169,7 +176,8 @@ Expected<MovedEdges> moved_edges(const Model& model, std::span<const Replacement
       const auto way = path.displacement(sample);
       if (!way) return std::unexpected(way.error());
       largest = std::max(largest, way->norm());
-      const bool first = &sample == &edge->samples().front(), last = &sample == &edge->samples().back();
+      const bool first = &sample == &edge->samples().front(),
+                 last = &sample == &edge->samples().back();
       for (std::size_t v = 0; v < 2; ++v) {
         if (!(v == 0 ? first : last) || way->norm() <= rounding * size) continue;
         vertices.try_emplace(edge->vertices()[v], edge->vertex_points()[v] + *way);
@@ -180,7 +188,8 @@ Expected<MovedEdges> moved_edges(const Model& model, std::span<const Replacement
     if (!curve) return std::unexpected(curve.error());
     result.edges.push_back({id, *std::move(curve)});
   }
-  if (auto moved = move_loop_vertices(model, replacements, vertices); !moved) return std::unexpected(moved.error());
+  if (auto moved = move_loop_vertices(model, replacements, vertices); !moved)
+    return std::unexpected(moved.error());
   for (const auto& [id, place] : vertices) result.vertices.push_back({id, place});
   return result;
 }

@@ -27,7 +27,8 @@ double unit_ratio(const LengthUnit& child, const LengthUnit& parent) {
 std::optional<double> scale_of(const Eigen::Matrix3d& matrix) {
   constexpr double most_shear = 1e-9;
   const double length = std::cbrt(std::abs(matrix.determinant()));
-  const Eigen::Matrix3d off = matrix.transpose() * matrix - length * length * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d off =
+      matrix.transpose() * matrix - length * length * Eigen::Matrix3d::Identity();
   if (!(off.norm() <= most_shear * length * length)) return std::nullopt;
   return length;
 }
@@ -37,7 +38,8 @@ void PartGraph::use(Index parent, Index child, const Eigen::Affine3d& move) {
   uses_.push_back({parent, child, move});
 }
 
-/// Marks what hangs together with products; other parts, such as those of styles and views, place nothing.
+/// Marks what hangs together with products; other parts, such as those of styles and views, place
+/// nothing.
 void PartGraph::mark() {
   std::deque<Index> ready;
   for (Index k = 0; k < nodes_.size(); ++k) {
@@ -88,8 +90,8 @@ Expected<void> PartGraph::place(const std::string& unit, Assembly& result) {
       Node& child = nodes_[uses_[u].child];
       count += own.size();
       if (count > max_places) {
-        return input_error(fmt::format("the assembly has more than {} places of parts", max_places), {},
-                           "open the files of its parts");
+        return input_error(fmt::format("the assembly has more than {} places of parts", max_places),
+                           {}, "open the files of its parts");
       }
       for (const PartPlace& p : own) {
         child.places.push_back({below(p.path, child.name), p.to_model * uses_[u].move});
@@ -100,7 +102,8 @@ Expected<void> PartGraph::place(const std::string& unit, Assembly& result) {
   const auto products = static_cast<std::size_t>(std::ranges::count(nodes_, true, &Node::product));
   if (followed == products) return {};
   // What is left hangs on an assembly within itself.
-  result.warnings.emplace_back("an assembly contains itself; its parts stand as far as they could be followed");
+  result.warnings.emplace_back(
+      "an assembly contains itself; its parts stand as far as they could be followed");
   for (Node& node : nodes_) {
     if (node.product && node.places.empty()) node.places.push_back({node.name});
   }

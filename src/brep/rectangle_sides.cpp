@@ -14,8 +14,10 @@ namespace {
 constexpr double point_size = 1e-9;     // of the surface's: sides that are points
 constexpr double beside_domain = 1e-9;  // of a domain, by rounding
 
-/// Points of a swept surface at the corners of the rectangle, which say how much of an unbounded profile is needed.
-Expected<std::vector<Point>> points_on(const Support& support, const Interval& u, const Interval& v) {
+/// Points of a swept surface at the corners of the rectangle, which say how much of an unbounded
+/// profile is needed.
+Expected<std::vector<Point>> points_on(const Support& support, const Interval& u,
+                                       const Interval& v) {
   std::vector<Point> result;
   const auto* swept = std::get_if<SweptSurface>(&support.form);
   if (swept == nullptr || !swept->curve) return result;
@@ -27,7 +29,8 @@ Expected<std::vector<Point>> points_on(const Support& support, const Interval& u
 }
 
 /// The exact spline that a surface is over a rectangle, which may be a part of it.
-Expected<Surface> spline_over(const Model& model, const Support& support, const Interval& u, const Interval& v) {
+Expected<Surface> spline_over(const Model& model, const Support& support, const Interval& u,
+                              const Interval& v) {
   if (support.spline != none) return model.surfaces[support.spline].surface;
   const auto on_it = points_on(support, u, v);
   if (!on_it) return std::unexpected(on_it.error());
@@ -46,17 +49,19 @@ std::optional<double> within(double t, const Interval& domain) {
 
 }  // namespace
 
-Expected<std::vector<BoundaryPiece>> rectangle_sides(const Model& model, const Support& support, const Interval& u,
-                                                     const Interval& v) {
+Expected<std::vector<BoundaryPiece>> rectangle_sides(const Model& model, const Support& support,
+                                                     const Interval& u, const Interval& v) {
   if (support.wrong) return std::unexpected(*support.wrong);
-  if (!(u.length() > 0 && v.length() > 0)) return model.error(support, "its parameters enclose nothing");
+  if (!(u.length() > 0 && v.length() > 0))
+    return model.error(support, "its parameters enclose nothing");
   const auto surface = spline_over(model, support, u, v);
   if (!surface) return std::unexpected(surface.error());
   std::array<Interval, 2> range = {u, v};
   for (std::size_t d = 0; d < 2; ++d) {
     const Interval domain = surface->knots(static_cast<int>(d)).domain();
     const auto lower = within(range[d].lower, domain), upper = within(range[d].upper, domain);
-    if (!lower || !upper) return model.error(support, "the rectangle reaches beyond its parameters");
+    if (!lower || !upper)
+      return model.error(support, "the rectangle reaches beyond its parameters");
     range[d] = {*lower, *upper};
   }
   const double size = net_diagonal(surface->control_points());
@@ -65,7 +70,8 @@ Expected<std::vector<BoundaryPiece>> rectangle_sides(const Model& model, const S
     int across, end;
     bool reversed;
   };
-  for (const Side& side : {Side{1, 0, false}, Side{0, 1, false}, Side{1, 1, true}, Side{0, 0, true}}) {
+  for (const Side& side :
+       {Side{1, 0, false}, Side{0, 1, false}, Side{1, 1, true}, Side{0, 0, true}}) {
     const Interval& across = range[static_cast<std::size_t>(side.across)];
     const Interval along = range[static_cast<std::size_t>(1 - side.across)];
     auto made = isocurve(*surface, side.across, side.end == 0 ? across.lower : across.upper,

@@ -34,14 +34,14 @@ Expected<std::vector<Index>> surfaces_at(const Model& model, Index edge) {
       const auto of_support = [&](const std::string Record::*part) {
         return face.support == none ? std::string() : model.supports[face.support].*part;
       };
-      return input_error(
-          "the face " + face.id + " would have to follow the edge, but lies on " + model.label_under(face), id,
-          "convert that surface to a B-spline surface, or hold the edge",
-          {ErrorCode::edge_face_not_spline,
-           {{"edge", id},
-            {"face", face.id},
-            {"surface", of_support(&Record::id)},
-            {"form", of_support(&Record::kind)}}});
+      return input_error("the face " + face.id + " would have to follow the edge, but lies on " +
+                             model.label_under(face),
+                         id, "convert that surface to a B-spline surface, or hold the edge",
+                         {ErrorCode::edge_face_not_spline,
+                          {{"edge", id},
+                           {"face", face.id},
+                           {"surface", of_support(&Record::id)},
+                           {"form", of_support(&Record::kind)}}});
     }
     const Index surface = model.supports[face.support].spline;
     if (std::ranges::find(result, surface) == result.end()) result.push_back(surface);
@@ -82,12 +82,14 @@ Expected<Tangents> tangents_at(const Surface& surface, const Vector2d& foot) {
 Point normal_of(const Tangents& tangents) {
   const double u = tangents.col(0).norm(), v = tangents.col(1).norm();
   const Point n = tangents.col(0).cross(tangents.col(1));
-  if (!(std::min(u, v) > least_speed * std::max(u, v) && n.norm() > least_sine * u * v)) return Point::Zero();
+  if (!(std::min(u, v) > least_speed * std::max(u, v) && n.norm() > least_sine * u * v))
+    return Point::Zero();
   return n.normalized();
 }
 
 /// What `Sample` says of the tangent planes, for a curve in the direction `along`.
-void look_across(std::span<const Surface> surfaces, const Point& along, SharedEdge::Sample& sample) {
+void look_across(std::span<const Surface> surfaces, const Point& along,
+                 SharedEdge::Sample& sample) {
   std::vector<Tangents> tangents;
   Point first = Point::Zero(), mean = Point::Zero();
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
@@ -111,8 +113,9 @@ void look_across(std::span<const Surface> surfaces, const Point& along, SharedEd
 std::optional<int> closed_across(std::span<const Vector2d> feet, const ParameterSpace& space) {
   for (int d = 0; d < 2; ++d) {
     if (space.periods[static_cast<std::size_t>(d)] == 0) continue;
-    const bool along = std::ranges::all_of(
-        feet, [d](const Vector2d& foot) { return std::abs(foot[d] - std::round(foot[d])) <= on_closing_line; });
+    const bool along = std::ranges::all_of(feet, [d](const Vector2d& foot) {
+      return std::abs(foot[d] - std::round(foot[d])) <= on_closing_line;
+    });
     if (along) return d;
   }
   return std::nullopt;
@@ -124,9 +127,12 @@ std::vector<double> sampled(const EdgePiece& piece) {
   std::vector<double> result = {coarse.front()};
   const double longest = (piece.to - piece.from) / least_samples;
   for (std::size_t k = 1; k < coarse.size(); ++k) {
-    const int parts = std::max(1, static_cast<int>(std::ceil((coarse[k] - coarse[k - 1]) / longest - 1e-9)));
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil((coarse[k] - coarse[k - 1]) / longest - 1e-9)));
     for (int j = 1; j <= parts; ++j) {
-      result.push_back(j == parts ? coarse[k] : std::lerp(coarse[k - 1], coarse[k], static_cast<double>(j) / parts));
+      result.push_back(j == parts
+                           ? coarse[k]
+                           : std::lerp(coarse[k - 1], coarse[k], static_cast<double>(j) / parts));
     }
   }
   return result;
@@ -167,7 +173,8 @@ struct SharedEdge::Data {
       feet.push_back(search);
       near.push_back(std::max(within, 2 * gap));
       sides.push_back(closed ? std::optional(ClosingSide{*closed, end}) : std::nullopt);
-      for (std::size_t k = 0; k < samples.size(); ++k) samples[k].feet.push_back(sided(path.feet[k], sides.back()));
+      for (std::size_t k = 0; k < samples.size(); ++k)
+        samples[k].feet.push_back(sided(path.feet[k], sides.back()));
     }
   }
   static Vector2d sided(Vector2d foot, const std::optional<ClosingSide>& side) {
@@ -186,8 +193,8 @@ Expected<SharedEdge> SharedEdge::create(const Model& model, const std::string& i
   if (!piece) return std::unexpected(piece.error());
   auto made = std::make_shared<Data>(Data{.id = id, .piece = *std::move(piece)});
   const EdgePiece& own = made->piece;
-  const std::array vertices =
-      own.backwards ? std::array{own.end_vertex, own.start_vertex} : std::array{own.start_vertex, own.end_vertex};
+  const std::array vertices = own.backwards ? std::array{own.end_vertex, own.start_vertex}
+                                            : std::array{own.start_vertex, own.end_vertex};
   made->vertices = {model.vertices[vertices[0]].id, model.vertices[vertices[1]].id};
   made->edges_at = edges_ending_at(model, edge, vertices);
   for (const double t : own.curve.corners()) {
@@ -231,13 +238,17 @@ std::array<Point, 2> SharedEdge::vertex_points() const {
   const EdgePiece& own = data_->piece;
   return own.backwards ? std::array{own.end, own.start} : std::array{own.start, own.end};
 }
-const std::array<std::vector<std::string>, 2>& SharedEdge::edges_at_vertices() const { return data_->edges_at; }
+const std::array<std::vector<std::string>, 2>& SharedEdge::edges_at_vertices() const {
+  return data_->edges_at;
+}
 const std::vector<SharedEdge::Sample>& SharedEdge::samples() const { return data_->samples; }
 const std::vector<double>& SharedEdge::corners() const { return data_->corners; }
 double SharedEdge::gap() const { return data_->gap; }
 double SharedEdge::angle() const { return data_->angle; }
 double SharedEdge::uncertainty() const { return data_->uncertainty; }
-double SharedEdge::file_parameter(double parameter) const { return data_->piece.curve.file_parameter(parameter); }
+double SharedEdge::file_parameter(double parameter) const {
+  return data_->piece.curve.file_parameter(parameter);
+}
 bool SharedEdge::turned() const { return data_->piece.curve.turned(); }
 
 std::array<double, 2> parameters_at_foot(const Surface& surface, const Vector2d& foot) {

@@ -11,7 +11,8 @@ using namespace brep;
 
 Expected<TrimLoops> trim_loops(const brep::Model& model, double chord) {
   if (!(chord >= 1e-6 && chord <= 0.2)) {
-    return std::unexpected(Error{ErrorKind::usage, "the tolerance of chords is out of range", {}, "use 1e-6 to 0.2"});
+    return std::unexpected(
+        Error{ErrorKind::usage, "the tolerance of chords is out of range", {}, "use 1e-6 to 0.2"});
   }
   TrimLoops result;
   result.surfaces.resize(model.surfaces.size());
@@ -25,14 +26,16 @@ Expected<TrimLoops> trim_loops(const brep::Model& model, double chord) {
     auto foot = feet.find(k);
     if (foot == feet.end()) foot = feet.emplace(k, SurfaceFoot::create(surface->surface)).first;
     auto parts = foot->second
-                     ? region_of(model, face, edges, *foot->second, net_diagonal(surface->surface.control_points()))
+                     ? region_of(model, face, edges, *foot->second,
+                                 net_diagonal(surface->surface.control_points()))
                      : Expected<std::vector<RegionPart>>(std::unexpected(foot->second.error()));
     if (!parts) {
       failed[k] = true;
       result.skipped.push_back({face.id, std::move(parts.error())});
       continue;
     }
-    for (const RegionPart& part : *parts) add_turns(part, foot->second->space(), result.surfaces[k].faces);
+    for (const RegionPart& part : *parts)
+      add_turns(part, foot->second->space(), result.surfaces[k].faces);
   }
   for (std::size_t k = 0; k < result.surfaces.size(); ++k) {
     auto& trim = result.surfaces[k];

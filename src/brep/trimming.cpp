@@ -32,8 +32,8 @@ class NaturalBoundary {
     for (int direction = 0; direction < 2; ++direction) {
       for (int end = 0; end < 2; ++end) {
         auto curve = boundary_curve(surface, direction, end);
-        auto table =
-            curve ? CurveTable::create(*std::move(curve)) : Expected<CurveTable>(std::unexpected(curve.error()));
+        auto table = curve ? CurveTable::create(*std::move(curve))
+                           : Expected<CurveTable>(std::unexpected(curve.error()));
         if (!table) return std::nullopt;
         BoundarySide side{*std::move(table)};
         side.required = net_diagonal(side.table.points()) > tolerance;
@@ -88,8 +88,8 @@ class NaturalBoundary {
     }
   }
 
-  // Gaps may be as long as the error of the vertices: twice the tolerance at each end. The chord alone does not decide:
-  // that of a whole closed curve is zero.
+  // Gaps may be as long as the error of the vertices: twice the tolerance at each end. The chord
+  // alone does not decide: that of a whole closed curve is zero.
   [[nodiscard]] bool short_arc(const Curve& curve, double from, double to) const {
     constexpr int pieces = 8;
     for (int k = 1; k <= pieces; ++k) {
@@ -104,11 +104,13 @@ class NaturalBoundary {
   [[nodiscard]] bool full(const BoundarySide& side) const {
     const auto domain = side.table.curve().knots(0).domain();
     auto covered = side.covered;
-    std::sort(covered.begin(), covered.end(), [](const Interval& a, const Interval& b) { return a.lower < b.lower; });
+    std::sort(covered.begin(), covered.end(),
+              [](const Interval& a, const Interval& b) { return a.lower < b.lower; });
     covered.push_back({domain.upper, domain.upper});
     double reached = domain.lower;
     for (const auto& interval : covered) {
-      if (interval.lower > reached && !short_arc(side.table.curve(), reached, interval.lower)) return false;
+      if (interval.lower > reached && !short_arc(side.table.curve(), reached, interval.lower))
+        return false;
       reached = std::max(reached, interval.upper);
     }
     return true;
@@ -147,7 +149,8 @@ Points ellipse(const Conic& conic, const Ends& ends) {
   if (to <= from + 1e-9) to += 2 * std::numbers::pi;
   Points result(2 * samples_per_edge, 3);
   for (Eigen::Index k = 0; k < result.rows(); ++k) {
-    const double t = from + (to - from) * static_cast<double>(k) / static_cast<double>(result.rows() - 1);
+    const double t =
+        from + (to - from) * static_cast<double>(k) / static_cast<double>(result.rows() - 1);
     result.row(k) = (conic.centre + std::cos(t) * conic.a + std::sin(t) * conic.b).transpose();
   }
   return result;
@@ -168,7 +171,8 @@ std::optional<Points> spline(const Curve& curve, const Ends& ends) {
   const auto table = CurveTable::create(curve);
   if (!table) return std::nullopt;
   const auto domain = table->curve().knots(0).domain();
-  const double size = (table->points().colwise().maxCoeff() - table->points().colwise().minCoeff()).norm();
+  const double size =
+      (table->points().colwise().maxCoeff() - table->points().colwise().minCoeff()).norm();
   const double near = 1e-6 * domain.length();
   double from = table->closest(ends.start).parameter;
   double to = table->closest(ends.end).parameter;
@@ -180,7 +184,8 @@ std::optional<Points> spline(const Curve& curve, const Ends& ends) {
     std::swap(from, to);  // against the stated sense of the edge, yet the same points
   }
   const int count =
-      std::min(most_samples, samples_per_edge + 4 * static_cast<int>(table->curve().knots(0).spans().size()));
+      std::min(most_samples,
+               samples_per_edge + 4 * static_cast<int>(table->curve().knots(0).spans().size()));
   Parameters<1> parameters(count);
   for (int k = 0; k < count; ++k) {
     double t = from + (to - from) * static_cast<double>(k) / (count - 1);
@@ -191,15 +196,17 @@ std::optional<Points> spline(const Curve& curve, const Ends& ends) {
   return evaluation ? std::optional(evaluation->points()) : std::nullopt;
 }
 
-// Points along an edge, one per row; their number grows with the spans of its curve. None for hyperbolas and parabolas,
-// and for edges that cannot be read.
+// Points along an edge, one per row; their number grows with the spans of its curve. None for
+// hyperbolas and parabolas, and for edges that cannot be read.
 std::optional<Points> sampled(const Model& model, const Edge& edge) {
-  if (edge.wrong || model.vertices[edge.start].wrong || model.vertices[edge.end].wrong) return std::nullopt;
+  if (edge.wrong || model.vertices[edge.start].wrong || model.vertices[edge.end].wrong)
+    return std::nullopt;
   Ends ends{model.vertices[edge.start].place, model.vertices[edge.end].place};
   if (edge.same_sense == edge.curve->turned) std::swap(ends.start, ends.end);
   if (std::holds_alternative<Line>(edge.curve->form)) return segment(ends.start, ends.end);
   if (const auto* conic = std::get_if<Conic>(&edge.curve->form)) {
-    return conic->form == Conic::Form::ellipse ? std::optional(ellipse(*conic, ends)) : std::nullopt;
+    return conic->form == Conic::Form::ellipse ? std::optional(ellipse(*conic, ends))
+                                               : std::nullopt;
   }
   const Curve& curve = *std::get<std::shared_ptr<const Curve>>(edge.curve->form);
   return edge.curve->polyline ? std::optional(polyline(curve)) : spline(curve, ends);
@@ -246,7 +253,8 @@ void find_trimming(Model& model) {
   const auto count = static_cast<std::ptrdiff_t>(faces.size());
   detail::parallel_for(count, detail::block_size(count, work_per_surface),
                        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-                         for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+                         for (auto k = static_cast<std::size_t>(begin);
+                              k < static_cast<std::size_t>(end); ++k) {
                            if (!faces[k].empty()) use_surface(model, faces[k], model.surfaces[k]);
                          }
                        });

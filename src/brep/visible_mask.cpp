@@ -11,13 +11,14 @@ using Loop = std::vector<Vector2d>;
 
 constexpr double negligible = 1e-9;  // of a cell's area
 
-/// What lies above some chords: its area, and its first moments about the lower left corner of a cell.
+/// What lies above some chords: its area, and its first moments about the lower left corner of a
+/// cell.
 struct Moments {
   double area = 0, x = 0, y = 0;
 };
 
-/// The chords within one cell: what lies above them in it, and their extent and moment along x, which count for the
-/// cells above.
+/// The chords within one cell: what lies above them in it, and their extent and moment along x,
+/// which count for the cells above.
 struct Crossing {
   int cell;
   Moments above;
@@ -28,7 +29,8 @@ double signed_area(const Loop& loop) {
   double sum = 0;
   for (std::size_t k = 0; k < loop.size(); ++k) {
     const Vector2d &a = loop[k], &b = loop[(k + 1) % loop.size()];
-    sum += (a.x() - loop[0].x()) * (b.y() - loop[0].y()) - (b.x() - loop[0].x()) * (a.y() - loop[0].y());
+    sum += (a.x() - loop[0].x()) * (b.y() - loop[0].y()) -
+           (b.x() - loop[0].x()) * (a.y() - loop[0].y());
   }
   return sum;
 }
@@ -62,12 +64,15 @@ class Crossings {
   /// Splits a chord at the sides of strips.
   void add(Vector2d a, Vector2d b, double sign) {
     if (std::max(a.x(), b.x()) < xs_.front() || std::min(a.x(), b.x()) >= xs_.back()) return;
-    if (a.x() == b.x()) return in_strip(cell_of(xs_, a.x()), a, b, sign);  // adds no area, but marks what it cuts
+    if (a.x() == b.x())
+      return in_strip(cell_of(xs_, a.x()), a, b, sign);  // adds no area, but marks what it cuts
     if (a.x() > b.x()) {
       std::swap(a, b);
       sign = -sign;
     }
-    const auto at = [&](double x) { return Vector2d(x, a.y() + (b.y() - a.y()) * ((x - a.x()) / (b.x() - a.x()))); };
+    const auto at = [&](double x) {
+      return Vector2d(x, a.y() + (b.y() - a.y()) * ((x - a.x()) / (b.x() - a.x())));
+    };
     Vector2d from = a.x() < xs_.front() ? at(xs_.front()) : a;
     const Vector2d last = b.x() > xs_.back() ? at(xs_.back()) : b;
     for (int i = cell_of(xs_, from.x()); from.x() < last.x(); ++i) {
@@ -87,7 +92,9 @@ class Crossings {
       std::swap(a, b);
       sign = -sign;
     }
-    const auto at = [&](double y) { return Vector2d(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())), y); };
+    const auto at = [&](double y) {
+      return Vector2d(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())), y);
+    };
     if (a.y() >= ys_.back()) return;
     Vector2d from = a;
     const double bottom = ys_.front();
@@ -122,7 +129,8 @@ class Crossings {
 
 }  // namespace
 
-VisibleMask::VisibleMask(const VisibleRegion& region, const std::array<std::vector<double>, 2>& lines) {
+VisibleMask::VisibleMask(const VisibleRegion& region,
+                         const std::array<std::vector<double>, 2>& lines) {
   const auto &xs = lines[0], &ys = lines[1];
   const int count = static_cast<int>(ys.size()) - 1;
   if (region.faces.empty()) {
@@ -150,7 +158,8 @@ VisibleMask::VisibleMask(const VisibleRegion& region, const std::array<std::vect
     for (std::size_t k = 0; k < found.size();) {
       const int j = found[k].cell;
       if (j > next) append(strip, j, below > 0.5 * width ? full : hidden);
-      const double y = ys[static_cast<std::size_t>(j)], height = ys[static_cast<std::size_t>(j) + 1] - y;
+      const double y = ys[static_cast<std::size_t>(j)],
+                   height = ys[static_cast<std::size_t>(j) + 1] - y;
       Moments sum{below * height, below_x * height, below * height * height / 2};
       for (; k < found.size() && found[k].cell == j; ++k) {
         sum.area += found[k].above.area;
@@ -191,14 +200,16 @@ int VisibleMask::state(const std::array<int, 2>& begin, const std::array<int, 2>
   const int first = state(begin[0], begin[1]);
   if (first >= 0) return cut;
   for (int i = begin[0]; i < end[0]; ++i) {
-    const auto run = std::ranges::upper_bound(strips_[static_cast<std::size_t>(i)], begin[1], {}, &Run::end);
+    const auto run =
+        std::ranges::upper_bound(strips_[static_cast<std::size_t>(i)], begin[1], {}, &Run::end);
     if (run->state != first || run->end < end[1]) return cut;
   }
   return first;
 }
 
 bool VisibleMask::whole() const {
-  return std::ranges::all_of(strips_, [](const auto& runs) { return runs.size() == 1 && runs[0].state == full; });
+  return std::ranges::all_of(
+      strips_, [](const auto& runs) { return runs.size() == 1 && runs[0].state == full; });
 }
 
 }  // namespace knead

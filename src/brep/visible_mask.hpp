@@ -7,13 +7,15 @@
 
 namespace knead {
 
-/// Which cells of a grid over the domain of a surface are visible, and what of those that an edge cuts.
+/// Which cells of a grid over the domain of a surface are visible, and what of those that an edge
+/// cuts.
 ///
-/// A cell's visible area A and first moments follow from Green's theorem, A = −∮ (y − y₁) dx over the chords of the
-/// loops within the cell, y₁ its upper side, and the chords below it: exact for the polygons of the region, to about
-/// 1e-15 of the cell for each chord. Loops are counted by nesting, outer ones once, those within them negatively.
-/// The cells of one strip, which share an interval of the first direction, are kept as runs of equal state.
-/// Cost: time linear in chords, in the cells that they cross and in strips; memory in the cells crossed.
+/// A cell's visible area A and first moments follow from Green's theorem, A = −∮ (y − y₁) dx over
+/// the chords of the loops within the cell, y₁ its upper side, and the chords below it: exact for
+/// the polygons of the region, to about 1e-15 of the cell for each chord. Loops are counted by
+/// nesting, outer ones once, those within them negatively. The cells of one strip, which share an
+/// interval of the first direction, are kept as runs of equal state. Cost: time linear in chords,
+/// in the cells that they cross and in strips; memory in the cells crossed.
 class VisibleMask {
  public:
   /// The state of a cell; 0 or more is the number of its `Part`.
@@ -25,7 +27,7 @@ class VisibleMask {
   struct Part {
     std::array<int, 2> cell;
     std::array<double, 2> middle;  ///< its centroid, in fractions of the domain
-    double share;                  ///< of the cell's area, 1e-9 to 1 − 1e-9; less is hidden, more is full
+    double share;  ///< of the cell's area, 1e-9 to 1 − 1e-9; less is hidden, more is full
   };
 
   /// \param lines ends of the cells in fractions, ascending, at least two in each direction.

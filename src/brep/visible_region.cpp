@@ -75,8 +75,9 @@ std::array<double, 2> parameters_of(const Surface& surface, const Vector2d& at) 
   return result;
 }
 
-Expected<std::optional<VisiblePoint>> visible_least(const Surface& surface, const VisibleRegion& region,
-                                                    const std::function<double(const Point&)>& cost) {
+Expected<std::optional<VisiblePoint>> visible_least(
+    const Surface& surface, const VisibleRegion& region,
+    const std::function<double(const Point&)>& cost) {
   constexpr int first = 41, later = 9, rounds = 8;
   auto [lower, upper] = region.extent();
   std::optional<VisiblePoint> best;
@@ -112,15 +113,18 @@ Expected<VisiblePoint> visible_middle(const Surface& surface, const VisibleRegio
   }
   auto best = visible_least(surface, region, [&](const Point& p) { return -region.distance(p); });
   if (!best) return std::unexpected(best.error());
-  if (!*best) return numerical_error("nothing of the surface is visible", "at", "give a point (s, t)");
+  if (!*best)
+    return numerical_error("nothing of the surface is visible", "at", "give a point (s, t)");
   (*best)->distance = -(*best)->distance;
   return **best;
 }
 
-Expected<VisiblePoint> visible_near(const Surface& surface, const VisibleRegion& region, const Point& place) {
+Expected<VisiblePoint> visible_near(const Surface& surface, const VisibleRegion& region,
+                                    const Point& place) {
   auto best = visible_least(surface, region, [&](const Point& p) { return (p - place).norm(); });
   if (!best) return std::unexpected(best.error());
-  if (!*best) return numerical_error("nothing of the surface is visible", "at", "give a point (s, t)");
+  if (!*best)
+    return numerical_error("nothing of the surface is visible", "at", "give a point (s, t)");
   return **best;
 }
 

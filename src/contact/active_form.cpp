@@ -10,14 +10,17 @@ struct ActiveForm<D>::Model {
 };
 
 template <int D>
-Expected<ActiveForm<D>> ActiveForm<D>::create(Spline<D> rest, FormEnergy<D> energy, ActiveShellSettings settings) {
+Expected<ActiveForm<D>> ActiveForm<D>::create(Spline<D> rest, FormEnergy<D> energy,
+                                              ActiveShellSettings settings) {
   if (rest.size() != energy.size()) return usage_error("the shape does not fit its energy");
   if (settings.evolution == Evolution::dynamic && settings.mass == 0) {
     return input_error("without mass there are no dynamics", "mass", "give the material a mass");
   }
-  auto elastic = ElasticModel<D>::create({std::move(rest)}, std::move(settings), energy.stretching_scale());
+  auto elastic =
+      ElasticModel<D>::create({std::move(rest)}, std::move(settings), energy.stretching_scale());
   if (!elastic) return std::unexpected(elastic.error());
-  auto made = elastic->complete(std::make_shared<const ElasticForms<D>>(std::move(energy), elastic->units), {});
+  auto made = elastic->complete(
+      std::make_shared<const ElasticForms<D>>(std::move(energy), elastic->units), {});
   if (!made) return std::unexpected(made.error());
   return ActiveForm(std::make_shared<const Model>(Model{std::move(*elastic)}));
 }

@@ -26,7 +26,7 @@ struct ActiveSpline<D>::Model {
   std::vector<ToolGrids<D>> loads;
   std::vector<GrevilleForce<D>> greville;  // for the analytic route
   double length;
-  Point centre;   // positions are relative to this point, to keep digits where coordinates are large
+  Point centre;  // positions are relative to this point, to keep digits where coordinates are large
   double extent;  // diagonal of the control points, in units of `length`
   Points rest;
   NetOperator<D> stretch, bend, stiffness, weight, mass, damping, a;
@@ -40,17 +40,20 @@ struct ActiveSpline<D>::Model {
     if (settings.rest == RestMode::none) return centre.transpose().replicate(rest.rows(), 1);
     return state.rest.rows() > 0 ? state.rest : rest;
   }
-  /// Xᵀ K X. K annihilates constants: without their mean the numbers are smaller, and so is the rounding.
+  /// Xᵀ K X. K annihilates constants: without their mean the numbers are smaller, and so is the
+  /// rounding.
   [[nodiscard]] double energy(const NetOperator<D>& part, const Points& x) const {
     const Points y = x.rowwise() - x.colwise().mean();
     return std::max(0.0, dot(y, part * y));
   }
 
-  /// The system with these forces' `standing_springs` in it; null: there are none, or it cannot be inverted.
-  [[nodiscard]] std::shared_ptr<const SprungSystem<D>> with_springs(std::span<const PointForce> forces) const;
+  /// The system with these forces' `standing_springs` in it; null: there are none, or it cannot be
+  /// inverted.
+  [[nodiscard]] std::shared_ptr<const SprungSystem<D>> with_springs(
+      std::span<const PointForce> forces) const;
   Expected<Points> load_of(const ActiveState& state, const ActiveLoads& given) const;
-  void report(ActiveStep& result, const Points& x, const Points& external, const PotentialState& contact,
-              std::span<const Tool> tools) const;
+  void report(ActiveStep& result, const Points& x, const Points& external,
+              const PotentialState& contact, std::span<const Tool> tools) const;
 };
 
 }  // namespace knead

@@ -53,8 +53,8 @@ Points ActiveSpline<D>::Run::greville_correction(const Points& x) const {
   return difference;
 }
 
-/// The minimum; on the analytic route with a lagged correction of the forces: F_analytic − F_Gauss at the last result
-/// is added to the right side until the result stops changing.
+/// The minimum; on the analytic route with a lagged correction of the forces: F_analytic − F_Gauss
+/// at the last result is added to the right side until the result stops changing.
 template <int D>
 PotentialState ActiveSpline<D>::Run::settle(const StepProblem& step) {
   PotentialState reached = keep_within_limit(step);
@@ -77,7 +77,9 @@ PotentialState ActiveSpline<D>::Run::settle(const StepProblem& step) {
     if (stalled == 3) break;
     change_before = change;
   }
-  note = "the analytic force route does not settle at this stiffness on this net; the forces are those of Gauss points";
+  note =
+      "the analytic force route does not settle at this stiffness on this net; the forces are "
+      "those of Gauss points";
   return keep_within_limit(step);
 }
 

@@ -10,12 +10,13 @@
 
 namespace knead {
 
-/// One step: predict (the forces and the initial problem), touch (the actions of tools, friction and point forces),
-/// balance (the minimum, in rounds if rigid, limited or analytic), accept (checks, and the result).
+/// One step: predict (the forces and the initial problem), touch (the actions of tools, friction
+/// and point forces), balance (the minimum, in rounds if rigid, limited or analytic), accept
+/// (checks, and the result).
 template <int D>
 struct ActiveSpline<D>::Run {
-  Run(const Model& model, const ActiveState& state, std::span<const Tool> tools, const ActiveLoads& loads,
-      Points external);
+  Run(const Model& model, const ActiveState& state, std::span<const Tool> tools,
+      const ActiveLoads& loads, Points external);
 
   void touch();
   void balance();

@@ -7,14 +7,17 @@ namespace {
 
 Expected<void> check(const std::vector<Surface>& patches, const ShellStructure& structure,
                      const ActiveShellSettings& settings) {
-  if (patches.size() != structure.shells().size()) return usage_error("there must be one patch per shell");
+  if (patches.size() != structure.shells().size())
+    return usage_error("there must be one patch per shell");
   for (std::size_t k = 0; k < patches.size(); ++k) {
-    if (patches[k].size() != structure.shells()[k].size()) return usage_error("a patch does not fit its shell");
+    if (patches[k].size() != structure.shells()[k].size())
+      return usage_error("a patch does not fit its shell");
   }
   if (settings.evolution != Evolution::dynamic || settings.mass > 0) return {};
   for (const ShellEnergy& shell : structure.shells()) {
     if (shell.mass_per_area() == 0) {
-      return input_error("a shell without density has no dynamics", "density", "give its material a density");
+      return input_error("a shell without density has no dynamics", "density",
+                         "give its material a density");
     }
   }
   return {};
@@ -30,13 +33,16 @@ struct ActiveShell::Model {
 Expected<ActiveShell> ActiveShell::create(std::vector<Surface> patches, ShellStructure structure,
                                           ActiveShellSettings settings) {
   if (auto ok = check(patches, structure, settings); !ok) return std::unexpected(ok.error());
-  auto elastic = ElasticModel<2>::create(std::move(patches), std::move(settings), structure.stretching_scale());
+  auto elastic = ElasticModel<2>::create(std::move(patches), std::move(settings),
+                                         structure.stretching_scale());
   if (!elastic) return std::unexpected(elastic.error());
-  const bool heavy = elastic->settings.evolution == Evolution::dynamic && elastic->settings.mass == 0;
+  const bool heavy =
+      elastic->settings.evolution == Evolution::dynamic && elastic->settings.mass == 0;
   auto made = elastic->complete(std::make_shared<const ElasticShells>(structure, elastic->units),
                                 heavy ? structure.mass() : SparseMatrix());
   if (!made) return std::unexpected(made.error());
-  return ActiveShell(std::make_shared<const Model>(Model{std::move(*elastic), std::move(structure)}));
+  return ActiveShell(
+      std::make_shared<const Model>(Model{std::move(*elastic), std::move(structure)}));
 }
 
 const ShellStructure& ActiveShell::structure() const { return model_->structure; }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "active_assembly.hpp"
 #include "active_model.hpp"
 #include "base/interruption.hpp"
 #include "knead/energy/field_assembler.hpp"
@@ -18,21 +19,25 @@ namespace {
 
 template <int D>
 Expected<void> validate_numbers(const ActiveSettings<D>& s) {
-  if (const auto material = validated<D>(s.material); !material) return std::unexpected(material.error());
+  if (const auto material = validated<D>(s.material); !material)
+    return std::unexpected(material.error());
   for (const MaterialFieldOf<D>& field : s.fields) {
     if (const auto checked = validated<D>(field); !checked) return std::unexpected(checked.error());
   }
   if (!std::isfinite(s.lambda) || s.lambda < 0) {
-    return input_error(fmt::format("{} is not a step parameter", s.lambda), "lambda", "use a finite number >= 0");
+    return input_error(fmt::format("{} is not a step parameter", s.lambda), "lambda",
+                       "use a finite number >= 0");
   }
   if (s.evolution == Evolution::dynamic && !(std::isfinite(s.time_step) && s.time_step > 0)) {
-    return input_error(fmt::format("{} is not a time step", s.time_step), "time_step", "use a finite number > 0");
+    return input_error(fmt::format("{} is not a time step", s.time_step), "time_step",
+                       "use a finite number > 0");
   }
   if (!std::isfinite(s.mass) || s.mass < 0 || (s.evolution == Evolution::dynamic && s.mass == 0)) {
     return input_error(fmt::format("{} is not a mass", s.mass), "mass", "use a finite number > 0");
   }
   if (!std::isfinite(s.damping) || s.damping < 0) {
-    return input_error(fmt::format("{} is not a damping", s.damping), "damping", "use a finite number >= 0");
+    return input_error(fmt::format("{} is not a damping", s.damping), "damping",
+                       "use a finite number >= 0");
   }
   return {};
 }
@@ -44,29 +49,18 @@ Expected<void> validate(const std::vector<Spline<D>>& patches, const ActiveSetti
   int size = 0;
   for (const Spline<D>& patch : patches) size += patch.size();
   if (!settings.fields.empty() && settings.fields.size() != patches.size()) {
-    return usage_error(fmt::format("{} materials do not fit {} patches", settings.fields.size(), patches.size()));
+    return usage_error(
+        fmt::format("{} materials do not fit {} patches", settings.fields.size(), patches.size()));
   }
   if (!settings.visible.empty() && (D != 2 || settings.visible.size() != patches.size())) {
-    return usage_error(
-        fmt::format("{} visible regions do not fit {} patches", settings.visible.size(), patches.size()));
+    return usage_error(fmt::format("{} visible regions do not fit {} patches",
+                                   settings.visible.size(), patches.size()));
   }
   if (!settings.held.empty() && settings.held.size() != static_cast<std::size_t>(size)) {
-    return usage_error(
-        fmt::format("{} flags of held control points do not fit {} control points", settings.held.size(), size));
+    return usage_error(fmt::format("{} flags of held control points do not fit {} control points",
+                                   settings.held.size(), size));
   }
   return {};
-}
-
-/// The parts of the energy: stretch has a first derivative in every factor of a term, bend a second.
-template <int D>
-std::array<Energy<D>, 2> parts(const MaterialOf<D>& material) {
-  std::array<Energy<D>, 2> result;
-  for (const EnergyTerm<D>& term : stretch_and_bend<D>(material)) {
-    int order = 0;
-    for (int a : term.a) order += a;
-    result[order == 1 ? 0 : 1].push_back(term);
-  }
-  return result;
 }
 
 /// The rest shape: its control points, patch after patch, and its centre and size.
@@ -84,121 +78,25 @@ RestShape at_rest(const std::vector<Spline<D>>& patches) {
   rest.points.resize(rest.rows.back(), 3);
   for (std::size_t k = 0; k < patches.size(); ++k)
     rest.points.middleRows(rest.rows[k], patches[k].size()) = patches[k].control_points();
-  const Eigen::RowVector3d lower = rest.points.colwise().minCoeff(), upper = rest.points.colwise().maxCoeff();
+  const Eigen::RowVector3d lower = rest.points.colwise().minCoeff(),
+                           upper = rest.points.colwise().maxCoeff();
   rest.centre = (lower + 0.5 * (upper - lower)).transpose();
   rest.diagonal = (upper - lower).norm();
   return rest;
 }
 
-/// The operators and forces, patch by patch; everything in the units of the first patch's scaling.
-template <int D>
-struct Assembly {
-  std::vector<DomainScaling<D>> scalings;
-  std::vector<ToolGrids<D>> loads;
-  std::vector<GrevilleForce<D>> greville;  // for the analytic route
-  NetOperator<D> stretch, bend, stiffness, weight, mass, damping;
-  std::optional<double> energy_error;  // of rational patches
-
-  explicit Assembly(int size) : stretch(size), bend(size), stiffness(size), weight(size), mass(size), damping(size) {}
-};
-
-/// The operators of patch k, whose scaling is already known.
-template <int D>
-Expected<void> add_operators(const Spline<D>& patch, std::size_t k, int first, const ActiveSettings<D>& settings,
-                             const StiffnessOptions& options, Assembly<D>& to) {
-  const DomainScaling<D>& scaling = to.scalings[k];
-  auto weight = Stiffness<D>::create(patch, on_scaled_domain<D>(mass_energy<D>(), scaling.factors), options);
-  if (!weight) return std::unexpected(weight.error());
-  to.weight.add(first, 1, *weight);
-  const auto err = [&](double bound) {
-    if (patch.rational()) to.energy_error = std::max(to.energy_error.value_or(0), bound);
-  };
-  err(weight->error_bound());
-  if (!settings.fields.empty()) {
-    auto matrices = FieldAssembler<D>(patch, options).assemble(settings.fields[k], scaling.factors);
-    if (!matrices) return std::unexpected(matrices.error());
-    err(matrices->error_bound);
-    to.stiffness.add(first, 1, Stiffness<D>::of_matrix(patch, matrices->stretch + matrices->bend));
-    to.stretch.add(first, 1, Stiffness<D>::of_matrix(patch, std::move(matrices->stretch)));
-    to.bend.add(first, 1, Stiffness<D>::of_matrix(patch, std::move(matrices->bend)));
-    to.mass.add(first, 1, Stiffness<D>::of_matrix(patch, std::move(matrices->mass)));
-    to.damping.add(first, 1, Stiffness<D>::of_matrix(patch, std::move(matrices->damping)));
-    return {};
-  }
-  const auto create = [&](const Energy<D>& energy) {
-    return Stiffness<D>::create(patch, on_scaled_domain<D>(energy, scaling.factors), options);
-  };
-  auto [stretching, bending] = parts<D>(settings.material);
-  auto stretch = create(stretching), bend = create(bending);
-  if (!stretch) return std::unexpected(stretch.error());
-  if (!bend) return std::unexpected(bend.error());
-  err(std::max(stretch->error_bound(), bend->error_bound()));
-  if (patch.rational()) {  // both are assembled
-    to.stiffness.add(first, 1, Stiffness<D>::of_matrix(patch, stretch->assemble() + bend->assemble()));
-  } else {
-    stretching.insert(stretching.end(), bending.begin(), bending.end());
-    to.stiffness.add(first, 1, *create(stretching));
-  }
-  to.stretch.add(first, 1, std::move(*stretch));
-  to.bend.add(first, 1, std::move(*bend));
-  to.mass.add(first, settings.mass, *weight);
-  to.damping.add(first, settings.damping, std::move(*weight));
-  return {};
-}
-
-/// The evaluation of tool forces on patch k.
-template <int D>
-Expected<void> assemble_forces(const Spline<D>& patch, std::size_t k, const ActiveSettings<D>& settings,
-                               const StiffnessOptions& options, Assembly<D>& to) {
-  auto load = ToolGrids<D>::create(patch, to.scalings[k],
-                                   settings.detail > 0 ? settings.detail : std::numeric_limits<double>::infinity());
-  if (!load) return std::unexpected(load.error());
-  if constexpr (D == 2) {
-    if (k < settings.visible.size() && settings.visible[k] && settings.route == ForceRoute::gauss) {
-      load->show(settings.visible[k]);
-    }
-  }
-  to.loads.push_back(std::move(*load));
-  if (settings.route == ForceRoute::analytic) {
-    auto force = GrevilleForce<D>::create(patch, to.scalings[k], options);
-    if (!force) return std::unexpected(force.error());
-    to.greville.push_back(std::move(*force));
-  }
-  return {};
-}
-
-template <int D>
-Expected<Assembly<D>> assemble(const std::vector<Spline<D>>& patches, const ActiveSettings<D>& settings) {
-  const StiffnessOptions options{.method = settings.method, .rational_tolerance = settings.energy_tolerance};
-  int size = 0;
-  for (const Spline<D>& patch : patches) size += patch.size();
-  Assembly<D> result(size);
-  int first = 0;
-  for (std::size_t k = 0; k < patches.size(); first += patches[k++].size()) {
-    DomainScaling<D> scaling;
-    if (!settings.raw) {
-      const auto normalised = normalised_scaling<D>(patches[k]);
-      if (!normalised) return std::unexpected(normalised.error());
-      scaling = k == 0 ? *normalised : in_unit<D>(*normalised, result.scalings.front().length);
-    }
-    result.scalings.push_back(scaling);
-    if (auto done = add_operators<D>(patches[k], k, first, settings, options, result); !done)
-      return std::unexpected(done.error());
-    if (auto done = assemble_forces<D>(patches[k], k, settings, options, result); !done)
-      return std::unexpected(done.error());
-  }
-  return result;
-}
-
 /// The constraints of the settings, as conditions on X in units of `length`.
 template <int D>
-Expected<ConstraintSpace> hold(const ActiveSettings<D>& settings, const RestShape& rest, double length) {
+Expected<ConstraintSpace> hold(const ActiveSettings<D>& settings, const RestShape& rest,
+                               double length) {
   const int size = rest.rows.back();
   std::vector<LinearConstraint> constraints = settings.constraints;
   for (LinearConstraint& c : constraints) {
-    if (settings.rest == RestMode::none) {  // X is not the displacement, but the displacement and the rest shape
+    if (settings.rest ==
+        RestMode::none) {  // X is not the displacement, but the displacement and the rest shape
       for (const auto& [unknown, a] : c.terms) {
-        if (unknown >= 0 && unknown < size) c.value += a * (rest.points.row(unknown).transpose() - rest.centre);
+        if (unknown >= 0 && unknown < size)
+          c.value += a * (rest.points.row(unknown).transpose() - rest.centre);
       }
     }
     c.value /= length;
@@ -206,51 +104,11 @@ Expected<ConstraintSpace> hold(const ActiveSettings<D>& settings, const RestShap
   return ConstraintSpace::create(size, constraints, settings.held);
 }
 
-/// K + c W of polynomial patches of one material: as many distinct factors as K alone.
-template <int D>
-NetOperator<D> with_mass(const std::vector<Spline<D>>& patches, const ActiveSettings<D>& settings,
-                         const Assembly<D>& from, double mass, int size) {
-  NetOperator<D> a(size);
-  int first = 0;
-  for (std::size_t k = 0; k < patches.size(); first += patches[k++].size()) {
-    Energy<D> energy = stretch_and_bend<D>(settings.material);
-    for (EnergyTerm<D> term : mass_energy<D>()) {
-      term.coefficient *= mass;
-      energy.push_back(term);
-    }
-    const auto& factors = from.scalings[k].factors;
-    a.add(first, 1,
-          *Stiffness<D>::create(patches[k], on_scaled_domain<D>(energy, factors), {.method = settings.method}));
-  }
-  return a;
-}
-
-/// The operator A of a step (see `ActiveSpline`).
-template <int D>
-NetOperator<D> step_operator(const std::vector<Spline<D>>& patches, const ActiveSettings<D>& settings,
-                             const Assembly<D>& from, int size) {
-  NetOperator<D> a = from.stiffness;
-  if (settings.evolution == Evolution::stationary) return a;
-  const bool plain =
-      settings.fields.empty() && std::ranges::none_of(patches, [](const Spline<D>& patch) { return patch.rational(); });
-  if (settings.evolution == Evolution::dynamic) {
-    const double tau = dynamic_stage * settings.time_step, damping = 1 / tau, mass = 1 / (tau * tau);
-    if (plain) return with_mass<D>(patches, settings, from, damping * settings.damping + mass * settings.mass, size);
-    a.add(damping, from.damping);
-    a.add(mass, from.mass);
-  } else if (settings.weight == StepWeight::mass) {
-    if (plain) return with_mass<D>(patches, settings, from, settings.lambda, size);
-    a.add(settings.lambda, from.weight);
-  } else {
-    a.add_identity(settings.lambda);
-  }
-  return a;
-}
-
 }  // namespace
 
 template <int D>
-Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches, const ActiveSettings<D>& settings) {
+Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches,
+                                                  const ActiveSettings<D>& settings) {
   if (auto valid = validate<D>(patches, settings); !valid) return std::unexpected(valid.error());
   auto assembly = assemble<D>(patches, settings);
   if (!assembly) return std::unexpected(assembly.error());
@@ -285,7 +143,8 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
 }
 
 template <int D>
-std::shared_ptr<const SprungSystem<D>> ActiveSpline<D>::Model::with_springs(std::span<const PointForce> forces) const {
+std::shared_ptr<const SprungSystem<D>> ActiveSpline<D>::Model::with_springs(
+    std::span<const PointForce> forces) const {
   std::vector<PointForce> springs = standing_springs<D>(forces, patches);
   if (springs.empty()) return nullptr;
   auto system = sprung->last();
@@ -305,7 +164,8 @@ std::shared_ptr<const SprungSystem<D>> ActiveSpline<D>::Model::with_springs(std:
 
 template <int D>
 double ActiveSpline<D>::energy(const ActiveState& state) const {
-  return model_->energy(model_->stiffness, (state.control_points - model_->origin(state)) / model_->length);
+  return model_->energy(model_->stiffness,
+                        (state.control_points - model_->origin(state)) / model_->length);
 }
 
 template <int D>
@@ -322,8 +182,9 @@ template <int D>
 Points ActiveSpline<D>::nearest_allowed(const Points& displacement) const {
   Points start = allowed(displacement);
   if ((displacement.array() == start.array()).all()) return start;
-  // Dependent control points may follow from alternating sums of others: of high degree nothing of a displacement is
-  // left in them but rounding. None is allowed too, and leaves no such numbers to cancel.
+  // Dependent control points may follow from alternating sums of others: of high degree nothing of
+  // a displacement is left in them but rounding. None is allowed too, and leaves no such numbers to
+  // cancel.
   if (start.cwiseAbs().maxCoeff() > 2 * displacement.cwiseAbs().maxCoeff()) start.setZero();
   return start + model_->inverse.solve(model_->a * Points(displacement - start));
 }
@@ -337,7 +198,8 @@ Points ActiveSpline<D>::fairing(const Points& control_points) const {
 
 template <int D>
 Expected<std::vector<Eigenmode>> ActiveSpline<D>::modes(int count) const {
-  return mapped_vibration_modes(on_coordinates(model_->stiffness.assemble()), on_coordinates(model_->mass.assemble()),
+  return mapped_vibration_modes(on_coordinates(model_->stiffness.assemble()),
+                                on_coordinates(model_->mass.assemble()),
                                 coordinate_map(model_->inverse.space()), count);
 }
 

@@ -12,7 +12,8 @@
 namespace knead {
 namespace {
 
-std::vector<ModelTool> in_model_units(std::span<const Tool> tools, const Point& centre, double length) {
+std::vector<ModelTool> in_model_units(std::span<const Tool> tools, const Point& centre,
+                                      double length) {
   std::vector<ModelTool> result;
   for (const Tool& tool : tools) result.emplace_back(tool, centre, length);
   return result;
@@ -22,11 +23,14 @@ std::vector<ModelTool> in_model_units(std::span<const Tool> tools, const Point& 
 
 /// G: all forces except those of tools, in normalised units.
 template <int D>
-Expected<Points> ActiveSpline<D>::Model::load_of(const ActiveState& state, const ActiveLoads& given) const {
+Expected<Points> ActiveSpline<D>::Model::load_of(const ActiveState& state,
+                                                 const ActiveLoads& given) const {
   if (!given.moments.empty()) return usage_error("moments act on shells");
   Points g = Points::Zero(rest.rows(), 3);
   // Σ_j ∫ R_i R_j = ∫ R_i, since the basis sums to one: exact.
-  const auto everywhere = [this](const Point& f) { return Points(f.transpose().replicate(rest.rows(), 1)); };
+  const auto everywhere = [this](const Point& f) {
+    return Points(f.transpose().replicate(rest.rows(), 1));
+  };
   if (given.force != Point::Zero()) g += weight * everywhere(given.force);
   if (given.gravity != Point::Zero()) g += mass * everywhere(given.gravity);
   if (given.nodal.rows() > 0) g += given.nodal;
@@ -34,10 +38,13 @@ Expected<Points> ActiveSpline<D>::Model::load_of(const ActiveState& state, const
     if (given.pressure != 0 || given.wind != Point::Zero()) {
       for (std::size_t k = 0; k < patches.size(); ++k) {
         const int n = rows[k + 1] - rows[k];
-        const Points points = (state.control_points.middleRows(rows[k], n).rowwise() - centre.transpose()) / length;
-        const Points velocity =
-            state.velocity.rows() > 0 ? Points(state.velocity.middleRows(rows[k], n) / length) : Points(0, 3);
-        const auto normal = normal_forces(patches[k], scalings[k], points, velocity, given.pressure, given.wind);
+        const Points points =
+            (state.control_points.middleRows(rows[k], n).rowwise() - centre.transpose()) / length;
+        const Points velocity = state.velocity.rows() > 0
+                                    ? Points(state.velocity.middleRows(rows[k], n) / length)
+                                    : Points(0, 3);
+        const auto normal =
+            normal_forces(patches[k], scalings[k], points, velocity, given.pressure, given.wind);
         if (!normal) return std::unexpected(normal.error());
         g.middleRows(rows[k], n) += *normal;
       }
@@ -50,10 +57,11 @@ Expected<Points> ActiveSpline<D>::Model::load_of(const ActiveState& state, const
 
 template <int D>
 void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const Points& external,
-                                    const PotentialState& contact, std::span<const Tool> tools) const {
+                                    const PotentialState& contact,
+                                    std::span<const Tool> tools) const {
   const ConstraintSpace& space = inverse.space();
-  // Forces on the free unknowns: from tools and loads, the free part of the net, and the held part. K
-  // annihilates constants: without their mean the numbers are smaller, and so is the rounding.
+  // Forces on the free unknowns: from tools and loads, the free part of the net, and the held part.
+  // K annihilates constants: without their mean the numbers are smaller, and so is the rounding.
   Points y = x.rowwise() - x.colwise().mean();
   Points from_free = stretch * y;
   result.stretch = std::max(0.0, dot(y, from_free));
@@ -73,7 +81,8 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
   from_free -= from_held;
   const double scale = contact.force.norm() + external.norm() + from_free.norm() + from_held.norm();
   y = contact.force + external - from_free - from_held;
-  const double unbalanced = space.coupled() ? space.reduce(y).norm() : space.reduce_points(y).norm();
+  const double unbalanced =
+      space.coupled() ? space.reduce(y).norm() : space.reduce_points(y).norm();
   result.residual = scale > 0 ? unbalanced / scale : 0;
   result.energy = result.stretch + result.bend;
   result.contact = contact.potential;
@@ -85,14 +94,16 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
   result.violation = length * off;
   if (off > missed_constraint * std::max(extent, 1.0)) {
     result.converged = false;
-    result.note = fmt::format("the constraint \"{}\" is missed by {:.2g}: what is held does not allow it",
-                              space.constraints()[static_cast<std::size_t>(worst)].name, result.violation);
+    result.note =
+        fmt::format("the constraint \"{}\" is missed by {:.2g}: what is held does not allow it",
+                    space.constraints()[static_cast<std::size_t>(worst)].name, result.violation);
   }
 }
 
 template <int D>
-ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span<const Tool> given_tools,
-                          const ActiveLoads& given_loads, Points forces)
+ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from,
+                          std::span<const Tool> given_tools, const ActiveLoads& given_loads,
+                          Points forces)
     : m(model),
       state(from),
       tools(given_tools),
@@ -119,7 +130,8 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
   const Points& original = loads.original.rows() > 0 ? loads.original : m.rest;
   limit_origin = (original.rowwise() - m.centre.transpose()) / m.length;
   y = m.inverse.space().feasible(before) - before;
-  if (state.balanced) y = state.guess.rows() > 0 ? Points(state.guess / m.length) : Points::Zero(before.rows(), 3);
+  if (state.balanced)
+    y = state.guess.rows() > 0 ? Points(state.guess / m.length) : Points::Zero(before.rows(), 3);
   // Beyond the digits of A an exact step would look for what is not there.
   const bool exact = m.settings.accuracy == StepAccuracy::exact && !m.inverse.rounded();
   if (!exact) problem.accuracy = interactive_accuracy;
@@ -167,11 +179,13 @@ template <int D>
 void ActiveSpline<D>::Run::balance_dynamic() {
   const double tau = dynamic_stage * m.settings.time_step;
   const Points b = problem.b;
-  const Points v0 = state.velocity.rows() > 0 ? Points(state.velocity / m.length) : Points::Zero(y.rows(), 3);
+  const Points v0 =
+      state.velocity.rows() > 0 ? Points(state.velocity / m.length) : Points::Zero(y.rows(), 3);
   // The start of a stage: the beginning of the step, then a point further along the first stage.
   Points advance = Points::Zero(y.rows(), 3), v = v0;
   for (int k = 0; k < 2 && summary.finite; ++k) {
-    problem.b = b + m.mass * Points(advance / (tau * tau) + v / tau) + m.damping * Points(advance / tau);
+    problem.b =
+        b + m.mass * Points(advance / (tau * tau) + v / tau) + m.damping * Points(advance / tau);
     contact = settle(problem);
     velocity = (y - advance) / tau;
     if (k == 0) {
@@ -185,14 +199,19 @@ template <int D>
 Expected<ActiveStep> ActiveSpline<D>::Run::accept() {
   const bool dynamic = m.settings.evolution == Evolution::dynamic;
   if (!y.allFinite() || !summary.finite) {
-    return numerical_error("the step gives no finite result and was refused", "step",
-                           "use a larger lambda, a smaller stiffness, smaller loads or larger material coefficients",
-                           {ErrorCode::step_not_finite});
-  }
-  if (const double largest = y.rowwise().norm().maxCoeff(); largest > run_away * std::max(m.extent, 1e-300)) {
     return numerical_error(
-        fmt::format("the step runs away ({:.1e} sizes of the model) and was refused", largest / m.extent), "step",
-        dynamic ? "use a smaller time_step or smaller loads" : "hold something, use a larger lambda, or smaller loads",
+        "the step gives no finite result and was refused", "step",
+        "use a larger lambda, a smaller stiffness, smaller loads or larger material coefficients",
+        {ErrorCode::step_not_finite});
+  }
+  if (const double largest = y.rowwise().norm().maxCoeff();
+      largest > run_away * std::max(m.extent, 1e-300)) {
+    return numerical_error(
+        fmt::format("the step runs away ({:.1e} sizes of the model) and was refused",
+                    largest / m.extent),
+        "step",
+        dynamic ? "use a smaller time_step or smaller loads"
+                : "hold something, use a larger lambda, or smaller loads",
         {ErrorCode::step_runs_away, {{"sizes", largest / m.extent}}});
   }
   const Points x = before + y;
@@ -200,7 +219,8 @@ Expected<ActiveStep> ActiveSpline<D>::Run::accept() {
   result.control_points = state.control_points;
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
     for (int c = 0; c < 3; ++c) {
-      if (x(i, c) != before(i, c)) result.control_points(i, c) = file_origin(i, c) + m.length * x(i, c);
+      if (x(i, c) != before(i, c))
+        result.control_points(i, c) = file_origin(i, c) + m.length * x(i, c);
     }
   }
   if (dynamic) {

@@ -7,10 +7,11 @@
 
 namespace knead {
 
-/// Contacts affect few control points, and the minimum is sought within their neighbourhood. Let r be the imbalance of
-/// forces b − AY + F at some Y₀, the anchor, and z = L⁻¹r with A = LLᵀ: computed once on the whole net. From then on
-/// all directions, and so all residuals, are combinations β r + E e, with forces e in the neighbourhood (E embeds them)
-/// whose images A⁻¹E e are needed only there, as is s = A⁻¹r. The new Y = Y₀ + A⁻¹(β r + E e) is needed everywhere
+/// Contacts affect few control points, and the minimum is sought within their neighbourhood. Let r
+/// be the imbalance of forces b − AY + F at some Y₀, the anchor, and z = L⁻¹r with A = LLᵀ:
+/// computed once on the whole net. From then on all directions, and so all residuals, are
+/// combinations β r + E e, with forces e in the neighbourhood (E embeds them) whose images A⁻¹E e
+/// are needed only there, as is s = A⁻¹r. The new Y = Y₀ + A⁻¹(β r + E e) is needed everywhere
 /// once, at the end.
 struct Anchor {
   Points y;
@@ -31,7 +32,9 @@ struct Combination {
     return beta * with_r(anchor) + dot(e, image);
   }
   /// rᵀ A⁻¹ (β r + E e).
-  [[nodiscard]] double with_r(const Anchor& anchor) const { return beta * anchor.rs + dot(anchor.s_here, e); }
+  [[nodiscard]] double with_r(const Anchor& anchor) const {
+    return beta * anchor.rs + dot(anchor.s_here, e);
+  }
   [[nodiscard]] Points image(const Anchor& anchor, const ContactNeighbourhood& near) const {
     if ((e.array() == 0).all()) return beta * anchor.s_here;
     return beta * anchor.s_here + near.inverse(e);

@@ -7,8 +7,9 @@
 namespace knead {
 namespace {
 
-constexpr std::size_t max_pairs = 30;     // twice as many save 3 % more substitutions
-constexpr double contraction_margin = 6;  // of squared residuals: less takes more iterations, more saves less
+constexpr std::size_t max_pairs = 30;  // twice as many save 3 % more substitutions
+// Of squared residuals: less takes more iterations, more saves less.
+constexpr double contraction_margin = 6;
 constexpr double least_curvature = 1e-3;  // of a pair, as a share of pᵀAp
 
 }  // namespace
@@ -21,7 +22,8 @@ void ContactDirections::keep(Pair pair) {
 /// The two loops of Nocedal and Wright, Alg. 7.4, around A⁻¹.
 /// \param image_of Gives A⁻¹ of what r becomes when `alpha` times the pairs' y are taken from it.
 template <class Image>
-ContactDirections::Preconditioned ContactDirections::precondition(const Anchor& anchor, const Combination& r,
+ContactDirections::Preconditioned ContactDirections::precondition(const Anchor& anchor,
+                                                                  const Combination& r,
                                                                   const Image& image_of) const {
   Preconditioned to{{}, r};
   std::vector<double> alpha(pairs_.size());
@@ -41,15 +43,19 @@ ContactDirections::Preconditioned ContactDirections::precondition(const Anchor& 
   return to;
 }
 
-ContactDirection ContactDirections::find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near,
-                                         Combination r, Points image, const Wanted& wanted, int& solves) {
-  const auto product = [&](const Preconditioned& m) { return r.beta * m.az.with_r(anchor) + dot(r.e, m.z); };
+ContactDirection ContactDirections::find(const PotentialState& state, const Anchor& anchor,
+                                         ContactNeighbourhood& near, Combination r, Points image,
+                                         const Wanted& wanted, int& solves) {
+  const auto product = [&](const Preconditioned& m) {
+    return r.beta * m.az.with_r(anchor) + dot(r.e, m.z);
+  };
   ContactDirection to{{0, Points::Zero(near.size(), 3)}, Points::Zero(near.size(), 3)};
-  Preconditioned m = precondition(anchor, r, [&](const Combination&, const std::vector<double>& alpha) {
-    Points z = image;
-    for (std::size_t i = 0; i < pairs_.size(); ++i) z -= alpha[i] * pairs_[i].y_image;
-    return z;
-  });
+  Preconditioned m =
+      precondition(anchor, r, [&](const Combination&, const std::vector<double>& alpha) {
+        Points z = image;
+        for (std::size_t i = 0; i < pairs_.size(); ++i) z -= alpha[i] * pairs_[i].y_image;
+        return z;
+      });
   Combination ap = m.az;
   Points p = m.z;
   double rs = product(m), squared = r.norm(anchor, image);
@@ -79,7 +85,12 @@ ContactDirection ContactDirections::find(const PotentialState& state, const Anch
     });
     ++solves;
     if (corrects_) {
-      made.push_back({p, ap, ap.with_r(anchor), {ap.beta, ap.e + hp}, (image - next_image) / step, 1 / curvature});
+      made.push_back({p,
+                      ap,
+                      ap.with_r(anchor),
+                      {ap.beta, ap.e + hp},
+                      (image - next_image) / step,
+                      1 / curvature});
     }
     image = std::move(next_image);
     squared = r.norm(anchor, image);

@@ -7,17 +7,19 @@
 namespace knead {
 namespace {
 
-// Of A + H: a cubic net of 100 × 100 has 4.3 million. There a factor takes 300 MB, and as long as hundreds of conjugate
-// gradients; on larger nets it takes longer.
+// Of A + H: a cubic net of 100 × 100 has 4.3 million. There a factor takes 300 MB, and as long as
+// hundreds of conjugate gradients; on larger nets it takes longer.
 constexpr std::ptrdiff_t most_factor_entries = 5'000'000;
-// A row of A with so many entries, twice those of degree 5, is dense: no order saves anything of the 9 n³ operations of
-// a factor over all coordinates, and a substitution on the whole net takes 6 n². Below these it is worth hundreds of
-// them.
+// A row of A with so many entries, twice those of degree 5, is dense: no order saves anything of
+// the 9 n³ operations of a factor over all coordinates, and a substitution on the whole net takes 6
+// n². Below these it is worth hundreds of them.
 constexpr std::ptrdiff_t dense_row = 200, most_dense_entries = 1'500'000;
 constexpr int most_factor_rounds = 6;
-constexpr int most_factor_iterations = 8;  // of conjugate gradients: more of them, and a new factor is cheaper
-constexpr double least_gain = 0.5;         // of the residual: a round that leaves more has met rounding
-constexpr double poor_direction = 0.1;     // of the first residual: a factor that leaves more has no digits
+// Of conjugate gradients: more of them, and a new factor is cheaper.
+constexpr int most_factor_iterations = 8;
+constexpr double least_gain = 0.5;  // of the residual: a round that leaves more has met rounding
+// Of the first residual: a factor that leaves more has no digits.
+constexpr double poor_direction = 0.1;
 
 }  // namespace
 
@@ -37,8 +39,10 @@ ContactFactor::ContactFactor(const StepProblem& problem, const Potential& potent
 
 bool ContactFactor::factor(const PotentialState& state) {
   system_.clear();
-  potential_.each_hessian_block(
-      state, [this](std::span<const int> points, const Eigen::MatrixXd& block) { system_.add(points, block); });
+  potential_.each_hessian_block(state,
+                                [this](std::span<const int> points, const Eigen::MatrixXd& block) {
+                                  system_.add(points, block);
+                                });
   if (system_.renewed()) restriction_.emplace(space_, system_.sum(), &places_);
   inverse_.reset();
   auto factored = ConstrainedCholesky::factor(system_.sum(), space_, *restriction_);
@@ -50,7 +54,8 @@ bool ContactFactor::factor(const PotentialState& state) {
 }
 
 /// z = M ρ, and A z.
-ContactDirection ContactFactor::precondition(const Residual& rest, ContactNeighbourhood& near) const {
+ContactDirection ContactFactor::precondition(const Residual& rest,
+                                             ContactNeighbourhood& near) const {
   ContactDirection to{rest.r, {}, 0};
   if (rest.r.beta != 0) {
     to.d = rest.image - inverse_->solve_within(part_, near.hessian(factored_, rest.image));
@@ -63,8 +68,8 @@ ContactDirection ContactFactor::precondition(const Residual& rest, ContactNeighb
 
 /// A d for what lowers the residual to `target` of its square. \param enough Whether it does.
 Combination ContactFactor::conjugate_gradients(const PotentialState& state, const Anchor& anchor,
-                                               ContactNeighbourhood& near, Residual rest, double target, bool& enough,
-                                               int& solves) const {
+                                               ContactNeighbourhood& near, Residual rest,
+                                               double target, bool& enough, int& solves) const {
   Combination sum{0, Points::Zero(near.size(), 3)};
   ContactDirection p;
   double before = 0;
@@ -96,8 +101,9 @@ Combination ContactFactor::conjugate_gradients(const PotentialState& state, cons
   return sum;
 }
 
-bool ContactFactor::find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near, Residual rest,
-                         double tolerance, ContactDirection& to, int& solves) {
+bool ContactFactor::find(const PotentialState& state, const Anchor& anchor,
+                         ContactNeighbourhood& near, Residual rest, double tolerance,
+                         ContactDirection& to, int& solves) {
   to.ad = {0, Points::Zero(near.size(), 3)};
   to.d = to.ad.e;
   const double first = rest.squared, target = tolerance * tolerance * first;

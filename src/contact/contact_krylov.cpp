@@ -10,14 +10,17 @@
 namespace knead {
 namespace {
 
-constexpr int max_cycles = 4000;    // per minimisation: a step that needs more stops there and says so
-constexpr double free_share = 0.3;  // of what is enough, where nothing is in contact: one direction ends the step
+// Per minimisation: a step that needs more stops there and says so.
+constexpr int max_cycles = 4000;
+// Of what is enough, where nothing is in contact: one direction ends the step.
+constexpr double free_share = 0.3;
 constexpr double smallest_tolerance = 1e-13;
 
 }  // namespace
 
-KrylovMinimisation::KrylovMinimisation(const StepProblem& problem, const ConstrainedMultigrid& inverse,
-                                       Potential& potential, Points& y)
+KrylovMinimisation::KrylovMinimisation(const StepProblem& problem,
+                                       const ConstrainedMultigrid& inverse, Potential& potential,
+                                       Points& y)
     : problem_(problem),
       inverse_(inverse),
       potential_(potential),
@@ -55,11 +58,14 @@ double KrylovMinimisation::norm_of_b() {
   return norm_of_b_;
 }
 
-double KrylovMinimisation::imbalance() { return std::sqrt(std::max(0.0, residual().squared)) / norm_of_b(); }
+double KrylovMinimisation::imbalance() {
+  return std::sqrt(std::max(0.0, residual().squared)) / norm_of_b();
+}
 
-/// (A + H) d = r by conjugate gradients preconditioned with B, to `tolerance` of the first preconditioned residual.
-/// If A + H turns out not to be positive, the result is the sum of the steps so far, or B r: a descent direction in
-/// any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1).
+/// (A + H) d = r by conjugate gradients preconditioned with B, to `tolerance` of the first
+/// preconditioned residual. If A + H turns out not to be positive, the result is the sum of the
+/// steps so far, or B r: a descent direction in any case (Nocedal and Wright, Numerical
+/// Optimization, Alg. 7.1).
 KrylovMinimisation::ContactDirection KrylovMinimisation::direction(Residual at, double tolerance) {
   const Points first = at.r;
   ContactDirection to{Points::Zero(first.rows(), 3), Points::Zero(first.rows(), 3)};
@@ -98,13 +104,17 @@ KrylovMinimisation::ContactDirection KrylovMinimisation::direction(Residual at, 
   return to;
 }
 
-/// Steps along the direction, halved until Φ decreases enough; a full step if values are not decisive.
+/// Steps along the direction, halved until Φ decreases enough; a full step if values are not
+/// decisive.
 void KrylovMinimisation::advance(const ContactDirection& to, bool rounded) {
-  const double along = dot(to.d, ay_ - problem_.b), bent = 0.5 * dot(to.d, to.ad), before = state_.potential;
+  const double along = dot(to.d, ay_ - problem_.b), bent = 0.5 * dot(to.d, to.ad),
+               before = state_.potential;
   for (double t = 1;; t /= 2) {
     PotentialState state = potential_.evaluate(problem_.start + y_ + t * to.d);
     const double gain = t * along + t * t * bent + state.potential - before;
-    if (!rounded && gain > sufficient_decrease * t * to.slope && t > 1e-10 && !Interruption::asked_for()) continue;
+    if (!rounded && gain > sufficient_decrease * t * to.slope && t > 1e-10 &&
+        !Interruption::asked_for())
+      continue;
     y_ += t * to.d;
     ay_ += t * to.ad;
     fresh_ = false;
@@ -122,7 +132,8 @@ void KrylovMinimisation::iterate(double tolerance, int max_iterations, bool cert
     const double decrement = std::sqrt(std::max(0.0, at.squared));
     largest = std::max(largest, decrement);
     double enough = tolerance * largest;
-    if (problem_.accuracy > 0) enough = std::max(enough, problem_.accuracy * std::sqrt(std::max(0.0, dot(y_, ay_))));
+    if (problem_.accuracy > 0)
+      enough = std::max(enough, problem_.accuracy * std::sqrt(std::max(0.0, dot(y_, ay_))));
     if (!(decrement > enough) || !std::isfinite(decrement)) {
       summary.converged = summary.finite = std::isfinite(decrement);
       if (!certain || problem_.accuracy > 0 || fresh_ || !summary.finite) return;
@@ -141,12 +152,14 @@ void KrylovMinimisation::iterate(double tolerance, int max_iterations, bool cert
     summary.converged = false;
     ++iteration;
     ++summary.iterations;
-    const double cg_tolerance = state_.contacts.empty()
-                                    ? std::clamp(free_share * enough / decrement, smallest_tolerance, 1e-2)
-                                    : direction_tolerance(decrement, enough, largest, problem_.accuracy > 0);
+    const double cg_tolerance =
+        state_.contacts.empty()
+            ? std::clamp(free_share * enough / decrement, smallest_tolerance, 1e-2)
+            : direction_tolerance(decrement, enough, largest, problem_.accuracy > 0);
     const ContactDirection to = direction(std::move(at), cg_tolerance);
-    const bool rounded = -to.slope <= rounding_of_potential * (problem_.energy + std::abs(quadratic()) +
-                                                               std::abs(state_.potential) + decrement * decrement);
+    const bool rounded =
+        -to.slope <= rounding_of_potential * (problem_.energy + std::abs(quadratic()) +
+                                              std::abs(state_.potential) + decrement * decrement);
     // A few full steps gain what the gradient can still resolve.
     if (rounded && ++rounded_steps > max_rounded_steps) {
       summary.converged = true;

@@ -4,12 +4,14 @@
 
 namespace knead {
 
-/// The minimisation of a step on the whole net, for an A that is not factored: Newton's iteration with (A + H) d = r
-/// solved by conjugate gradients on the cycles of `ConstrainedMultigrid`. Every residual, direction and product is an
-/// array of the whole net. Decrements are measured with a cycle B in place of A⁻¹.
+/// The minimisation of a step on the whole net, for an A that is not factored: Newton's iteration
+/// with (A + H) d = r solved by conjugate gradients on the cycles of `ConstrainedMultigrid`. Every
+/// residual, direction and product is an array of the whole net. Decrements are measured with a
+/// cycle B in place of A⁻¹.
 class KrylovMinimisation {
  public:
-  KrylovMinimisation(const StepProblem& problem, const ConstrainedMultigrid& inverse, Potential& potential, Points& y);
+  KrylovMinimisation(const StepProblem& problem, const ConstrainedMultigrid& inverse,
+                     Potential& potential, Points& y);
 
   ContactSummary summary;
 
@@ -18,8 +20,8 @@ class KrylovMinimisation {
   void renew() { state_ = potential_.evaluate(problem_.start + y_); }
   /// The imbalance of forces, as a share of the norm of b.
   double imbalance();
-  /// Iterates until the decrement is `tolerance` of the terms that the step balances. With `certain` A Y is computed
-  /// anew for the last decrement.
+  /// Iterates until the decrement is `tolerance` of the terms that the step balances. With
+  /// `certain` A Y is computed anew for the last decrement.
   void iterate(double tolerance, int max_iterations, bool certain);
 
  private:

@@ -8,9 +8,10 @@
 
 namespace knead {
 
-/// The control points affected by contacts and those around them, and the inverse of A between them. Contact forces are
-/// confined to them, and so are the displacements that Newton's iteration needs: arrays have one row per control point
-/// of the neighbourhood, in a fixed order to which `extend` appends.
+/// The control points affected by contacts and those around them, and the inverse of A between
+/// them. Contact forces are confined to them, and so are the displacements that Newton's iteration
+/// needs: arrays have one row per control point of the neighbourhood, in a fixed order to which
+/// `extend` appends.
 class ContactNeighbourhood {
  public:
   ContactNeighbourhood(const ConstrainedCholesky& inverse, const Potential& potential)
@@ -21,8 +22,8 @@ class ContactNeighbourhood {
         directions_(Points::Zero(inverse.space().size(), 3)),
         forces_(directions_) {}
 
-  /// Grows until the contacts of a state and the control points around them are inside, and one ring more, so that
-  /// contacts may travel. False if they are already.
+  /// Grows until the contacts of a state and the control points around them are inside, and one
+  /// ring more, so that contacts may travel. False if they are already.
   bool extend(const PotentialState& state) {
     std::vector<char> marks(inside_.size(), 0);
     potential_.mark(state, marks);
@@ -52,12 +53,14 @@ class ContactNeighbourhood {
 
   [[nodiscard]] Points gather(const Points& all) const {
     Points here(size(), 3);
-    for (Eigen::Index k = 0; k < size(); ++k) here.row(k) = all.row(part_.points[static_cast<std::size_t>(k)]);
+    for (Eigen::Index k = 0; k < size(); ++k)
+      here.row(k) = all.row(part_.points[static_cast<std::size_t>(k)]);
     return here;
   }
   /// Sets the rows of the neighbourhood.
   void scatter(const Points& here, Points& all) const {
-    for (Eigen::Index k = 0; k < size(); ++k) all.row(part_.points[static_cast<std::size_t>(k)]) = here.row(k);
+    for (Eigen::Index k = 0; k < size(); ++k)
+      all.row(part_.points[static_cast<std::size_t>(k)]) = here.row(k);
   }
   /// The same array with zero rows for control points added since.
   [[nodiscard]] Points grown(const Points& here) const {
@@ -66,7 +69,9 @@ class ContactNeighbourhood {
     return result;
   }
   /// A⁻¹ of forces here, restricted to the neighbourhood.
-  [[nodiscard]] Points inverse(const Points& forces) const { return inverse_.solve_within(part_, forces); }
+  [[nodiscard]] Points inverse(const Points& forces) const {
+    return inverse_.solve_within(part_, forces);
+  }
   /// The Hessian of contacts inside, applied to a direction here.
   [[nodiscard]] Points hessian(const PotentialState& state, const Points& direction) {
     scatter(direction, directions_);

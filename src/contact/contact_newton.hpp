@@ -19,14 +19,16 @@ struct ContactSummary {
 
 class ContactFactor;
 
-/// What factors of A and a Hessian are made from, and the last of them, which serves all minimisations of a step.
+/// What factors of A and a Hessian are made from, and the last of them, which serves all
+/// minimisations of a step.
 struct FactorSource {
   std::function<SparseMatrix()> a;          // on one coordinate, N × N
   std::function<GridPlaces()> places = {};  // of the control points
   std::shared_ptr<ContactFactor> last = nullptr;
 };
 
-/// One step as a minimisation over X = X₀ + Y:  Φ(Y) = ½ YᵀAY − Yᵀb + Ψ(x₀ + Y), Y + X₀ subject to constraints.
+/// One step as a minimisation over X = X₀ + Y:  Φ(Y) = ½ YᵀAY − Yᵀb + Ψ(x₀ + Y), Y + X₀ subject to
+/// constraints.
 struct StepProblem {
   std::function<Points(const Points&)> a;  // A Y
   const StepInverse& inverse;              // of A on the free unknowns

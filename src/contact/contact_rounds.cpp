@@ -22,7 +22,8 @@ constexpr int max_rigid_rounds = 16;
 template <int D>
 void ContactRounds<D>::begin() {
   for (std::size_t t = 0; t < potential_.tool_count(); ++t) {
-    if (is_rigid(t)) potential_.set_stiffness(t, std::max(potential_.tool(t).stiffness, first_rigid_stiffness));
+    if (is_rigid(t))
+      potential_.set_stiffness(t, std::max(potential_.tool(t).stiffness, first_rigid_stiffness));
   }
 }
 
@@ -41,8 +42,9 @@ typename ContactRounds<D>::Entries ContactRounds<D>::entries(const Points& x) co
   return found;
 }
 
-/// Stiffens the rigid tool that is penetrated at Gauss points, and starts contact further out for those penetrated in
-/// between. False if that tool is at its maximum stiffness: one more round will show what remains.
+/// Stiffens the rigid tool that is penetrated at Gauss points, and starts contact further out for
+/// those penetrated in between. False if that tool is at its maximum stiffness: one more round will
+/// show what remains.
 template <int D>
 bool ContactRounds<D>::keep_out(const Entries& found, const PotentialState& at_gauss_points) {
   bool harder = true;
@@ -50,7 +52,8 @@ bool ContactRounds<D>::keep_out(const Entries& found, const PotentialState& at_g
     const double entry = found.of_tool[t];
     if (entry <= rigid_gap) continue;
     if (at_gauss_points.entry <= rigid_gap || static_cast<int>(t) != at_gauss_points.entered) {
-      potential_.set_offset(t, potential_.offset(t) + (entry - 0.5 * rigid_gap) * potential_.size(t));
+      potential_.set_offset(t,
+                            potential_.offset(t) + (entry - 0.5 * rigid_gap) * potential_.size(t));
     } else if (potential_.stiffness(t) < max_tool_stiffness) {
       potential_.set_stiffness(t, std::min(10 * potential_.stiffness(t), max_tool_stiffness));
     } else {
@@ -66,12 +69,14 @@ void ContactRounds<D>::tell_entered(const Entries& found) {
     if (found.of_tool[t] <= rigid_gap) continue;
     summary_.converged = false;
     note_ = fmt::format(
-        "tool {} stays entered by {:.2g} of its size: what is held lies inside it, or the net cannot give way",
+        "tool {} stays entered by {:.2g} of its size: what is held lies inside it, or the net "
+        "cannot give way",
         potential_.tool(t).name, found.of_tool[t]);
   }
 }
 
-/// The minimum without penetration of rigid tools, at and between Gauss points, in at most `max_rigid_rounds` rounds.
+/// The minimum without penetration of rigid tools, at and between Gauss points, in at most
+/// `max_rigid_rounds` rounds.
 template <int D>
 PotentialState ContactRounds<D>::touch_rigid(const Descend& descend, const Place& place) {
   for (int rounds_left = max_rigid_rounds;;) {
@@ -81,7 +86,8 @@ PotentialState ContactRounds<D>::touch_rigid(const Descend& descend, const Place
     const bool over = found.deepest <= rigid_gap || rounds_left == 0;
     if (over) {
       tell_entered(found);
-      const bool rigid_deepest = reached.entered >= 0 && is_rigid(static_cast<std::size_t>(reached.entered));
+      const bool rigid_deepest =
+          reached.entered >= 0 && is_rigid(static_cast<std::size_t>(reached.entered));
       if (rigid_deepest || found.deepest > reached.entry) {
         reached.entry = found.deepest;
         reached.entered = found.deepest_tool;
@@ -92,10 +98,11 @@ PotentialState ContactRounds<D>::touch_rigid(const Descend& descend, const Place
   }
 }
 
-/// The same under the limit, which is enforced at Gauss points and tightened until it holds between them too.
+/// The same under the limit, which is enforced at Gauss points and tightened until it holds between
+/// them too.
 template <int D>
-PotentialState ContactRounds<D>::run(double limit, const Points& limit_origin, const Descend& descend,
-                                     const Place& place) {
+PotentialState ContactRounds<D>::run(double limit, const Points& limit_origin,
+                                     const Descend& descend, const Place& place) {
   if (!(limit > 0)) return touch_rigid(descend, place);
   double inner = limit * (1 - 0.5 * limit_tolerance);
   for (int round = 0;; ++round) {
@@ -104,7 +111,8 @@ PotentialState ContactRounds<D>::run(double limit, const Points& limit_origin, c
     if (!summary_.finite || !reached.limited || Interruption::asked_for()) return reached;
     const double largest = largest_displacement<D>(patches_, rows_, place() - limit_origin);
     if (largest <= limit * (1 + limit_tolerance)) return reached;
-    if (round == max_limit_rounds || largest - limit >= inner) {  // it would be tightened to less than nothing
+    if (round == max_limit_rounds ||
+        largest - limit >= inner) {  // it would be tightened to less than nothing
       summary_.converged = false;
       note_ = "the limit is exceeded between the points where it is kept; refine the net";
       return reached;

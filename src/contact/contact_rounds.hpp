@@ -10,28 +10,33 @@
 namespace knead {
 
 // What all steps have in common.
-inline constexpr double run_away = 1e4;            // a step longer than this many sizes of the model is refused
-inline constexpr double developed_slip = 1e-4;     // of friction: where it is fully developed, in lengths of the model
-inline constexpr double reach_stiffness = 30;      // of what holds points within reach, in those of the stiffest tool
+// A step longer than this many sizes of the model is refused.
+inline constexpr double run_away = 1e4;
+// Of friction: where it is fully developed, in lengths of the model.
+inline constexpr double developed_slip = 1e-4;
+// Of what holds points within reach, in those of the stiffest tool.
+inline constexpr double reach_stiffness = 30;
 inline constexpr double missed_constraint = 1e-9;  // of the size of the model
 
-/// Minimisations in rounds: until no rigid tool is penetrated, at and between Gauss points, and a limit is kept.
+/// Minimisations in rounds: until no rigid tool is penetrated, at and between Gauss points, and a
+/// limit is kept.
 template <int D>
 class ContactRounds {
  public:
-  /// Minimises with the present potential, from where the last minimisation ended; the potential there.
+  /// Minimises with the present potential, from where the last minimisation ended; the potential
+  /// there.
   using Descend = std::function<PotentialState()>;
   /// The control points there, in the units of the potential.
   using Place = std::function<Points()>;
 
-  ContactRounds(PatchPotential<D>& potential, std::span<const Spline<D>> patches, std::span<const int> rows,
-                ContactSummary& summary, std::string& note)
+  ContactRounds(PatchPotential<D>& potential, std::span<const Spline<D>> patches,
+                std::span<const int> rows, ContactSummary& summary, std::string& note)
       : potential_(potential), patches_(patches), rows_(rows), summary_(summary), note_(note) {}
 
   /// Rigid tools begin at this stiffness at least.
   void begin();
-  /// Without a limit (0), the minimum without penetration of rigid tools; else no point is further than the limit from
-  /// those control points either.
+  /// Without a limit (0), the minimum without penetration of rigid tools; else no point is further
+  /// than the limit from those control points either.
   [[nodiscard]] PotentialState run(double limit, const Points& limit_origin, const Descend& descend,
                                    const Place& place);
 
@@ -43,7 +48,9 @@ class ContactRounds {
     int deepest_tool = -1;
   };
 
-  [[nodiscard]] bool is_rigid(std::size_t t) const { return potential_.tool(t).rigid && potential_.tool(t).collides(); }
+  [[nodiscard]] bool is_rigid(std::size_t t) const {
+    return potential_.tool(t).rigid && potential_.tool(t).collides();
+  }
   [[nodiscard]] Entries entries(const Points& x) const;
   [[nodiscard]] bool keep_out(const Entries& found, const PotentialState& at_gauss_points);
   void tell_entered(const Entries& found);

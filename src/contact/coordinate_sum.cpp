@@ -5,7 +5,8 @@
 namespace knead {
 namespace {
 
-/// Where the three coordinates of each point are in a column, the first of them; false if one of them is not there.
+/// Where the three coordinates of each point are in a column, the first of them; false if one of
+/// them is not there.
 bool find_in_column(const SparseMatrix& matrix, Eigen::Index column, std::span<const int> points,
                     std::vector<Eigen::Index>& places) {
   const int *index = matrix.innerIndexPtr(), *end = index + matrix.outerIndexPtr()[column + 1];
@@ -15,7 +16,8 @@ bool find_in_column(const SparseMatrix& matrix, Eigen::Index column, std::span<c
   };
   for (std::size_t k = 0; k < points.size(); ++k) {
     const int first = 3 * points[k];
-    if (!is_here(first)) at = std::lower_bound(begin, end, first);  // else it follows the one before
+    if (!is_here(first))
+      at = std::lower_bound(begin, end, first);  // else it follows the one before
     if (!is_here(first)) return false;
     places[k] = at - index;
     at += 3;
@@ -75,7 +77,8 @@ SparseMatrix with_coordinate_blocks(const SparseMatrix& a) {
     for (int c = 0; c < 3; ++c) {
       result.startVec(3 * j + c);
       for (SparseMatrix::InnerIterator it(a, j); it; ++it) {
-        for (int e = 0; e < 3; ++e) result.insertBack(3 * it.index() + e, 3 * j + c) = e == c ? it.value() : 0.0;
+        for (int e = 0; e < 3; ++e)
+          result.insertBack(3 * it.index() + e, 3 * j + c) = e == c ? it.value() : 0.0;
       }
     }
   }

@@ -9,8 +9,8 @@
 
 namespace knead {
 
-/// A symmetric matrix over the coordinates of points plus blocks between some of them. Its pattern is kept from one sum
-/// to the next and grows where a block needs more.
+/// A symmetric matrix over the coordinates of points plus blocks between some of them. Its pattern
+/// is kept from one sum to the next and grows where a block needs more.
 class CoordinateSum {
  public:
   /// \param base over all coordinates, 3 i + c being coordinate c of point i.
@@ -33,7 +33,8 @@ class CoordinateSum {
   bool renewed_ = true;
 };
 
-/// A ⊗ I of a matrix A between points, with zeros between different coordinates of points that it couples.
+/// A ⊗ I of a matrix A between points, with zeros between different coordinates of points that it
+/// couples.
 [[nodiscard]] SparseMatrix with_coordinate_blocks(const SparseMatrix& a);
 
 }  // namespace knead

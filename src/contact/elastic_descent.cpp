@@ -15,14 +15,17 @@ namespace {
 constexpr int max_iterations = 100;
 constexpr int max_halvings = 30;
 constexpr int max_parabolas = 30;
-constexpr double near_balance = 1e-3;       // of the forces that meet: parabolas lead so far, or further in one step
-constexpr double kept_parabola = 0.5;       // of the imbalance: what one parabola may leave, if it is to lead further
+// Of the forces that meet: parabolas lead so far, or further in one step.
+constexpr double near_balance = 1e-3;
+// Of the imbalance: what one parabola may leave, if it is to lead further.
+constexpr double kept_parabola = 0.5;
 constexpr double parabola_accuracy = 1e-4;  // of the displacement towards its minimum
 constexpr double armijo_share = 1e-4;
 constexpr double rounding_of_phi = 1e-13;
-constexpr double negligible_step = 1e-13;     // in lengths of the model: rounding is all that is left
-constexpr double ran_away = 1e6;              // likewise: no minimum is so far
-constexpr double halved_imbalance = 0.5;      // a full step that lowers the imbalance so far is taken, whatever Φ does
+constexpr double negligible_step = 1e-13;  // in lengths of the model: rounding is all that is left
+constexpr double ran_away = 1e6;           // likewise: no minimum is so far
+// A full step that lowers the imbalance so far is taken, whatever Φ does.
+constexpr double halved_imbalance = 0.5;
 constexpr double exact_imbalance = 1e-9;      // less asks for no iteration
 constexpr double rounding_of_forces = 1e-14;  // in membrane stiffness times length
 
@@ -45,7 +48,8 @@ ElasticDescent::Place ElasticDescent::at(Points y) const {
   const Points qy = inertia_times(y);
   Points elastic;
   const double value = problem_.energy.value(position(y), elastic);
-  place.phi = value / problem_.theta - dot(problem_.b, y) + 0.5 * dot(y, qy) + place.contact.potential;
+  place.phi =
+      value / problem_.theta - dot(problem_.b, y) + 0.5 * dot(y, qy) + place.contact.potential;
   place.pull = problem_.b - qy - elastic;
   place.imbalance = problem_.space.reduce(place.pull + place.contact.force);
   place.scale = place.contact.force.norm() + problem_.b.norm() + qy.norm() + elastic.norm();
@@ -62,7 +66,8 @@ SparseMatrix ElasticDescent::elastic(SparseMatrix hessian) const {
 SparseMatrix ElasticDescent::with_contact(const Place& place, SparseMatrix hessian) const {
   CoordinateSum sum(elastic(std::move(hessian)));
   potential_.each_hessian_block(
-      place.contact, [&](std::span<const int> points, const Eigen::MatrixXd& block) { sum.add(points, block); });
+      place.contact,
+      [&](std::span<const int> points, const Eigen::MatrixXd& block) { sum.add(points, block); });
   return std::move(sum).take_sum();
 }
 
@@ -74,12 +79,13 @@ bool ElasticDescent::factor(const SparseMatrix& system) {
   return true;
 }
 
-/// The Hessian, without its geometric part where that makes it indefinite, and with some more of a multiple of the
-/// identity where a mechanism is left.
+/// The Hessian, without its geometric part where that makes it indefinite, and with some more of a
+/// multiple of the identity where a mechanism is left.
 bool ElasticDescent::factor_at(const Place& place, const std::optional<Points>& before) {
   const Points x = position(place.y);
   const ElasticEnergy& energy = problem_.energy;
-  if (factor(with_contact(place, before ? energy.hessian(x, *before) : energy.hessian(x)))) return true;
+  if (factor(with_contact(place, before ? energy.hessian(x, *before) : energy.hessian(x))))
+    return true;
   SparseMatrix system = with_contact(place, energy.material_hessian(x));
   if (factor(system)) return true;
   const Eigen::VectorXd diagonal = system.diagonal();
@@ -91,35 +97,42 @@ bool ElasticDescent::factor_at(const Place& place, const std::optional<Points>& 
   return false;
 }
 
-/// Moves along d as far as lowers Φ enough, or all the way where that lowers the imbalance by much. False: not at all.
+/// Moves along d as far as lowers Φ enough, or all the way where that lowers the imbalance by much.
+/// False: not at all.
 bool ElasticDescent::advance(Place& place, const Points& d, double slope) const {
   const double rounding = rounding_of_phi * std::max(std::abs(place.phi), std::abs(slope));
   double t = 1;
   for (int k = 0; k < max_halvings && !Interruption::asked_for(); ++k) {
     Place next = at(place.y + t * d);
     const bool finite = std::isfinite(next.phi) && next.imbalance.allFinite();
-    if (finite && (next.phi <= place.phi - armijo_share * t * slope + rounding ||
-                   (k == 0 && next.imbalance.norm() <= halved_imbalance * place.imbalance.norm()))) {
+    if (finite &&
+        (next.phi <= place.phi - armijo_share * t * slope + rounding ||
+         (k == 0 && next.imbalance.norm() <= halved_imbalance * place.imbalance.norm()))) {
       place = std::move(next);
       return true;
     }
-    // The minimum of the parabola through both values with the slope at the beginning, within reason.
+    // The minimum of the parabola through both values with the slope at the beginning, within
+    // reason.
     const double rise = next.phi - place.phi;
-    const double best = finite && rise + t * slope > 0 ? 0.5 * t * t * slope / (rise + t * slope) : 0.1 * t;
+    const double best =
+        finite && rise + t * slope > 0 ? 0.5 * t * t * slope / (rise + t * slope) : 0.1 * t;
     t = std::clamp(best, 0.1 * t, 0.5 * t);
   }
   return false;
 }
 
-bool ElasticDescent::balanced(const Place& place, bool moved, double tolerance, ContactSummary& summary) {
+bool ElasticDescent::balanced(const Place& place, bool moved, double tolerance,
+                              ContactSummary& summary) {
   const double size = place.imbalance.size() > 0 ? place.imbalance.norm() : 0;
   residual_ = size > rounding_of_forces ? size / place.scale : 0;
   summary.finite = summary.finite && std::isfinite(residual_);
-  summary.converged = summary.finite && residual_ <= tolerance && (moved || residual_ <= exact_imbalance);
+  summary.converged =
+      summary.finite && residual_ <= tolerance && (moved || residual_ <= exact_imbalance);
   return summary.converged || !summary.finite;
 }
 
-ElasticDescent::Place ElasticDescent::approach(Place place, double tolerance, ContactSummary& summary) {
+ElasticDescent::Place ElasticDescent::approach(Place place, double tolerance,
+                                               ContactSummary& summary) {
   double before = std::numeric_limits<double>::infinity();
   bool fresh = false;
   for (int round = 0; round < max_parabolas; ++round) {
@@ -137,8 +150,9 @@ ElasticDescent::Place ElasticDescent::approach(Place place, double tolerance, Co
       const Eigen::VectorXd image = parabola_ * flattened(d);
       return Points(Eigen::Map<const Points>(image.data(), d.rows(), 3));
     };
-    const StepProblem parabola{times, *inverse_,        place.pull, problem_.start + place.y, std::abs(place.phi),
-                               false, parabola_accuracy};
+    const StepProblem parabola{
+        times, *inverse_,        place.pull, problem_.start + place.y, std::abs(place.phi),
+        false, parabola_accuracy};
     Points d = Points::Zero(place.y.rows(), 3);
     const Minimum minimum = minimise_step(parabola, potential_, d);
     ++summary.iterations;
@@ -156,7 +170,8 @@ ElasticDescent::Place ElasticDescent::newton(Place place, ContactSummary& summar
   std::optional<Points> before;
   for (int iteration = 0;; ++iteration) {
     if (balanced(place, iteration > 0, problem_.tolerance, summary)) break;
-    if (iteration == max_iterations || Interruption::asked_for() || !factor_at(place, before)) break;
+    if (iteration == max_iterations || Interruption::asked_for() || !factor_at(place, before))
+      break;
     const Points forces = place.pull + place.contact.force, d = inverse_->solve(forces);
     ++summary.iterations;
     ++summary.solves;

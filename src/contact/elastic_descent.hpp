@@ -26,8 +26,8 @@ class ElasticDescent {
  public:
   ElasticDescent(const ElasticStepProblem& problem, Potential& potential);
 
-  /// From y, which becomes the minimum; returns Ψ there: by `approach` to 1e-3 of the forces that meet, and from where
-  /// that ends by Newton's method with a line search.
+  /// From y, which becomes the minimum; returns Ψ there: by `approach` to 1e-3 of the forces that
+  /// meet, and from where that ends by Newton's method with a line search.
   [[nodiscard]] PotentialState run(Points& y, ContactSummary& summary);
 
   /// The imbalance of the last minimum, relative to the forces that meet there.
@@ -45,14 +45,17 @@ class ElasticDescent {
   };
 
   [[nodiscard]] Points inertia_times(const Points& y) const;
-  [[nodiscard]] Points position(const Points& y) const { return problem_.start + problem_.theta * y; }
-  /// Minimises Φ with W replaced by a convex parabola about the place, and contact as it is (`minimise_step`), again
-  /// and again, each time from the minimum before. The parabola is that of one place and kept as long as it leads far
-  /// enough.
+  [[nodiscard]] Points position(const Points& y) const {
+    return problem_.start + problem_.theta * y;
+  }
+  /// Minimises Φ with W replaced by a convex parabola about the place, and contact as it is
+  /// (`minimise_step`), again and again, each time from the minimum before. The parabola is that of
+  /// one place and kept as long as it leads far enough.
   [[nodiscard]] Place approach(Place place, double tolerance, ContactSummary& summary);
   [[nodiscard]] Place newton(Place place, ContactSummary& summary);
   /// Whether the place is good enough.
-  [[nodiscard]] bool balanced(const Place& place, bool moved, double tolerance, ContactSummary& summary);
+  [[nodiscard]] bool balanced(const Place& place, bool moved, double tolerance,
+                              ContactSummary& summary);
 
   [[nodiscard]] Place at(Points y) const;
   /// θ H + Q, of H one of W's Hessians.

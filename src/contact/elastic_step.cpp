@@ -23,17 +23,19 @@ constexpr double followed = 1e-9;  // of the forces that follow
 
 /// B of the scaled domain: patches along the diagonal.
 template <int D>
-Expected<SparseMatrix> domain_mass(const std::vector<Spline<D>>& patches, std::span<const DomainScaling<D>> scalings) {
+Expected<SparseMatrix> domain_mass(const std::vector<Spline<D>>& patches,
+                                   std::span<const DomainScaling<D>> scalings) {
   std::vector<Eigen::Triplet<double>> entries;
   int first = 0;
   for (std::size_t k = 0; k < patches.size(); ++k) {
-    const auto weight =
-        Stiffness<D>::create(patches[k], on_scaled_domain<D>(mass_energy<D>(), scalings[k].factors), {});
+    const auto weight = Stiffness<D>::create(
+        patches[k], on_scaled_domain<D>(mass_energy<D>(), scalings[k].factors), {});
     if (!weight) return std::unexpected(weight.error());
     const SparseMatrix block = weight->assemble();
     for (Eigen::Index row = 0; row < block.outerSize(); ++row) {
       for (SparseMatrix::InnerIterator it(block, row); it; ++it) {
-        entries.emplace_back(first + static_cast<int>(row), first + static_cast<int>(it.col()), it.value());
+        entries.emplace_back(first + static_cast<int>(row), first + static_cast<int>(it.col()),
+                             it.value());
       }
     }
     first += patches[k].size();
@@ -54,10 +56,12 @@ Expected<void> check(const ActiveShellSettings& settings) {
                        "use a finite number > 0");
   }
   if (!std::isfinite(settings.damping) || settings.damping < 0) {
-    return input_error(fmt::format("{} is not a damping", settings.damping), "damping", "use a finite number >= 0");
+    return input_error(fmt::format("{} is not a damping", settings.damping), "damping",
+                       "use a finite number >= 0");
   }
   if (!std::isfinite(settings.mass) || settings.mass < 0) {
-    return input_error(fmt::format("{} is not a mass", settings.mass), "mass", "use a finite number >= 0");
+    return input_error(fmt::format("{} is not a mass", settings.mass), "mass",
+                       "use a finite number >= 0");
   }
   return {};
 }
@@ -65,8 +69,9 @@ Expected<void> check(const ActiveShellSettings& settings) {
 /// One step.
 template <int D>
 struct ElasticRun {
-  ElasticRun(const ElasticModel<D>& model, const ActiveState& from, std::span<const Tool> given_tools,
-             const ActiveLoads& given_loads, const FollowingForces& given_following)
+  ElasticRun(const ElasticModel<D>& model, const ActiveState& from,
+             std::span<const Tool> given_tools, const ActiveLoads& given_loads,
+             const FollowingForces& given_following)
       : m(model),
         state(from),
         tools(given_tools),
@@ -77,7 +82,8 @@ struct ElasticRun {
         displaced((from.control_points - m.rest) / length),
         potential(m.loads, m.rows, scaled_tools()),
         rounds(potential, m.patches, m.rows, summary, note) {
-    velocity = from.velocity.rows() > 0 ? Points(from.velocity / length) : Points::Zero(start.rows(), 3);
+    velocity =
+        from.velocity.rows() > 0 ? Points(from.velocity / length) : Points::Zero(start.rows(), 3);
     y = m.space.feasible(displaced) - displaced;
     if (from.guess.rows() > 0) y = from.guess / length;
     potential.grip(start, developed_slip);
@@ -101,17 +107,19 @@ struct ElasticRun {
 
   /// The minimum under these normalised forces.
   void settle(const Points& b, const SparseMatrix& inertia, double theta) {
-    const ElasticStepProblem problem{*m.energy,
-                                     m.space,
-                                     *m.restriction,
-                                     start,
-                                     theta,
-                                     inertia,
-                                     b,
-                                     m.settings.accuracy == StepAccuracy::interactive ? interactive_imbalance : 1e-9};
+    const ElasticStepProblem problem{
+        *m.energy,
+        m.space,
+        *m.restriction,
+        start,
+        theta,
+        inertia,
+        b,
+        m.settings.accuracy == StepAccuracy::interactive ? interactive_imbalance : 1e-9};
     ElasticDescent descent(problem, potential);
     contact = rounds.run(
-        loads.limit / length, limit_origin, [&] { return descent.run(y, summary); }, [&] { return place(); });
+        loads.limit / length, limit_origin, [&] { return descent.run(y, summary); },
+        [&] { return place(); });
     residual = descent.residual();
   }
 
@@ -140,7 +148,8 @@ struct ElasticRun {
     static_cast<void>(move_on(from, 1, max_energy_rounds));
   }
 
-  /// The same at one θ, with c found in some rounds. False: it did not converge, or the energy grew.
+  /// The same at one θ, with c found in some rounds. False: it did not converge, or the energy
+  /// grew.
   [[nodiscard]] bool move_on(const Points& from, double theta, int rounds_left) {
     const double h = m.settings.time_step;
     const SparseMatrix inertia = (1 / (theta * h * h) + m.settings.damping / h) * m.mass;
@@ -174,8 +183,11 @@ struct ElasticRun {
   /// Whether forces that nothing meets move the model as a whole along an axis.
   [[nodiscard]] bool drifts() const {
     constexpr double rounding = 1e-12;
-    if (m.mass.rows() > 0 || following || !tools.empty() || !loads.points.empty() || loads.limit > 0) return false;
-    const Points forces = forces_at(state.control_points), origin = m.space.feasible(Points::Zero(start.rows(), 3));
+    if (m.mass.rows() > 0 || following || !tools.empty() || !loads.points.empty() ||
+        loads.limit > 0)
+      return false;
+    const Points forces = forces_at(state.control_points),
+                 origin = m.space.feasible(Points::Zero(start.rows(), 3));
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       if (std::abs(forces.col(axis).sum()) <= rounding * forces.cwiseAbs().sum()) continue;
       Points all = Points::Zero(start.rows(), 3);
@@ -211,14 +223,17 @@ struct ElasticRun {
 template <int D>
 Expected<ActiveStep> ElasticRun<D>::accept() {
   if (!summary.finite || !y.allFinite()) {
-    return numerical_error("the step gives no finite result and was refused", "step",
-                           "hold something, use a larger lambda, a smaller stiffness or smaller loads",
-                           {ErrorCode::step_not_finite});
-  }
-  if (const double largest = y.rowwise().norm().maxCoeff(); largest > run_away * std::max(m.extent, 1e-300)) {
     return numerical_error(
-        fmt::format("the step runs away ({:.1e} sizes of the model) and was refused", largest / m.extent), "step",
-        "hold something, use a larger lambda or a smaller time_step, or smaller loads",
+        "the step gives no finite result and was refused", "step",
+        "hold something, use a larger lambda, a smaller stiffness or smaller loads",
+        {ErrorCode::step_not_finite});
+  }
+  if (const double largest = y.rowwise().norm().maxCoeff();
+      largest > run_away * std::max(m.extent, 1e-300)) {
+    return numerical_error(
+        fmt::format("the step runs away ({:.1e} sizes of the model) and was refused",
+                    largest / m.extent),
+        "step", "hold something, use a larger lambda or a smaller time_step, or smaller loads",
         {ErrorCode::step_runs_away, {{"sizes", largest / m.extent}}});
   }
   ActiveStep result;
@@ -250,11 +265,13 @@ Expected<ActiveStep> ElasticRun<D>::accept() {
   result.violation = length * off;
   if (off > missed_constraint * std::max(m.extent, 1.0)) {
     result.converged = false;
-    result.note = fmt::format("the constraint \"{}\" is missed by {:.2g}: what is held does not allow it",
-                              m.space.constraints()[static_cast<std::size_t>(worst)].name, result.violation);
+    result.note =
+        fmt::format("the constraint \"{}\" is missed by {:.2g}: what is held does not allow it",
+                    m.space.constraints()[static_cast<std::size_t>(worst)].name, result.violation);
   }
   if (!result.converged && result.note.empty()) {
-    result.note = fmt::format("the step ended {:.1e} from balance; use smaller motions, or several steps", residual);
+    result.note = fmt::format(
+        "the step ended {:.1e} from balance; use smaller motions, or several steps", residual);
   }
   return result;
 }
@@ -262,8 +279,8 @@ Expected<ActiveStep> ElasticRun<D>::accept() {
 }  // namespace
 
 template <int D>
-Expected<ElasticModel<D>> ElasticModel<D>::create(std::vector<Spline<D>> patches, ActiveShellSettings settings,
-                                                  double stretching) {
+Expected<ElasticModel<D>> ElasticModel<D>::create(std::vector<Spline<D>> patches,
+                                                  ActiveShellSettings settings, double stretching) {
   if (auto ok = check(settings); !ok) return std::unexpected(ok.error());
   ElasticModel m{std::move(patches), {0}, std::move(settings)};
   for (const Spline<D>& patch : m.patches) m.rows.push_back(m.rows.back() + patch.size());
@@ -272,7 +289,8 @@ Expected<ElasticModel<D>> ElasticModel<D>::create(std::vector<Spline<D>> patches
     const auto scaling = normalised_scaling<D>(m.patches[k]);
     if (!scaling) return std::unexpected(scaling.error());
     m.scalings.push_back(k == 0 ? *scaling : in_unit<D>(*scaling, m.scalings.front().length));
-    const double detail = m.settings.detail > 0 ? m.settings.detail : std::numeric_limits<double>::infinity();
+    const double detail =
+        m.settings.detail > 0 ? m.settings.detail : std::numeric_limits<double>::infinity();
     auto load = ToolGrids<D>::create(m.patches[k], m.scalings[k], detail);
     if (!load) return std::unexpected(load.error());
     if constexpr (D == 2) {
@@ -282,13 +300,15 @@ Expected<ElasticModel<D>> ElasticModel<D>::create(std::vector<Spline<D>> patches
     m.rest.middleRows(m.rows[k], m.patches[k].size()) = m.patches[k].control_points();
   }
   const Eigen::RowVector3d lower = m.rest.colwise().minCoeff(), upper = m.rest.colwise().maxCoeff();
-  m.units = {(lower + 0.5 * (upper - lower)).transpose(), m.scalings.front().length, 2 * stretching};
+  m.units = {(lower + 0.5 * (upper - lower)).transpose(), m.scalings.front().length,
+             2 * stretching};
   m.extent = (upper - lower).norm() / m.units.length;
   return m;
 }
 
 template <int D>
-Expected<void> ElasticModel<D>::complete(std::shared_ptr<const ElasticEnergy> of, const SparseMatrix& own_mass) {
+Expected<void> ElasticModel<D>::complete(std::shared_ptr<const ElasticEnergy> of,
+                                         const SparseMatrix& own_mass) {
   energy = std::move(of);
   std::vector<LinearConstraint> constraints = settings.constraints;
   for (LinearConstraint& c : constraints) c.value /= units.length;
@@ -312,8 +332,9 @@ Expected<void> ElasticModel<D>::complete(std::shared_ptr<const ElasticEnergy> of
 }
 
 template <int D>
-Expected<ActiveStep> elastic_step(const ElasticModel<D>& model, const ActiveState& state, std::span<const Tool> tools,
-                                  const ActiveLoads& loads, const FollowingForces& following) {
+Expected<ActiveStep> elastic_step(const ElasticModel<D>& model, const ActiveState& state,
+                                  std::span<const Tool> tools, const ActiveLoads& loads,
+                                  const FollowingForces& following) {
   if (loads.force != Point::Zero() || loads.gravity != Point::Zero()) {
     return usage_error("loads of a non-linear energy are forces on its control points");
   }
@@ -331,11 +352,14 @@ Expected<ActiveStep> elastic_step(const ElasticModel<D>& model, const ActiveStat
 template struct ElasticModel<1>;
 template struct ElasticModel<2>;
 template struct ElasticModel<3>;
-template Expected<ActiveStep> elastic_step<1>(const ElasticModel<1>&, const ActiveState&, std::span<const Tool>,
-                                              const ActiveLoads&, const FollowingForces&);
-template Expected<ActiveStep> elastic_step<2>(const ElasticModel<2>&, const ActiveState&, std::span<const Tool>,
-                                              const ActiveLoads&, const FollowingForces&);
-template Expected<ActiveStep> elastic_step<3>(const ElasticModel<3>&, const ActiveState&, std::span<const Tool>,
-                                              const ActiveLoads&, const FollowingForces&);
+template Expected<ActiveStep> elastic_step<1>(const ElasticModel<1>&, const ActiveState&,
+                                              std::span<const Tool>, const ActiveLoads&,
+                                              const FollowingForces&);
+template Expected<ActiveStep> elastic_step<2>(const ElasticModel<2>&, const ActiveState&,
+                                              std::span<const Tool>, const ActiveLoads&,
+                                              const FollowingForces&);
+template Expected<ActiveStep> elastic_step<3>(const ElasticModel<3>&, const ActiveState&,
+                                              std::span<const Tool>, const ActiveLoads&,
+                                              const FollowingForces&);
 
 }  // namespace knead

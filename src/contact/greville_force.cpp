@@ -5,7 +5,8 @@
 namespace knead {
 
 template <int D>
-Expected<GrevilleForce<D>> GrevilleForce<D>::create(const Spline<D>& shape, const DomainScaling<D>& scaling,
+Expected<GrevilleForce<D>> GrevilleForce<D>::create(const Spline<D>& shape,
+                                                    const DomainScaling<D>& scaling,
                                                     const StiffnessOptions& options) {
   auto values = SiteValues<D>::create(shape, Sites::greville);
   if (!values) {
@@ -13,7 +14,8 @@ Expected<GrevilleForce<D>> GrevilleForce<D>::create(const Spline<D>& shape, cons
     if (error.kind == ErrorKind::input) error.remedy = "use the Gauss route";
     return std::unexpected(std::move(error));
   }
-  auto mass = Stiffness<D>::create(shape, on_scaled_domain<D>(mass_energy<D>(), scaling.factors), options);
+  auto mass =
+      Stiffness<D>::create(shape, on_scaled_domain<D>(mass_energy<D>(), scaling.factors), options);
   if (!mass) return std::unexpected(mass.error());
   return GrevilleForce(std::move(*mass), std::move(*values));
 }

@@ -16,9 +16,11 @@ double largest_of(const Spline<D>& field) {
     std::vector<double> weights;
     for (int i = 0; i < field.size(); ++i) {
       twice.row(2 * i) = twice.row(2 * i + 1) = field.control_points().row(i);
-      if (field.rational()) weights.insert(weights.end(), 2, field.weights()[static_cast<std::size_t>(i)]);
+      if (field.rational())
+        weights.insert(weights.end(), 2, field.weights()[static_cast<std::size_t>(i)]);
     }
-    const auto surface = Surface::create({field.knots(0), *KnotVector::clamped_uniform(1, 2)}, twice, weights);
+    const auto surface =
+        Surface::create({field.knots(0), *KnotVector::clamped_uniform(1, 2)}, twice, weights);
     return surface ? largest_norm(*surface).value : 0;
   }
   if constexpr (D == 3) {
@@ -29,7 +31,8 @@ double largest_of(const Spline<D>& field) {
       const int steps = 2 * knots.degree() + 3;
       for (int span : knots.spans()) {
         const double a = knots[span], b = knots[span + 1];
-        for (int k = 0; k <= steps; ++k) parameters[d].push_back(k == steps ? b : a + (b - a) * k / steps);
+        for (int k = 0; k <= steps; ++k)
+          parameters[d].push_back(k == steps ? b : a + (b - a) * k / steps);
       }
       spans[d] = parameters[d];
     }
@@ -40,10 +43,12 @@ double largest_of(const Spline<D>& field) {
 
 /// The largest |S − S_original| over all patches, for control points that differ by `displacement`.
 template <int D>
-double largest_displacement(std::span<const Spline<D>> patches, std::span<const int> rows, const Points& displacement) {
+double largest_displacement(std::span<const Spline<D>> patches, std::span<const int> rows,
+                            const Points& displacement) {
   double largest = 0;
   for (std::size_t k = 0; k < patches.size(); ++k) {
-    const auto field = patches[k].with_control_points(displacement.middleRows(rows[k], rows[k + 1] - rows[k]));
+    const auto field =
+        patches[k].with_control_points(displacement.middleRows(rows[k], rows[k + 1] - rows[k]));
     if (field) largest = std::max(largest, largest_of<D>(*field));
   }
   return largest;

@@ -19,7 +19,8 @@ KnotVector without_every_second(const KnotVector& knots) {
   for (std::size_t i = 0; i < all.size();) {
     std::size_t end = i + 1;
     while (end < all.size() && all[end] == all[i]) ++end;
-    const std::size_t smooth = std::max<std::size_t>(1, static_cast<std::size_t>(knots.degree()) - 1);
+    const std::size_t smooth =
+        std::max<std::size_t>(1, static_cast<std::size_t>(knots.degree()) - 1);
     const bool movable = all[i] > domain.lower && all[i] < domain.upper && end - i <= smooth;
     if (movable) leave_out = !leave_out;
     if (!movable || !leave_out)
@@ -42,7 +43,8 @@ Nets<D> coarser(const Nets<D>& nets, std::span<const DomainScaling<D>> scalings)
     std::array<double, D> span{};
     for (std::size_t d = 0; d < D; ++d) {
       const KnotVector& knots = nets[k][d];
-      span[d] = knots.domain().length() * scalings[k].factors[d] / static_cast<double>(knots.spans().size());
+      span[d] = knots.domain().length() * scalings[k].factors[d] /
+                static_cast<double>(knots.spans().size());
     }
     const double shortest = *std::ranges::min_element(span);
     for (std::size_t d = 0; d < D; ++d) {
@@ -68,8 +70,8 @@ int size_of(const Nets<D>& nets) {
 
 /// Appends the rows of R₀ ⊗ … of one patch, `row` and `column` its first ones.
 template <int D>
-void append(const std::array<KnotVector, D>& from, const std::array<KnotVector, D>& to, int row, int column,
-            std::vector<Eigen::Triplet<double>>& entries) {
+void append(const std::array<KnotVector, D>& from, const std::array<KnotVector, D>& to, int row,
+            int column, std::vector<Eigen::Triplet<double>>& entries) {
   std::vector<Refinement> maps;
   for (std::size_t d = 0; d < D; ++d) {
     auto map = Refinement::create(from[d], to[d]);
@@ -89,7 +91,8 @@ void append(const std::array<KnotVector, D>& from, const std::array<KnotVector, 
       for (const auto& [place, value] : terms) {
         for (std::size_t j = 0; j < values.size(); ++j) {
           if (values[j] == 0) continue;
-          next.emplace_back(place * from[d].count() + maps[d].first(here) + static_cast<int>(j), value * values[j]);
+          next.emplace_back(place * from[d].count() + maps[d].first(here) + static_cast<int>(j),
+                            value * values[j]);
         }
       }
       terms = std::move(next);
@@ -102,7 +105,8 @@ void append(const std::array<KnotVector, D>& from, const std::array<KnotVector, 
 
 template <int D>
 std::vector<SparseMatrix> nested_prolongations(std::span<const Spline<D>> patches,
-                                               std::span<const DomainScaling<D>> scalings, int enough) {
+                                               std::span<const DomainScaling<D>> scalings,
+                                               int enough) {
   Nets<D> fine;
   for (const Spline<D>& patch : patches) {
     std::array<KnotVector, D> net = [&]<std::size_t... d>(std::index_sequence<d...>) {

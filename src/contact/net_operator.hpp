@@ -10,8 +10,9 @@
 
 namespace knead {
 
-/// A sum of symmetric operators on the control points of several patches, each acting within one patch, and of a
-/// multiple of the identity. It is applied patch by patch, and assembled nowhere that `Stiffness` does without.
+/// A sum of symmetric operators on the control points of several patches, each acting within one
+/// patch, and of a multiple of the identity. It is applied patch by patch, and assembled nowhere
+/// that `Stiffness` does without.
 template <int D>
 class NetOperator {
  public:
@@ -22,7 +23,8 @@ class NetOperator {
     if (factor != 0) blocks_.push_back({first, factor, std::move(block)});
   }
   void add(double factor, const NetOperator& other) {
-    for (const Block& block : other.blocks_) add(block.first, factor * block.factor, block.stiffness);
+    for (const Block& block : other.blocks_)
+      add(block.first, factor * block.factor, block.stiffness);
     for (const SparseMatrix& matrix : other.matrices_) matrices_.emplace_back(factor * matrix);
     identity_ += factor * other.identity_;
   }
@@ -30,8 +32,8 @@ class NetOperator {
   /// Adds a matrix between all control points, of which both triangles are stored.
   void add(SparseMatrix matrix) { matrices_.push_back(std::move(matrix)); }
 
-  /// The product with N × 3 coordinates. Where there are patches enough, threads share them out; otherwise they share
-  /// the lines of each.
+  /// The product with N × 3 coordinates. Where there are patches enough, threads share them out;
+  /// otherwise they share the lines of each.
   [[nodiscard]] Points operator*(const Points& x) const {
     if (!matrices_.empty()) return product_of_blocks(x) + product_of_matrices(x);
     return product_of_blocks(x);
@@ -40,7 +42,8 @@ class NetOperator {
   /// All of it as one matrix.
   [[nodiscard]] SparseMatrix assemble() const {
     SparseMatrix sum(size_, size_);
-    if (std::ranges::all_of(blocks_, [this](const Block& b) { return b.stiffness.size() == size_; })) {
+    if (std::ranges::all_of(blocks_,
+                            [this](const Block& b) { return b.stiffness.size() == size_; })) {
       for (const Block& block : blocks_) {
         SparseMatrix part = block.stiffness.assemble();
         if (sum.nonZeros() == 0) {
@@ -87,7 +90,8 @@ class NetOperator {
   }
 
   [[nodiscard]] Points product_of_blocks(const Points& x) const {
-    if (blocks_.size() == 1 && identity_ == 0 && blocks_[0].factor == 1 && blocks_[0].stiffness.size() == size_)
+    if (blocks_.size() == 1 && identity_ == 0 && blocks_[0].factor == 1 &&
+        blocks_[0].stiffness.size() == size_)
       return blocks_[0].stiffness.apply(x);
     Points y = identity_ * x;
     const std::vector<int> patches = first_rows();
@@ -97,13 +101,15 @@ class NetOperator {
       return y;
     }
     const double work = work_per_row * static_cast<double>(x.rows()) / static_cast<double>(count);
-    detail::parallel_for(count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      for (; begin < end; ++begin) {
-        for (const Block& block : blocks_) {
-          if (block.first == patches[static_cast<std::size_t>(begin)]) add_product(block, x, y);
-        }
-      }
-    });
+    detail::parallel_for(count, detail::block_size(count, work),
+                         [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+                           for (; begin < end; ++begin) {
+                             for (const Block& block : blocks_) {
+                               if (block.first == patches[static_cast<std::size_t>(begin)])
+                                 add_product(block, x, y);
+                             }
+                           }
+                         });
     return y;
   }
 
@@ -112,13 +118,15 @@ class NetOperator {
     if (rows == size_) {
       y += block.factor * block.stiffness.apply(x);
     } else {
-      y.middleRows(block.first, rows) += block.factor * block.stiffness.apply(Points(x.middleRows(block.first, rows)));
+      y.middleRows(block.first, rows) +=
+          block.factor * block.stiffness.apply(Points(x.middleRows(block.first, rows)));
     }
   }
 
   static bool same_pattern(const SparseMatrix& a, const SparseMatrix& b) {
     return a.nonZeros() == b.nonZeros() &&
-           std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1, b.outerIndexPtr()) &&
+           std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1,
+                      b.outerIndexPtr()) &&
            std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
   }
 
@@ -126,7 +134,8 @@ class NetOperator {
     const SparseMatrix part = block.stiffness.assemble();
     for (int j = 0; j < part.outerSize(); ++j) {
       for (SparseMatrix::InnerIterator it(part, j); it; ++it) {
-        entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j, block.factor * it.value());
+        entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j,
+                             block.factor * it.value());
       }
     }
   }

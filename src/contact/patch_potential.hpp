@@ -13,21 +13,25 @@ namespace knead {
 template <int D>
 class PatchPotential final : public Potential {
  public:
-  PatchPotential(std::span<const ToolGrids<D>> loads, std::span<const int> rows, std::vector<ModelTool> tools)
+  PatchPotential(std::span<const ToolGrids<D>> loads, std::span<const int> rows,
+                 std::vector<ModelTool> tools)
       : loads_(loads), rows_(rows), tools_(std::move(tools)) {
     for (const ModelTool& tool : tools_) given_.push_back(tool.stiffness());
   }
 
   /// Friction from the contacts at x; it is fully developed after moving by `slip`.
   void grip(const Points& x, double slip) {
-    if (std::ranges::none_of(tools_, [](const ModelTool& t) { return t.tool().friction > 0 && t.tool().collides(); }))
+    if (std::ranges::none_of(tools_, [](const ModelTool& t) {
+          return t.tool().friction > 0 && t.tool().collides();
+        }))
       return;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       friction_.emplace_back();
       for (const ToolLoad<D>& grid : loads_[k]) {
-        friction_[k].push_back(
-            {grid.anchors(x, rows_[k], tools_, slip),
-             grid.hides() ? grid.anchors(x, rows_[k], tools_, slip, ToolPass::visible) : FrictionAnchors{}});
+        friction_[k].push_back({grid.anchors(x, rows_[k], tools_, slip),
+                                grid.hides()
+                                    ? grid.anchors(x, rows_[k], tools_, slip, ToolPass::visible)
+                                    : FrictionAnchors{}});
       }
     }
   }
@@ -36,7 +40,8 @@ class PatchPotential final : public Potential {
     limits_.clear();
     limit_stiffness_ = stiffness;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
-      limits_.push_back({distance, stiffness, original.middleRows(rows_[k], rows_[k + 1] - rows_[k])});
+      limits_.push_back(
+          {distance, stiffness, original.middleRows(rows_[k], rows_[k + 1] - rows_[k])});
     }
   }
   /// A force on one point.
@@ -52,7 +57,8 @@ class PatchPotential final : public Potential {
   [[nodiscard]] double deepest_entry(std::size_t k, const Points& x) const {
     double deepest = 0;
     for (std::size_t l = 0; l < loads_.size(); ++l) {
-      const auto grid = std::ranges::find_if(loads_[l], [&](const auto& g) { return g.takes(tools_[k]); });
+      const auto grid =
+          std::ranges::find_if(loads_[l], [&](const auto& g) { return g.takes(tools_[k]); });
       deepest = std::max(deepest, grid->deepest_entry(x, rows_[l], tools_[k]).depth);
     }
     return deepest;
@@ -62,7 +68,8 @@ class PatchPotential final : public Potential {
   [[nodiscard]] const Tool& tool(std::size_t k) const { return tools_[k].tool(); }
   [[nodiscard]] double stiffness(std::size_t k) const { return given_[k]; }
 
-  [[nodiscard]] PotentialState evaluate(const Points& x, const WatchedElements* watched = nullptr) const override {
+  [[nodiscard]] PotentialState evaluate(const Points& x,
+                                        const WatchedElements* watched = nullptr) const override {
     PotentialState state = on_elements(x, watched, nullptr);
     for (std::size_t k = 0; k < points_.size(); ++k) add_point(k, x, state);
     return state;
@@ -74,7 +81,10 @@ class PatchPotential final : public Potential {
 
   void apply_hessian(const PotentialState& state, const Points& v, Points& out) const override {
     for_each_grid(
-        state, [&](const ToolLoad<D>& grid, int first, auto contacts) { grid.apply_hessian(contacts, first, v, out); },
+        state,
+        [&](const ToolLoad<D>& grid, int first, auto contacts) {
+          grid.apply_hessian(contacts, first, v, out);
+        },
         [&](const ContactPoint& c) {
           const PointForce& force = points_[static_cast<std::size_t>(c.at[0])];
           const Point h = c.hessian * combined(force, v);
@@ -85,13 +95,18 @@ class PatchPotential final : public Potential {
   void each_hessian_block(const PotentialState& state, const AddBlock& add) const override {
     for_each_grid(
         state,
-        [&](const ToolLoad<D>& grid, int first, auto contacts) { grid.each_hessian_block(contacts, first, add); },
+        [&](const ToolLoad<D>& grid, int first, auto contacts) {
+          grid.each_hessian_block(contacts, first, add);
+        },
         [&](const ContactPoint& c) { add_point_block(c, add); });
   }
 
   void mark(const PotentialState& state, std::vector<char>& marks) const override {
     for_each_grid(
-        state, [&](const ToolLoad<D>& grid, int first, auto contacts) { grid.mark(contacts, first, marks); },
+        state,
+        [&](const ToolLoad<D>& grid, int first, auto contacts) {
+          grid.mark(contacts, first, marks);
+        },
         [&](const ContactPoint& c) {
           for (const auto& [row, r] : points_[static_cast<std::size_t>(c.at[0])].terms)
             marks[static_cast<std::size_t>(row)] = 1;
@@ -113,7 +128,8 @@ class PatchPotential final : public Potential {
   }
 
   void soften(double cap) override {
-    for (std::size_t t = 0; t < tools_.size(); ++t) tools_[t].set_stiffness(std::min(given_[t], cap));
+    for (std::size_t t = 0; t < tools_.size(); ++t)
+      tools_[t].set_stiffness(std::min(given_[t], cap));
     for (DisplacementLimit& limit : limits_) limit.stiffness = std::min(limit_stiffness_, cap);
   }
 
@@ -138,7 +154,8 @@ class PatchPotential final : public Potential {
           const FrictionAnchors* friction =
               friction_.empty() ? nullptr : &friction_[k][g][which == ToolPass::all ? 0U : 1U];
           if (friction && friction->anchors.empty()) friction = nullptr;
-          grid.evaluate(x, rows_[k], static_cast<int>(k), {tools_, friction, limit, which, watched, beyond}, state);
+          grid.evaluate(x, rows_[k], static_cast<int>(k),
+                        {tools_, friction, limit, which, watched, beyond}, state);
         };
         pass(ToolPass::all, limits() && &grid == &loads_[k].coarsest() ? &limits_[k] : nullptr);
         if (grid.hides()) pass(ToolPass::visible, nullptr);
@@ -147,17 +164,19 @@ class PatchPotential final : public Potential {
     return state;
   }
 
-  /// on_grid(grid, its patch's first row, contacts) for contacts of one grid that follow one another, on_point(contact)
-  /// for each of a force on one point.
+  /// on_grid(grid, its patch's first row, contacts) for contacts of one grid that follow one
+  /// another, on_point(contact) for each of a force on one point.
   template <class F, class G>
   void for_each_grid(const PotentialState& state, const F& on_grid, const G& on_point) const {
     const std::span<const ContactPoint> all(state.contacts);
     for (std::size_t k = 0; k < all.size();) {
       std::size_t end = k + 1;
-      while (end < all.size() && all[end].patch == all[k].patch && all[end].grid == all[k].grid) ++end;
+      while (end < all.size() && all[end].patch == all[k].patch && all[end].grid == all[k].grid)
+        ++end;
       if (all[k].patch >= 0) {
         const auto patch = static_cast<std::size_t>(all[k].patch);
-        on_grid(loads_[patch][static_cast<std::size_t>(all[k].grid)], rows_[patch], all.subspan(k, end - k));
+        on_grid(loads_[patch][static_cast<std::size_t>(all[k].grid)], rows_[patch],
+                all.subspan(k, end - k));
       } else {
         for (std::size_t i = k; i < end; ++i) on_point(all[i]);
       }
@@ -198,7 +217,8 @@ class PatchPotential final : public Potential {
       force = -p.strength * way;
       hessian = p.strength * Eigen::Matrix3d::Identity();
     } else {
-      const double r2 = way.squaredNorm() + p.core * p.core, r = std::sqrt(r2), k3 = p.strength / (r2 * r);
+      const double r2 = way.squaredNorm() + p.core * p.core, r = std::sqrt(r2),
+                   k3 = p.strength / (r2 * r);
       state.potential += p.strength / r;
       force = k3 * way;
       hessian = 3 * k3 / r2 * way * way.transpose();
@@ -212,8 +232,9 @@ class PatchPotential final : public Potential {
   std::span<const ToolGrids<D>> loads_;  // of the patches
   std::span<const int> rows_;
   std::vector<ModelTool> tools_;
-  std::vector<double> given_;                                          // their stiffness, not softened
-  std::vector<std::vector<std::array<FrictionAnchors, 2>>> friction_;  // of either pass, by patch and grid
+  std::vector<double> given_;  // their stiffness, not softened
+  std::vector<std::vector<std::array<FrictionAnchors, 2>>>
+      friction_;  // of either pass, by patch and grid
   std::vector<DisplacementLimit> limits_;
   double limit_stiffness_ = 0;  // not softened
 };

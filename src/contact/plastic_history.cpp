@@ -7,7 +7,8 @@ namespace knead {
 void remember(Points& history, const Points& displacement) {
   assert(history.rows() == displacement.rows());
   for (Eigen::Index i = 0; i < history.rows(); ++i) {
-    if (displacement.row(i).squaredNorm() > history.row(i).squaredNorm()) history.row(i) = displacement.row(i);
+    if (displacement.row(i).squaredNorm() > history.row(i).squaredNorm())
+      history.row(i) = displacement.row(i);
   }
 }
 

@@ -27,7 +27,8 @@ bool may_stand(const PointForce& force, std::span<const Spline<D>> patches) {
 }
 
 template <int D>
-std::vector<PointForce> standing_springs(std::span<const PointForce> forces, std::span<const Spline<D>> patches) {
+std::vector<PointForce> standing_springs(std::span<const PointForce> forces,
+                                         std::span<const Spline<D>> patches) {
   if (forces.size() < many_springs) return {};
   std::vector<PointForce> springs;
   std::ranges::copy_if(forces, std::back_inserter(springs),
@@ -37,8 +38,9 @@ std::vector<PointForce> standing_springs(std::span<const PointForce> forces, std
 }
 
 bool same_stiffness(std::span<const PointForce> a, std::span<const PointForce> b) {
-  return std::ranges::equal(
-      a, b, [](const PointForce& s, const PointForce& t) { return s.strength == t.strength && s.terms == t.terms; });
+  return std::ranges::equal(a, b, [](const PointForce& s, const PointForce& t) {
+    return s.strength == t.strength && s.terms == t.terms;
+  });
 }
 
 SparseMatrix spring_stiffness(int size, std::span<const PointForce> springs) {
@@ -65,9 +67,12 @@ void add_springs(std::span<const PointForce> springs, const Points& x, Potential
   }
 }
 
-template std::vector<PointForce> standing_springs<1>(std::span<const PointForce>, std::span<const Spline<1>>);
-template std::vector<PointForce> standing_springs<2>(std::span<const PointForce>, std::span<const Spline<2>>);
-template std::vector<PointForce> standing_springs<3>(std::span<const PointForce>, std::span<const Spline<3>>);
+template std::vector<PointForce> standing_springs<1>(std::span<const PointForce>,
+                                                     std::span<const Spline<1>>);
+template std::vector<PointForce> standing_springs<2>(std::span<const PointForce>,
+                                                     std::span<const Spline<2>>);
+template std::vector<PointForce> standing_springs<3>(std::span<const PointForce>,
+                                                     std::span<const Spline<3>>);
 template bool may_stand<1>(const PointForce&, std::span<const Spline<1>>);
 template bool may_stand<2>(const PointForce&, std::span<const Spline<2>>);
 template bool may_stand<3>(const PointForce&, std::span<const Spline<3>>);

@@ -13,8 +13,9 @@
 
 namespace knead {
 
-/// A step's operator with springs k/2 |rᵀX − to|² on points in it: A + Σ k r rᵀ, whose inverse serves wherever they
-/// draw to. Conjugate gradients on A⁻¹ need about as many substitutions as there are springs.
+/// A step's operator with springs k/2 |rᵀX − to|² on points in it: A + Σ k r rᵀ, whose inverse
+/// serves wherever they draw to. Conjugate gradients on A⁻¹ need about as many substitutions as
+/// there are springs.
 template <int D>
 struct SprungSystem {
   std::vector<PointForce> springs;     ///< of these terms and strengths
@@ -54,9 +55,9 @@ class SprungSystems {
   System last_;
 };
 
-/// The springs that belong to the matrix, in their order: those on points that depend on no more control points than
-/// one of the spline does, where there are many. Others couple control points that A does not, and are left to
-/// conjugate gradients, as few are. Empty: none.
+/// The springs that belong to the matrix, in their order: those on points that depend on no more
+/// control points than one of the spline does, where there are many. Others couple control points
+/// that A does not, and are left to conjugate gradients, as few are. Empty: none.
 template <int D>
 [[nodiscard]] std::vector<PointForce> standing_springs(std::span<const PointForce> forces,
                                                        std::span<const Spline<D>> patches);

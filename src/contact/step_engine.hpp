@@ -15,20 +15,21 @@ struct ChosenInverse {
   StepEngine engine;
 };
 
-/// The most control points of a model of D directions for which a matrix is factored without being asked: where the
-/// cost of both is about the same. A factor of a volume is much denser.
+/// The most control points of a model of D directions for which a matrix is factored without being
+/// asked: where the cost of both is about the same. A factor of a volume is much denser.
 template <int D>
 inline constexpr int direct_points = D == 3 ? 20000 : 90000;
 
-/// The most iterations for eight digits with which cycles are cheaper than a factor. On surfaces of degree 3 and less:
-/// 12, the usual number, times points / `direct_points`, since a factor costs n^1.5, and iterations n for each; at
-/// least 12 and at most 40. On volumes, and of higher degree, 40: their factors are much denser. \param degree the
-/// highest
+/// The most iterations for eight digits with which cycles are cheaper than a factor. On surfaces of
+/// degree 3 and less: 12, the usual number, times points / `direct_points`, since a factor costs
+/// n^1.5, and iterations n for each; at least 12 and at most 40. On volumes, and of higher degree,
+/// 40: their factors are much denser. \param degree the highest
 template <int D>
 [[nodiscard]] int most_iterations(int points, int degree);
 
-/// The inverse of the operator A of a step on what constraints leave free, by the solver that the settings ask for.
-/// Errors: see `ActiveSpline::create`; `StepSolver::iterative` where there are no nested nets (input).
+/// The inverse of the operator A of a step on what constraints leave free, by the solver that the
+/// settings ask for. Errors: see `ActiveSpline::create`; `StepSolver::iterative` where there are no
+/// nested nets (input).
 template <int D>
 [[nodiscard]] Expected<ChosenInverse> invert(const NetOperator<D>& a, ConstraintSpace space,
                                              std::span<const Spline<D>> patches,

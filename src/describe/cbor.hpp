@@ -10,11 +10,13 @@
 
 namespace knead::cbor {
 
-// The part of CBOR (RFC 8949) that snapshots consist of: integers, byte and text strings, arrays and maps of known
-// length, false, true, null, undefined and doubles. Names that come again and again (of fields and choices) are written
-// once: the k-th new one is a text, and the number k stands for it afterwards.
+// The part of CBOR (RFC 8949) that snapshots consist of: integers, byte and text strings, arrays
+// and maps of known length, false, true, null, undefined and doubles. Names that come again and
+// again (of fields and choices) are written once: the k-th new one is a text, and the number k
+// stands for it afterwards.
 
-static_assert(std::endian::native == std::endian::little, "byte strings hold numbers as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "byte strings hold numbers as they lie in memory");
 
 enum class Major : std::uint8_t { count, negative, bytes, text, array, map, tag, simple };
 inline constexpr char no = '\xf4', yes = '\xf5', null = '\xf6', undefined = '\xf7', real = '\xfb';
@@ -27,8 +29,8 @@ class Writer {
   void head(Major major, std::uint64_t n) {
     const auto kind = static_cast<unsigned>(major) << 5U;
     const int size = n < 24 ? 0 : n <= 0xff ? 1 : n <= 0xffff ? 2 : n <= 0xffffffff ? 4 : 8;
-    const unsigned more =
-        size == 0 ? static_cast<unsigned>(n) : 24U + static_cast<unsigned>(std::countr_zero(size + 0U));
+    const unsigned more = size == 0 ? static_cast<unsigned>(n)
+                                    : 24U + static_cast<unsigned>(std::countr_zero(size + 0U));
     out_ += static_cast<char>(kind | more);
     big_endian(n, size);
   }
@@ -67,15 +69,16 @@ class Writer {
   std::unordered_map<const void*, std::size_t> names_;
 };
 
-/// Reads what is expected next. Anything else makes it `bad` from there on: nothing is read outside the bytes, and no
-/// length is believed that they do not have.
+/// Reads what is expected next. Anything else makes it `bad` from there on: nothing is read outside
+/// the bytes, and no length is believed that they do not have.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : rest_(bytes) {}
 
   /// The count, length or value of an item of this kind.
   std::uint64_t head(Major major) {
-    const unsigned first = rest_.empty() ? 0 : static_cast<unsigned char>(rest_.front()), more = first & 31U;
+    const unsigned first = rest_.empty() ? 0 : static_cast<unsigned char>(rest_.front()),
+                   more = first & 31U;
     if (rest_.empty() || first >> 5U != static_cast<unsigned>(major) || more > 27) return fail();
     rest_.remove_prefix(1);
     return more < 24 ? more : big_endian(std::size_t{1} << (more - 24U));
@@ -125,7 +128,8 @@ class Reader {
   }
 
   [[nodiscard]] bool is(Major major) const {
-    return !rest_.empty() && static_cast<unsigned char>(rest_.front()) >> 5U == static_cast<unsigned>(major);
+    return !rest_.empty() &&
+           static_cast<unsigned char>(rest_.front()) >> 5U == static_cast<unsigned>(major);
   }
   std::size_t fail() {
     bad_ = true;

@@ -16,8 +16,9 @@ std::optional<Error> wrong_number(const Field* field, const Type& type, const vo
     case Kind::integer:
     case Kind::number: {
       if (field == nullptr || field->range == Range{}) return std::nullopt;
-      const double x = type.kind == Kind::integer ? *static_cast<const int*>(value)
-                                                  : field->factor * *static_cast<const double*>(value);
+      const double x = type.kind == Kind::integer
+                           ? *static_cast<const int*>(value)
+                           : field->factor * *static_cast<const double*>(value);
       if (field->range.holds(x)) return std::nullopt;
       return Error(ErrorKind::input, fmt::format("{} is out of range", x), std::string(field->name),
                    "use numbers " + in_words(field->range))
@@ -61,14 +62,18 @@ std::optional<Error> wrong_number(const Field* field, const Type& type, const vo
 std::string in_words(const Range& range) {
   const bool below = std::isfinite(range.least), beyond = std::isfinite(range.most);
   const std::string least = fmt::format("{}", range.least), most = fmt::format("{}", range.most);
-  if (below && beyond && !range.open_below && !range.open_above) return "from " + least + " to " + most;
+  if (below && beyond && !range.open_below && !range.open_above)
+    return "from " + least + " to " + most;
   std::string text;
   if (below) text = (range.open_below ? "> " : ">= ") + least;
-  if (beyond) text += (text.empty() ? "" : ", ") + std::string(range.open_above ? "< " : "<= ") + most;
+  if (beyond)
+    text += (text.empty() ? "" : ", ") + std::string(range.open_above ? "< " : "<= ") + most;
   return text;
 }
 
-std::span<const Choice> Field::named() const { return choices.empty() ? type->innermost().choices : choices; }
+std::span<const Choice> Field::named() const {
+  return choices.empty() ? type->innermost().choices : choices;
+}
 
 const Field* Type::find(std::string_view field) const {
   const auto at_field = std::ranges::find(fields, field, &Field::name);
@@ -85,7 +90,8 @@ const Choice* Type::choice(std::string_view choice_name) const {
 }
 
 int Type::variant(std::string_view variant_name) const {
-  const auto found = std::ranges::find(variants, variant_name, [](const Type* t) { return t->name; });
+  const auto found =
+      std::ranges::find(variants, variant_name, [](const Type* t) { return t->name; });
   return found == variants.end() ? -1 : static_cast<int>(found - variants.begin());
 }
 
@@ -100,7 +106,8 @@ const Type& Type::innermost() const {
   return *type;
 }
 
-void Fields::add(std::string_view name, const void* member, const Type& type, const About& about, bool flat) {
+void Fields::add(std::string_view name, const void* member, const Type& type, const About& about,
+                 bool flat) {
   Field field;
   static_cast<About&>(field) = about;
   field.name = name;

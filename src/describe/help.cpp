@@ -24,7 +24,8 @@ std::string people(const Type& type, const void* value, double factor) {
       return text.empty() ? "" : "[" + text + "]";
     }
     case Kind::variant:
-      return fmt::format("\"{}\"", type.variants[static_cast<std::size_t>(type.value(value))]->name);
+      return fmt::format("\"{}\"",
+                         type.variants[static_cast<std::size_t>(type.value(value))]->name);
     case Kind::record:
     case Kind::opaque:
       return "";
@@ -73,7 +74,8 @@ std::string allowed(const Field& field) {
 
 /// "|" would end a cell.
 std::string cell(std::string text) {
-  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
+  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
+    text.insert(at, "\\");
   return text;
 }
 
@@ -141,12 +143,15 @@ std::string full_help(const Type& record) {
   each_field(record, seen, [&](const Field& field, const Type& owner) {
     std::string what = without_links(std::string(field.help));
     what += range_note(field);
-    if (const std::string names = allowed(field); !names.empty()) what += (what.empty() ? "" : ": ") + names;
-    const std::string value = !field.fallback.empty() ? std::string(field.fallback) : shown_default(field, owner);
+    if (const std::string names = allowed(field); !names.empty())
+      what += (what.empty() ? "" : ": ") + names;
+    const std::string value =
+        !field.fallback.empty() ? std::string(field.fallback) : shown_default(field, owner);
     const std::string note = field.presence == Presence::required ? "(required)"
                              : value.empty()                      ? ""
                                                                   : "(default " + value + ")";
-    text += fmt::format("  {:<15} {}{}{}\n", field.name, what, what.empty() || note.empty() ? "" : " ", note);
+    text += fmt::format("  {:<15} {}{}{}\n", field.name, what,
+                        what.empty() || note.empty() ? "" : " ", note);
   });
   return text;
 }
@@ -160,8 +165,8 @@ std::string markdown_table(const Type& record) {
     if (!value.empty()) value = "`" + value + "`";
     if (!field.fallback.empty()) value = field.fallback;
     if (field.presence == Presence::required) value = "required";
-    text +=
-        fmt::format("| `{}` |{}{} | {} |\n", field.name, value.empty() ? "" : " ", cell(value), cell(meaning(field)));
+    text += fmt::format("| `{}` |{}{} | {} |\n", field.name, value.empty() ? "" : " ", cell(value),
+                        cell(meaning(field)));
   });
   return text;
 }

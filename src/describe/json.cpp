@@ -28,15 +28,20 @@ class Builder : public nlohmann::json_sax<Library> {
 
   bool null() override { return put({}); }
   bool boolean(bool value) override { return put({.kind = Json::Kind::boolean, .boolean = value}); }
-  bool number_integer(number_integer_t value) override { return put_number(static_cast<double>(value)); }
-  bool number_unsigned(number_unsigned_t value) override { return put_number(static_cast<double>(value)); }
+  bool number_integer(number_integer_t value) override {
+    return put_number(static_cast<double>(value));
+  }
+  bool number_unsigned(number_unsigned_t value) override {
+    return put_number(static_cast<double>(value));
+  }
   bool number_float(number_float_t value, const string_t&) override { return put_number(value); }
   bool string(string_t& value) override { return put({.kind = Json::Kind::text, .text = value}); }
   bool binary(binary_t&) override { return false; }
   bool start_object(std::size_t) override { return open({.kind = Json::Kind::object}); }
   bool key(string_t& name) override {
     if (!known_.back().insert(name).second) {
-      refused = Error{ErrorKind::input, "the field is given twice", place(name), "leave one of them out"};
+      refused =
+          Error{ErrorKind::input, "the field is given twice", place(name), "leave one of them out"};
       return false;
     }
     names_.push_back(name);
@@ -45,7 +50,8 @@ class Builder : public nlohmann::json_sax<Library> {
   bool end_object() override { return close(); }
   bool start_array(std::size_t) override { return open({.kind = Json::Kind::list}); }
   bool end_array() override { return close(); }
-  bool parse_error(std::size_t at, const std::string&, const nlohmann::detail::exception& exception) override {
+  bool parse_error(std::size_t at, const std::string&,
+                   const nlohmann::detail::exception& exception) override {
     constexpr int number_out_of_range = 406;
     position = at;
     too_large = exception.id == number_out_of_range;
@@ -100,9 +106,10 @@ class Builder : public nlohmann::json_sax<Library> {
     into.members.emplace_back(std::move(name), std::move(json));
     return true;
   }
-  std::vector<Json> open_;                    // lists and objects still open, from the outside in
-  std::vector<std::string> names_;            // of members whose values are still to come
-  std::vector<std::set<std::string>> known_;  // of each open object: sorted, so that no choice of names makes it slow
+  std::vector<Json> open_;          // lists and objects still open, from the outside in
+  std::vector<std::string> names_;  // of members whose values are still to come
+  std::vector<std::set<std::string>>
+      known_;  // of each open object: sorted, so that no choice of names makes it slow
 };
 
 /// The word that the text has at or just before this position: letters, digits and signs.
@@ -116,7 +123,8 @@ std::string_view word_at(std::string_view text, std::size_t position) {
   return text.substr(first, last - first);
 }
 
-/// Whether the text is UTF-16, with or without its mark: every other byte of its first brackets and quotes is zero.
+/// Whether the text is UTF-16, with or without its mark: every other byte of its first brackets and
+/// quotes is zero.
 bool is_utf_16(std::string_view text) {
   return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
          (text.size() > 1 && (text[0] == '\0') != (text[1] == '\0'));
@@ -131,12 +139,19 @@ Error not_json(std::string_view text, const Builder& builder) {
             {},
             "numbers go to 1.79e308"};
   }
-  for (const std::string_view name : {"NaN", "nan", "NAN", "Infinity", "inf", "-Infinity", "-inf", "-nan"}) {
+  for (const std::string_view name :
+       {"NaN", "nan", "NAN", "Infinity", "inf", "-Infinity", "-inf", "-nan"}) {
     if (word == name) {
-      return {ErrorKind::input, fmt::format("{} is not a number in JSON", name), {}, "write a finite number"};
+      return {ErrorKind::input,
+              fmt::format("{} is not a number in JSON", name),
+              {},
+              "write a finite number"};
     }
   }
-  return {ErrorKind::input, "this is not JSON", {}, "check quotes, commas and brackets just before this place"};
+  return {ErrorKind::input,
+          "this is not JSON",
+          {},
+          "check quotes, commas and brackets just before this place"};
 }
 
 }  // namespace
@@ -150,7 +165,8 @@ Expected<Json> parse_json(std::string_view text) {
   Builder builder;
   if (Library::sax_parse(text, &builder)) return std::move(builder.root);
   if (builder.refused) return std::unexpected(std::move(*builder.refused));
-  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(builder.position, text.size()));
+  const auto end =
+      text.begin() + static_cast<std::ptrdiff_t>(std::min(builder.position, text.size()));
   Error error = not_json(text, builder);
   error.line = static_cast<int>(1 + std::count(text.begin(), end, '\n'));
   return std::unexpected(error);
@@ -213,12 +229,15 @@ std::string json_text(std::string_view text) {
 
 std::string json_number(double value) {
   if (!std::isfinite(value)) return "null";
-  if (value == 0) return std::signbit(value) ? "-0.0" : "0";  // "-0" would be read as the whole number 0
+  if (value == 0)
+    return std::signbit(value) ? "-0.0" : "0";  // "-0" would be read as the whole number 0
   return fmt::format("{:.17g}", value);
 }
 
 std::string shortest_json_number(double value) { return Library(value).dump(); }
 
-std::string indented_json(std::string_view json) { return nlohmann::ordered_json::parse(json, nullptr, false).dump(1); }
+std::string indented_json(std::string_view json) {
+  return nlohmann::ordered_json::parse(json, nullptr, false).dump(1);
+}
 
 }  // namespace knead

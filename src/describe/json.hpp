@@ -25,11 +25,12 @@ struct Json {
   [[nodiscard]] const Json* find(std::string_view name) const;
 };
 
-/// Lists and objects inside each other; commands need six. Far beyond use, it keeps what a few bytes can ask for within
-/// the stack.
+/// Lists and objects inside each other; commands need six. Far beyond use, it keeps what a few
+/// bytes can ask for within the stack.
 inline constexpr std::size_t max_json_depth = 64;
 
-/// Errors: what is not JSON, with its line; a name given twice in an object; more than `max_json_depth` levels.
+/// Errors: what is not JSON, with its line; a name given twice in an object; more than
+/// `max_json_depth` levels.
 [[nodiscard]] Expected<Json> parse_json(std::string_view text);
 
 /// For messages: the value on one line, numbers with the fewest digits, shortened to 120 bytes.

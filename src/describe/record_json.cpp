@@ -13,7 +13,7 @@ Error wrong(std::string_view field, std::string what, std::string remedy) {
   return {ErrorKind::input, std::move(what), std::string(field), std::move(remedy)};
 }
 
-// --- reading -------------------------------------------------------------------------------------------------------
+// Reading
 
 /// "a list of 3 numbers"
 std::string numbers_wanted(const Type& type) {
@@ -25,7 +25,8 @@ std::string numbers_wanted(const Type& type) {
 }
 
 /// Reads anything but a record; returns what the value should have been, or nothing on success.
-std::string read_value(const Json& json, const Type& type, void* value, const About& about, bool uniform = false) {
+std::string read_value(const Json& json, const Type& type, void* value, const About& about,
+                       bool uniform = false) {
   switch (type.kind) {
     case Kind::boolean:
       if (!json.is(Json::Kind::boolean)) return "true or false";
@@ -33,7 +34,8 @@ std::string read_value(const Json& json, const Type& type, void* value, const Ab
       return "";
     case Kind::integer: {
       const double x = json.number;
-      const bool whole = json.is(Json::Kind::number) && x == std::floor(x) && std::abs(x) <= largest_integer;
+      const bool whole =
+          json.is(Json::Kind::number) && x == std::floor(x) && std::abs(x) <= largest_integer;
       if (!whole) return "a whole number";
       *static_cast<int*>(value) = static_cast<int>(x);
       return "";
@@ -45,7 +47,8 @@ std::string read_value(const Json& json, const Type& type, void* value, const Ab
     case Kind::text:
       if (!json.is(Json::Kind::text)) return "a string";
       *static_cast<std::string*>(value) = json.text;
-      if (about.choices.empty() || std::ranges::find(about.choices, json.text, &Choice::name) != about.choices.end()) {
+      if (about.choices.empty() ||
+          std::ranges::find(about.choices, json.text, &Choice::name) != about.choices.end()) {
         return "";
       }
       return "one of: " + joined(names_of(about.choices));
@@ -66,20 +69,25 @@ std::string read_value(const Json& json, const Type& type, void* value, const Ab
       if (!json.is(Json::Kind::list)) return "a list";
       type.resize(value, json.list.size());
       for (std::size_t k = 0; k < json.list.size(); ++k) {
-        const std::string wanted = read_value(json.list[k], *type.element, type.at(value, k), about);
+        const std::string wanted =
+            read_value(json.list[k], *type.element, type.at(value, k), about);
         if (!wanted.empty()) return "a list, each entry " + wanted;
       }
       return "";
     case Kind::array:
       if (uniform && json.is(Json::Kind::number)) {
         for (std::size_t k = 0; k < type.length; ++k) {
-          if (auto wanted = read_value(json, *type.element, type.at(value, k), about); !wanted.empty()) return wanted;
+          if (auto wanted = read_value(json, *type.element, type.at(value, k), about);
+              !wanted.empty())
+            return wanted;
         }
         return "";
       }
-      if (!json.is(Json::Kind::list) || json.list.size() != type.length) return numbers_wanted(type);
+      if (!json.is(Json::Kind::list) || json.list.size() != type.length)
+        return numbers_wanted(type);
       for (std::size_t k = 0; k < type.length; ++k) {
-        if (!read_value(json.list[k], *type.element, type.at(value, k), about).empty()) return numbers_wanted(type);
+        if (!read_value(json.list[k], *type.element, type.at(value, k), about).empty())
+          return numbers_wanted(type);
       }
       return "";
     default:
@@ -88,11 +96,12 @@ std::string read_value(const Json& json, const Type& type, void* value, const Ab
 }
 
 /// Reads a field that may hold records at any depth.
-std::optional<Error> read_part(const Json& json, const Type& type, void* value, std::string_view name,
-                               const About& about) {
+std::optional<Error> read_part(const Json& json, const Type& type, void* value,
+                               std::string_view name, const About& about) {
   const Kind last = type.innermost().kind;
   // A text that is not known is named with its place.
-  const bool listed = type.kind == Kind::list && !about.choices.empty() && json.is(Json::Kind::list);
+  const bool listed =
+      type.kind == Kind::list && !about.choices.empty() && json.is(Json::Kind::list);
   const bool in_optional = type.kind == Kind::optional && !about.choices.empty();
   if (last != Kind::record && last != Kind::variant && !listed && !in_optional) {
     const std::string wanted = read_value(json, type, value, about, about.uniform);
@@ -125,16 +134,20 @@ std::optional<Error> read_part(const Json& json, const Type& type, void* value, 
       if (!fixed) type.resize(value, json.list.size());
       for (std::size_t k = 0; k < json.list.size(); ++k) {
         const std::string place = fmt::format("{}[{}]", name, k);
-        if (auto error = read_part(json.list[k], *type.element, type.at(value, k), place, about)) return error;
+        if (auto error = read_part(json.list[k], *type.element, type.at(value, k), place, about))
+          return error;
       }
       return std::nullopt;
     }
   }
 }
 
-/// The error for a field that another one, of the value that it has, leaves no meaning. An empty list says nothing.
-std::optional<Error> without_meaning(const Json& given, const Field& field, const Type& type, const void* record) {
-  if (field.only.field.empty() || (given.is(Json::Kind::list) && given.list.empty())) return std::nullopt;
+/// The error for a field that another one, of the value that it has, leaves no meaning. An empty
+/// list says nothing.
+std::optional<Error> without_meaning(const Json& given, const Field& field, const Type& type,
+                                     const void* record) {
+  if (field.only.field.empty() || (given.is(Json::Kind::list) && given.list.empty()))
+    return std::nullopt;
   const auto& with = *static_cast<const std::string*>(type.find(field.only.field)->of(record));
   const auto has_meaning = [&with](const Field& f) {
     return std::ranges::find(f.only.values, with) != f.only.values.end();
@@ -144,8 +157,9 @@ std::optional<Error> without_meaning(const Json& given, const Field& field, cons
   for (const Field& other : type.fields) {
     if (has_meaning(other)) known.push_back(other.name);
   }
-  return wrong(field.name, fmt::format("the {} {} has no {}", field.only.field, with, field.name),
-               known.empty() ? "it has no measures of its own" : "its fields are: " + joined(known));
+  return wrong(
+      field.name, fmt::format("the {} {} has no {}", field.only.field, with, field.name),
+      known.empty() ? "it has no measures of its own" : "its fields are: " + joined(known));
 }
 
 /// Reads the fields of one record that are in the object; ignores any other members.
@@ -158,7 +172,8 @@ std::optional<Error> read_fields(const Json& json, const Type& type, void* recor
       if (found != nullptr) {
         const int k = found->is(Json::Kind::text) ? variant.variant(found->text) : -1;
         if (k < 0)
-          return wrong(field.name, shown(*found) + " is not known", "use one of: " + joined(variant_names(variant)));
+          return wrong(field.name, shown(*found) + " is not known",
+                       "use one of: " + joined(variant_names(variant)));
         variant.assign(member, k);
       }
       const Type& held = *variant.variants[static_cast<std::size_t>(variant.value(member))];
@@ -182,16 +197,18 @@ bool has_field(const Type& type, const void* record, std::string_view name) {
   });
 }
 
-// --- writing -------------------------------------------------------------------------------------------------------
+// Writing
 
-/// The number that stands for all in a uniform field: of an array whose numbers are the same, or a list of one. Null:
-/// there is none.
+/// The number that stands for all in a uniform field: of an array whose numbers are the same, or a
+/// list of one. Null: there is none.
 const void* one_for_all(const Type& type, const void* value) {
   const std::size_t count = type.count(value);
-  if (type.kind == Kind::optional) return count == 0 ? nullptr : one_for_all(*type.element, type.part(value));
+  if (type.kind == Kind::optional)
+    return count == 0 ? nullptr : one_for_all(*type.element, type.part(value));
   if (type.kind == Kind::list) return count == 1 ? type.part(value) : nullptr;
   for (std::size_t k = 1; k < count; ++k) {
-    if (*static_cast<const double*>(type.part(value, k)) != *static_cast<const double*>(type.part(value)))
+    if (*static_cast<const double*>(type.part(value, k)) !=
+        *static_cast<const double*>(type.part(value)))
       return nullptr;
   }
   return type.part(value);
@@ -257,7 +274,9 @@ class JsonWriter {
   std::string text;
 
  private:
-  void name(std::string_view n) { text += fmt::format("{}\"{}\":", text.ends_with('{') ? "" : ",", n); }
+  void name(std::string_view n) {
+    text += fmt::format("{}\"{}\":", text.ends_with('{') ? "" : ",", n);
+  }
   void variant(const Type& type, const void* v) {
     const Type& held = *type.variants[static_cast<std::size_t>(type.value(v))];
     name(type.name);
@@ -272,7 +291,8 @@ class JsonWriter {
         variant(*field.type, member);
         continue;
       }
-      const bool omitted = field.omit_empty || (absent_ == Absent::left_out && field.type->kind == Kind::optional);
+      const bool omitted =
+          field.omit_empty || (absent_ == Absent::left_out && field.type->kind == Kind::optional);
       if (omitted && is_empty(*field.type, member)) continue;
       name(field.name);
       const void* const one = field.uniform ? one_for_all(*field.type, member) : nullptr;
@@ -284,7 +304,8 @@ class JsonWriter {
     }
   }
   static bool is_empty(const Type& type, const void* v) {
-    return type.kind == Kind::text ? static_cast<const std::string*>(v)->empty() : type.count(v) == 0;
+    return type.kind == Kind::text ? static_cast<const std::string*>(v)->empty()
+                                   : type.count(v) == 0;
   }
   Absent absent_;
   JsonNumber number_;
@@ -305,7 +326,8 @@ void collect(const Type& type, std::vector<std::string_view>& names) {
 
 Expected<void> read_record(const Json& json, const Type& type, void* record, std::string_view tag) {
   if (!json.is(Json::Kind::object)) {
-    return std::unexpected(wrong({}, shown(json) + " does not fit", R"(give an object {"...": ...})"));
+    return std::unexpected(
+        wrong({}, shown(json) + " does not fit", R"(give an object {"...": ...})"));
   }
   if (auto error = read_fields(json, type, record)) return std::unexpected(std::move(*error));
   for (const auto& [name, value] : json.members) {
@@ -319,7 +341,8 @@ Expected<void> read_record(const Json& json, const Type& type, void* record, std
   return check_ranges(type, record);
 }
 
-Expected<void> read_variant(const Json& json, const Type& type, void* variant, std::string_view what) {
+Expected<void> read_variant(const Json& json, const Type& type, void* variant,
+                            std::string_view what) {
   const std::string form = fmt::format("write {{\"{}\": \"...\", ...}}", type.name);
   if (!json.is(Json::Kind::object)) {
     return std::unexpected(wrong({}, fmt::format("a {} must be an object", what), form));
@@ -330,11 +353,13 @@ Expected<void> read_variant(const Json& json, const Type& type, void* variant, s
   }
   const int k = type.variant(name->text);
   if (k < 0) {
-    return std::unexpected(wrong(type.name, fmt::format("{} is not a {}", shown(*name), what),
-                                 fmt::format("the {}s are: {}", what, joined(variant_names(type)))));
+    return std::unexpected(
+        wrong(type.name, fmt::format("{} is not a {}", shown(*name), what),
+              fmt::format("the {}s are: {}", what, joined(variant_names(type)))));
   }
   type.assign(variant, k);
-  return read_record(json, *type.variants[static_cast<std::size_t>(k)], type.at(variant, 0), type.name);
+  return read_record(json, *type.variants[static_cast<std::size_t>(k)], type.at(variant, 0),
+                     type.name);
 }
 
 std::string to_json(const Type& type, const void* value, Absent absent, JsonNumber number) {

@@ -15,10 +15,12 @@ std::string bounds(Range range, Kind kind) {
   }
   std::string text;
   if (std::isfinite(range.least)) {
-    text += fmt::format(",\"{}\":{}", range.open_below ? "exclusiveMinimum" : "minimum", json_number(range.least));
+    text += fmt::format(",\"{}\":{}", range.open_below ? "exclusiveMinimum" : "minimum",
+                        json_number(range.least));
   }
   if (std::isfinite(range.most)) {
-    text += fmt::format(",\"{}\":{}", range.open_above ? "exclusiveMaximum" : "maximum", json_number(range.most));
+    text += fmt::format(",\"{}\":{}", range.open_above ? "exclusiveMaximum" : "maximum",
+                        json_number(range.most));
   }
   return text;
 }
@@ -47,13 +49,14 @@ class Schema {
       case Kind::list:
         return fmt::format(R"({{"type":"array","items":{}}})", value(*type.element, field));
       case Kind::array:
-        return fmt::format(R"({{"type":"array","items":{},"minItems":{},"maxItems":{}}})", value(*type.element, field),
-                           type.length, type.length);
+        return fmt::format(R"({{"type":"array","items":{},"minItems":{},"maxItems":{}}})",
+                           value(*type.element, field), type.length, type.length);
       case Kind::record:
         return record(type, {});
       case Kind::variant: {
         std::string all;
-        for (const Type* held : type.variants) all += (all.empty() ? "" : ",\n") + record(*held, type.name);
+        for (const Type* held : type.variants)
+          all += (all.empty() ? "" : ",\n") + record(*held, type.name);
         return "{\"oneOf\":[" + all + "]}";
       }
       case Kind::opaque:
@@ -65,17 +68,19 @@ class Schema {
  private:
   static std::string names(const std::vector<std::string_view>& all) {
     std::string text;
-    for (std::string_view name : all) text += fmt::format("{}\"{}\"", text.empty() ? "" : ",", name);
+    for (std::string_view name : all)
+      text += fmt::format("{}\"{}\"", text.empty() ? "" : ",", name);
     return "{\"enum\":[" + text + "]}";
   }
 
   /// Each with its text, if they have one.
   static std::string choices(std::span<const Choice> all) {
-    if (std::ranges::all_of(all, [](const Choice& c) { return c.help.empty(); })) return names(names_of(all));
+    if (std::ranges::all_of(all, [](const Choice& c) { return c.help.empty(); }))
+      return names(names_of(all));
     std::string text;
     for (const Choice& c : all) {
-      text +=
-          fmt::format("{}{{\"const\":\"{}\",\"description\":{}}}", text.empty() ? "" : ",", c.name, json_text(c.help));
+      text += fmt::format("{}{{\"const\":\"{}\",\"description\":{}}}", text.empty() ? "" : ",",
+                          c.name, json_text(c.help));
     }
     return "{\"oneOf\":[" + text + "]}";
   }
@@ -85,27 +90,33 @@ class Schema {
     const auto& [other, values] = field.only;
     const auto& initial = *static_cast<const std::string*>(owner.find(other)->of(owner.initial));
     const bool stands = std::ranges::find(values, initial) != values.end();
-    const std::string schema =
-        fmt::format(R"({{"properties":{{"{}":{}}}{}}})", other, names({values.begin(), values.end()}),
-                    stands ? std::string() : fmt::format(R"(,"required":["{}"])", other));
+    const std::string schema = fmt::format(
+        R"({{"properties":{{"{}":{}}}{}}})", other, names({values.begin(), values.end()}),
+        stands ? std::string() : fmt::format(R"(,"required":["{}"])", other));
     if (field.type->kind != Kind::list) return schema;
-    return fmt::format(R"({{"anyOf":[{{"properties":{{"{}":{{"maxItems":0}}}}}},{}]}})", field.name, schema);
+    return fmt::format(R"({{"anyOf":[{{"properties":{{"{}":{{"maxItems":0}}}}}},{}]}})", field.name,
+                       schema);
   }
 
   /// With its description and default in front.
   std::string member(const Field& field, const Type& owner) {
-    std::string schema = field.flat ? names(variant_names(*field.type)) : value(*field.type, &field);
-    if (field.uniform) schema = "{\"anyOf\":[" + value(field.type->innermost(), &field) + "," + schema + "]}";
-    if (const TextForm* form = text_form(owner, field); form != nullptr && absent_ == Absent::left_out) {
-      const std::string text = form->begins ? fmt::format(R"({{"type":"string","pattern":"^{}"}})", form->text)
-                                            : fmt::format(R"({{"const":"{}"}})", form->text);
+    std::string schema =
+        field.flat ? names(variant_names(*field.type)) : value(*field.type, &field);
+    if (field.uniform)
+      schema = "{\"anyOf\":[" + value(field.type->innermost(), &field) + "," + schema + "]}";
+    if (const TextForm* form = text_form(owner, field);
+        form != nullptr && absent_ == Absent::left_out) {
+      const std::string text =
+          form->begins ? fmt::format(R"({{"type":"string","pattern":"^{}"}})", form->text)
+                       : fmt::format(R"({{"const":"{}"}})", form->text);
       schema = "{\"anyOf\":[" + schema + "," + text + "]}";
     }
     std::string about;
     if (!field.help.empty()) about += "\"description\":" + json_text(field.help) + ",";
     const Type& type = *field.type;
-    if (absent_ == Absent::left_out && field.presence == Presence::optional && field.fallback.empty() && !field.flat &&
-        type.kind != Kind::optional && type.kind != Kind::record && type.kind != Kind::variant && field.factor == 1) {
+    if (absent_ == Absent::left_out && field.presence == Presence::optional &&
+        field.fallback.empty() && !field.flat && type.kind != Kind::optional &&
+        type.kind != Kind::record && type.kind != Kind::variant && field.factor == 1) {
       about += "\"default\":" + to_json(type, field.of(owner.initial)) + ",";
     }
     return "{" + about + schema.substr(1);
@@ -132,25 +143,29 @@ class Schema {
     void depends(std::string_view name, const std::string& schema) {
       dependent += fmt::format("{}\n  \"{}\":{}", dependent.empty() ? "" : ",", name, schema);
     }
-    void require(std::string_view name) { required += fmt::format("{}\"{}\"", required.empty() ? "" : ",", name); }
+    void require(std::string_view name) {
+      required += fmt::format("{}\"{}\"", required.empty() ? "" : ",", name);
+    }
   };
 
   void add_members(const Type& type, Members& members, bool always) {
     for (const Field& field : type.fields) {
-      if (field.type->kind == Kind::opaque || std::ranges::find(members.seen, field.name) != members.seen.end())
+      if (field.type->kind == Kind::opaque ||
+          std::ranges::find(members.seen, field.name) != members.seen.end())
         continue;
       members.seen.push_back(field.name);
-      members.properties +=
-          fmt::format("{}\n  \"{}\":{}", members.properties.empty() ? "" : ",", field.name, member(field, type));
-      const bool required =
-          field.presence == Presence::required || (absent_ == Absent::null && !field.flat && !field.omit_empty);
+      members.properties += fmt::format("{}\n  \"{}\":{}", members.properties.empty() ? "" : ",",
+                                        field.name, member(field, type));
+      const bool required = field.presence == Presence::required ||
+                            (absent_ == Absent::null && !field.flat && !field.omit_empty);
       if (always && required) members.require(field.name);
       if (!field.only.field.empty()) {
         members.depends(field.name, requirement(field, type));
       }
-      if (const TextForm* form = text_form(type, field); form != nullptr && absent_ == Absent::left_out) {
-        members.depends(form->stands_for,
-                        fmt::format(R"({{"properties":{{"{}":{}}}}})", field.name, value(*field.type, &field)));
+      if (const TextForm* form = text_form(type, field);
+          form != nullptr && absent_ == Absent::left_out) {
+        members.depends(form->stands_for, fmt::format(R"({{"properties":{{"{}":{}}}}})", field.name,
+                                                      value(*field.type, &field)));
       }
       if (!field.flat) continue;
       for (const Type* held : field.type->variants) add_members(*held, members, false);
@@ -162,6 +177,8 @@ class Schema {
 
 }  // namespace
 
-std::string schema_of(const Type& type, Absent absent) { return Schema(absent).value(type, nullptr); }
+std::string schema_of(const Type& type, Absent absent) {
+  return Schema(absent).value(type, nullptr);
+}
 
 }  // namespace knead

@@ -45,8 +45,10 @@ std::string literal(std::string_view text) {
 
 }  // namespace
 
-void TypeScript::declare(const Type& type, const std::string& name, const std::string& suffix, Absent absent) {
-  if (std::ranges::find(names_, &type, &std::pair<const Type*, std::string>::first) != names_.end()) return;
+void TypeScript::declare(const Type& type, const std::string& name, const std::string& suffix,
+                         Absent absent) {
+  if (std::ranges::find(names_, &type, &std::pair<const Type*, std::string>::first) != names_.end())
+    return;
   names_.emplace_back(&type, name);
   if (type.kind != Kind::variant) return record(type, name, {}, suffix, absent);
   std::string alternatives;
@@ -69,20 +71,22 @@ void TypeScript::list(const Type& variant, const std::string& name) {
       std::string initial;
       for (std::size_t k = 0; k < count; ++k)
         initial += fmt::format("{}{}", k == 0 ? "" : ", ", numbers[k] * field.factor);
-      fields += fmt::format("\n      {{ name: {}, help: {}, length: {}, initial: [{}] }},", literal(field.name),
-                            literal(field.help), field.unit == Unit::length, initial);
+      fields += fmt::format("\n      {{ name: {}, help: {}, length: {}, initial: [{}] }},",
+                            literal(field.name), literal(field.help), field.unit == Unit::length,
+                            initial);
     }
-    records += fmt::format("  {}: {{ help: {}, fields: [{}{}] }},\n", held->name, literal(held->help), fields,
-                           fields.empty() ? "" : "\n    ");
+    records += fmt::format("  {}: {{ help: {}, fields: [{}{}] }},\n", held->name,
+                           literal(held->help), fields, fields.empty() ? "" : "\n    ");
   }
   text += fmt::format(
-      "type Numbers = {{ help: string; fields: {{ name: string; help: string; length: boolean; initial: number[] }}[] "
+      "type Numbers = {{ help: string; fields: {{ name: string; help: string; length: boolean; "
+      "initial: number[] }}[] "
       "}};\n\nexport const {}: Record<string, Numbers> = {{\n{}}};\n",
       name, records);
 }
 
-void TypeScript::record(const Type& type, const std::string& name, std::string_view tag, const std::string& suffix,
-                        Absent absent) {
+void TypeScript::record(const Type& type, const std::string& name, std::string_view tag,
+                        const std::string& suffix, Absent absent) {
   std::string body;
   if (!tag.empty()) body += fmt::format("  {}: '{}';\n", tag, type.name);
   for (const Field& field : type.fields) {
@@ -90,18 +94,22 @@ void TypeScript::record(const Type& type, const std::string& name, std::string_v
     if (!field.flat) {
       // A record of a variant omits what is absent, whatever contains it.
       const bool null = absent == Absent::null;
-      const bool there = !field.omit_empty && (null ? tag.empty() || field.type->kind != Kind::optional
-                                                    : field.presence == Presence::required);
-      body += member(type, field, there, suffix, tag.empty() && !field.omit_empty ? absent : Absent::left_out);
+      const bool there =
+          !field.omit_empty && (null ? tag.empty() || field.type->kind != Kind::optional
+                                     : field.presence == Presence::required);
+      body += member(type, field, there, suffix,
+                     tag.empty() && !field.omit_empty ? absent : Absent::left_out);
       continue;
     }
     std::string names;
-    for (std::string_view n : variant_names(*field.type)) names += fmt::format("{}'{}'", names.empty() ? "" : " | ", n);
+    for (std::string_view n : variant_names(*field.type))
+      names += fmt::format("{}'{}'", names.empty() ? "" : " | ", n);
     body += about(field) + fmt::format("  {}: {};\n", field.name, names);
     std::vector<std::string_view> seen;
     for (const Type* held : field.type->variants) {
       for (const Field& part : held->fields) {
-        if (part.type->kind == Kind::opaque || std::ranges::find(seen, part.name) != seen.end()) continue;
+        if (part.type->kind == Kind::opaque || std::ranges::find(seen, part.name) != seen.end())
+          continue;
         seen.push_back(part.name);
         body += fmt::format("  {}?: {};\n", part.name, member_of_any(*field.type, part.name));
       }
@@ -111,11 +119,13 @@ void TypeScript::record(const Type& type, const std::string& name, std::string_v
   text += fmt::format("export type {} = {{\n{}}};\n\n", name, body);
 }
 
-std::string TypeScript::member(const Type& owner, const Field& field, bool always_there, const std::string& suffix,
-                               Absent absent) {
+std::string TypeScript::member(const Type& owner, const Field& field, bool always_there,
+                               const std::string& suffix, Absent absent) {
   std::string instead;
-  if (const TextForm* form = text_form(owner, field); form != nullptr && absent == Absent::left_out) {
-    instead = form->begins ? fmt::format(" | `{}${{string}}`", form->text) : fmt::format(" | '{}'", form->text);
+  if (const TextForm* form = text_form(owner, field);
+      form != nullptr && absent == Absent::left_out) {
+    instead = form->begins ? fmt::format(" | `{}${{string}}`", form->text)
+                           : fmt::format(" | '{}'", form->text);
   }
   return about(field) + fmt::format("  {}{}: {}{}{};\n", field.name, always_there ? "" : "?",
                                     field.uniform ? "number | " : "",
@@ -134,7 +144,8 @@ std::string TypeScript::member_of_any(const Type& variant, std::string_view name
     add(written(*field->type, "", Absent::left_out, field->named()));
   }
   std::string text_of_types;
-  for (const std::string& type : types) text_of_types += (text_of_types.empty() ? "" : " | ") + type;
+  for (const std::string& type : types)
+    text_of_types += (text_of_types.empty() ? "" : " | ") + type;
   return text_of_types;
 }
 
@@ -150,11 +161,13 @@ std::string TypeScript::written(const Type& type, const std::string& suffix, Abs
     case Kind::choice: {
       if (named.empty()) return "string";
       std::string names;
-      for (const Choice& choice : named) names += fmt::format("{}'{}'", names.empty() ? "" : " | ", choice.name);
+      for (const Choice& choice : named)
+        names += fmt::format("{}'{}'", names.empty() ? "" : " | ", choice.name);
       return names;
     }
     case Kind::optional:
-      return written(*type.element, suffix, absent, named) + (absent == Absent::null ? " | null" : "");
+      return written(*type.element, suffix, absent, named) +
+             (absent == Absent::null ? " | null" : "");
     case Kind::list: {
       const std::string element = written(*type.element, suffix, absent, named);
       return element.find('|') == std::string::npos ? element + "[]" : "(" + element + ")[]";
@@ -167,7 +180,8 @@ std::string TypeScript::written(const Type& type, const std::string& suffix, Abs
     }
     case Kind::record:
     case Kind::variant: {
-      const auto known = std::ranges::find(names_, &type, &std::pair<const Type*, std::string>::first);
+      const auto known =
+          std::ranges::find(names_, &type, &std::pair<const Type*, std::string>::first);
       if (known != names_.end()) return known->second;
       // A union of one is that record.
       const bool one = type.kind == Kind::variant && type.variants.size() == 1;

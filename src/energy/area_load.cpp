@@ -32,7 +32,8 @@ std::vector<double> common_breaks(const KnotVector& a, const KnotVector& b) {
   const auto [lower, upper] = a.domain();
   std::vector<double> breaks;
   for (const KnotVector* k : {&a, &b}) {
-    std::ranges::copy_if(k->knots(), std::back_inserter(breaks), [&](double x) { return lower <= x && x <= upper; });
+    std::ranges::copy_if(k->knots(), std::back_inserter(breaks),
+                         [&](double x) { return lower <= x && x <= upper; });
   }
   std::ranges::sort(breaks);
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
@@ -51,8 +52,10 @@ class AreaLoad {
     largest_ = load.control_points().rowwise().norm().maxCoeff();
   }
 
-  /// Adds the forces of a piece, halved in both directions until two rules agree to `allowed` of its size.
-  [[nodiscard]] Expected<void> add(const Piece& piece, double allowed, int halvings, Points& to) const {
+  /// Adds the forces of a piece, halved in both directions until two rules agree to `allowed` of
+  /// its size.
+  [[nodiscard]] Expected<void> add(const Piece& piece, double allowed, int halvings,
+                                   Points& to) const {
     const auto coarse = by_rule(piece, 0), fine = by_rule(piece, more_points);
     if (!coarse) return std::unexpected(coarse.error());
     if (!fine) return std::unexpected(fine.error());
@@ -66,13 +69,15 @@ class AreaLoad {
         halved = halved && piece.lower[d] < middle[d] && middle[d] < piece.upper[d];
       }
       if (!halved) {
-        return numerical_error(fmt::format("the forces are known to {:.1e} only, not {:.1e}", off, allowed),
-                               fmt::format("load: parameters ({}, {})", middle[0], middle[1]),
-                               R"(give the load "per":"parameters", or remove what folds the surface there)");
+        return numerical_error(
+            fmt::format("the forces are known to {:.1e} only, not {:.1e}", off, allowed),
+            fmt::format("load: parameters ({}, {})", middle[0], middle[1]),
+            R"(give the load "per":"parameters", or remove what folds the surface there)");
       }
       for (int quarter = 0; quarter < 4; ++quarter) {
         Piece part = piece;
-        for (std::size_t d = 0; d < 2; ++d) ((quarter >> d & 1) != 0 ? part.lower : part.upper)[d] = middle[d];
+        for (std::size_t d = 0; d < 2; ++d)
+          ((quarter >> d & 1) != 0 ? part.lower : part.upper)[d] = middle[d];
         if (auto ok = add(part, allowed / 2, halvings - 1, to); !ok) return ok;
       }
       return {};
@@ -96,7 +101,8 @@ class AreaLoad {
                                 std::nextafter(piece.upper[d], piece.lower[d])));
         weights[d].push_back(half * rule.weights[g]);
       }
-      auto made = tabulate_basis(shape_.knots()[d], at, 1), loaded = tabulate_basis(load_.knots()[d], at, 0);
+      auto made = tabulate_basis(shape_.knots()[d], at, 1),
+           loaded = tabulate_basis(load_.knots()[d], at, 0);
       if (!made) return std::unexpected(made.error());
       if (!loaded) return std::unexpected(loaded.error());
       own[d] = std::move(*made);
@@ -114,8 +120,10 @@ class AreaLoad {
     std::vector<Eigen::MatrixXd> basis(3, Eigen::MatrixXd(local_, 1));
     for (std::size_t a = 0, k = 0; a < weights[0].size(); ++a) {
       for (std::size_t b = 0; b < weights[1].size(); ++b, ++k) {
-        const std::array<const double*, 2> rows{own[0].row(static_cast<int>(a), 0), own[1].row(static_cast<int>(b), 0)};
-        if (auto ok = functions_.evaluate(first, rows, 0, basis); !ok) return std::unexpected(ok.error());
+        const std::array<const double*, 2> rows{own[0].row(static_cast<int>(a), 0),
+                                                own[1].row(static_cast<int>(b), 0)};
+        if (auto ok = functions_.evaluate(first, rows, 0, basis); !ok)
+          return std::unexpected(ok.error());
         const double area = weights[0][a] * weights[1][b] * area_element(result.nodes, basis);
         result.area += area;
         result.forces += area * basis[0] * f->points().row(static_cast<Eigen::Index>(k));
@@ -125,7 +133,8 @@ class AreaLoad {
     return result;
   }
 
-  [[nodiscard]] double area_element(const std::vector<int>& nodes, const std::vector<Eigen::MatrixXd>& basis) const {
+  [[nodiscard]] double area_element(const std::vector<int>& nodes,
+                                    const std::vector<Eigen::MatrixXd>& basis) const {
     Eigen::Vector3d u = Eigen::Vector3d::Zero(), v = u;
     for (std::size_t r = 0; r < nodes.size(); ++r) {
       const auto x = shape_.control_points().row(nodes[r]).transpose();
@@ -150,24 +159,27 @@ Expected<Points> area_load_forces(const Surface& shape, const Surface& load) {
   for (std::size_t d = 0; d < 2; ++d) {
     const Interval a = shape.knots()[d].domain(), b = load.knots()[d].domain();
     if (a.lower != b.lower || a.upper != b.upper) {
-      return input_error(fmt::format("the domains [{}, {}] of the shape and [{}, {}] of the load differ", a.lower,
-                                     a.upper, b.lower, b.upper),
-                         fmt::format("load: direction {}", d == 0 ? "u" : "v"),
-                         "give a load over the domain of the shape");
+      return input_error(
+          fmt::format("the domains [{}, {}] of the shape and [{}, {}] of the load differ", a.lower,
+                      a.upper, b.lower, b.upper),
+          fmt::format("load: direction {}", d == 0 ? "u" : "v"),
+          "give a load over the domain of the shape");
     }
     breaks[d] = common_breaks(shape.knots()[d], load.knots()[d]);
   }
-  const auto weighted = shape.rational()
-                            ? Expected<Surface>(shape)
-                            : Surface::create(shape.knots(), shape.control_points(),
-                                              std::vector<double>(static_cast<std::size_t>(shape.size()), 1.0));
+  const auto weighted =
+      shape.rational()
+          ? Expected<Surface>(shape)
+          : Surface::create(shape.knots(), shape.control_points(),
+                            std::vector<double>(static_cast<std::size_t>(shape.size()), 1.0));
   if (!weighted) return std::unexpected(weighted.error());
   const AreaLoad forces(shape, *weighted, load);
   Points result = Points::Zero(shape.size(), 3);
   for (std::size_t i = 0; i + 1 < breaks[0].size(); ++i) {
     for (std::size_t j = 0; j + 1 < breaks[1].size(); ++j) {
       const Piece piece{{breaks[0][i], breaks[1][j]}, {breaks[0][i + 1], breaks[1][j + 1]}};
-      if (auto ok = forces.add(piece, -1, most_area_halvings, result); !ok) return std::unexpected(ok.error());
+      if (auto ok = forces.add(piece, -1, most_area_halvings, result); !ok)
+        return std::unexpected(ok.error());
     }
   }
   return result;

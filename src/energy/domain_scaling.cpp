@@ -46,7 +46,8 @@ Expected<DomainScaling<D>> normalised_scaling(const Spline<D>& rest) {
   for (int begin = 0; begin < q[0].basis.size(); begin += block) {
     const BasisTable rows = q[0].basis.slice(begin, begin + block);
     tables[0] = &rows;
-    if (auto done = evaluate_grid<D>(rest, tables, 1, grid); !done) return std::unexpected(done.error());
+    if (auto done = evaluate_grid<D>(rest, tables, 1, grid); !done)
+      return std::unexpected(done.error());
     std::array<const Points*, D> derivatives;
     for (std::size_t d = 0; d < D; ++d) {
       MultiIndex<D> first{};
@@ -73,7 +74,8 @@ Expected<DomainScaling<D>> normalised_scaling(const Spline<D>& rest) {
   }
   DomainScaling<D> scaling;
   scaling.length = D == 1 ? total : D == 2 ? std::sqrt(total) : std::cbrt(total);
-  // Mean isocurve length over the other directions, in units of `length`, per unit of its own parameter.
+  // Mean isocurve length over the other directions, in units of `length`, per unit of its own
+  // parameter.
   for (std::size_t d = 0; d < D; ++d) scaling.factors[d] = lengths[d] / domain / scaling.length;
   return scaling;
 }

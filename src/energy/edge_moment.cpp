@@ -12,16 +12,19 @@ namespace {
 
 using Tangents = Eigen::Matrix<double, 3, 2>;
 
-/// F_α = −(a^α·c) n of one point: the forces that do work on the tangents a_α, and their derivatives by these.
+/// F_α = −(a^α·c) n of one point: the forces that do work on the tangents a_α, and their
+/// derivatives by these.
 struct PointMoment {
-  Tangents force;                            // columns F_1, F_2
-  Eigen::Matrix<double, 6, 6> derivative{};  // rows of F_1, then of F_2; columns of a_1, then of a_2
+  Tangents force;  // columns F_1, F_2
+  Eigen::Matrix<double, 6, 6>
+      derivative{};  // rows of F_1, then of F_2; columns of a_1, then of a_2
 
   PointMoment(const Tangents& a, int along) {
     const Eigen::Vector3d cross = a.col(0).cross(a.col(1));
     const double area = cross.norm(), speed = a.col(along).norm();
     const Eigen::Vector3d n = cross / area, t = a.col(along) / speed, c = t.cross(n);
-    const Tangents dual = (Tangents() << a.col(1).cross(n) / area, n.cross(a.col(0)) / area).finished();
+    const Tangents dual =
+        (Tangents() << a.col(1).cross(n) / area, n.cross(a.col(0)) / area).finished();
     const Eigen::Vector2d part = dual.transpose() * c;
     force = -n * part.transpose();
     for (int k = 0; k < 6; ++k) {
@@ -62,20 +65,23 @@ struct EdgeMoment::Data {
   std::vector<Gauss> points;
 };
 
-Expected<EdgeMoment> EdgeMoment::create(const Surface& rest, int across, bool at_end, double per_length, int first_row,
-                                        int size) {
-  if (!std::isfinite(per_length)) return input_error("a moment is not finite", "moment", "use a finite number");
+Expected<EdgeMoment> EdgeMoment::create(const Surface& rest, int across, bool at_end,
+                                        double per_length, int first_row, int size) {
+  if (!std::isfinite(per_length))
+    return input_error("a moment is not finite", "moment", "use a finite number");
   auto data = std::make_shared<Data>();
   const int along = 1 - across;
   data->along = along;
   data->size = size > 0 ? size : rest.size();
-  const auto weighted = rest.rational()
-                            ? Expected<Surface>(rest)
-                            : Surface::create(rest.knots(), rest.control_points(),
-                                              std::vector<double>(static_cast<std::size_t>(rest.size()), 1.0));
+  const auto weighted =
+      rest.rational()
+          ? Expected<Surface>(rest)
+          : Surface::create(rest.knots(), rest.control_points(),
+                            std::vector<double>(static_cast<std::size_t>(rest.size()), 1.0));
   if (!weighted) return std::unexpected(weighted.error());
   const RationalBasis<2> functions(*weighted, 1);
-  const BasisQuadrature quadrature = gauss_basis(rest.knots(along), rest.knots(along).degree() + 4, 1);
+  const BasisQuadrature quadrature =
+      gauss_basis(rest.knots(along), rest.knots(along).degree() + 4, 1);
   const Interval domain = rest.knots(across).domain();
   const double end[] = {at_end ? domain.upper : domain.lower};
   const auto table = tabulate_basis(rest.knots(across), end, 1);
@@ -89,7 +95,8 @@ Expected<EdgeMoment> EdgeMoment::create(const Surface& rest, int across, bool at
     rows[static_cast<std::size_t>(along)] = quadrature.basis.row(k, 0);
     first[static_cast<std::size_t>(across)] = table->first[0];
     rows[static_cast<std::size_t>(across)] = table->row(0, 0);
-    if (auto ok = functions.evaluate(first, rows, 0, values); !ok) return std::unexpected(ok.error());
+    if (auto ok = functions.evaluate(first, rows, 0, values); !ok)
+      return std::unexpected(ok.error());
     Data::Gauss point;
     for (int r = 0; r < local; ++r) {
       const auto i = functions.global(first, r);
@@ -103,7 +110,8 @@ Expected<EdgeMoment> EdgeMoment::create(const Surface& rest, int across, bool at
       at_rest += rest.control_points().row(point.nodes[r] - first_row).transpose() *
                  point.gradient.row(static_cast<Eigen::Index>(r));
     }
-    point.weight = per_length * quadrature.weights[static_cast<std::size_t>(k)] * at_rest.col(along).norm();
+    point.weight =
+        per_length * quadrature.weights[static_cast<std::size_t>(k)] * at_rest.col(along).norm();
     data->points.push_back(std::move(point));
   }
   return EdgeMoment(std::move(data));
@@ -115,7 +123,8 @@ Points EdgeMoment::forces(const Points& x) const {
     const PointMoment moment(point.tangents(x), data_->along);
     for (std::size_t r = 0; r < point.nodes.size(); ++r) {
       result.row(point.nodes[r]) +=
-          point.weight * (moment.force * point.gradient.row(static_cast<Eigen::Index>(r)).transpose()).transpose();
+          point.weight *
+          (moment.force * point.gradient.row(static_cast<Eigen::Index>(r)).transpose()).transpose();
     }
   }
   return result;
@@ -125,7 +134,8 @@ SparseMatrix EdgeMoment::stiffness(const Points& x) const {
   std::vector<Eigen::Triplet<double>> entries;
   for (const Data::Gauss& point : data_->points) {
     const PointMoment moment(point.tangents(x), data_->along);
-    const Eigen::Matrix<double, 6, 6> d = point.weight / 2 * (moment.derivative + moment.derivative.transpose());
+    const Eigen::Matrix<double, 6, 6> d =
+        point.weight / 2 * (moment.derivative + moment.derivative.transpose());
     const auto local = static_cast<Eigen::Index>(point.nodes.size());
     for (Eigen::Index r = 0; r < local; ++r) {
       for (Eigen::Index s = 0; s < local; ++s) {

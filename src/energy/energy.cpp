@@ -28,7 +28,8 @@ Energy<D> stretch_and_bend(const MaterialOf<D>& material) {
         bend.push_back({i == j ? beta : 2 * beta, second(i, j), second(i, j)});
       }
       if (i == j || material.poisson == 0) continue;
-      const double ii = material.beta[MaterialOf<D>::place(i, i)], jj = material.beta[MaterialOf<D>::place(j, j)];
+      const double ii = material.beta[MaterialOf<D>::place(i, i)],
+                   jj = material.beta[MaterialOf<D>::place(j, j)];
       if (const double coupled = material.poisson * std::sqrt(ii * jj); coupled != 0) {
         bend.push_back({coupled, second(i, i), second(j, j)});
         bend.push_back({coupled, second(j, j), second(i, i)});
@@ -51,7 +52,8 @@ Energy<D> on_scaled_domain(const Energy<D>& energy, const std::array<double, D>&
     for (std::size_t d = 0; d < D; ++d) {
       const int exponent = 1 - term.a[d] - term.b[d];
       for (int k = 0; k < std::abs(exponent); ++k) {
-        term.coefficient = exponent > 0 ? term.coefficient * factors[d] : term.coefficient / factors[d];
+        term.coefficient =
+            exponent > 0 ? term.coefficient * factors[d] : term.coefficient / factors[d];
       }
     }
   }

@@ -11,8 +11,12 @@ namespace {
 template <int D>
 class TermWriter {
  public:
-  TermWriter(const TensorPattern<D>& pattern, const std::array<const TripleGramian*, D>& triple, SparseMatrix& matrix)
-      : pattern_(pattern), triple_(triple), start_(matrix.outerIndexPtr()), values_(matrix.valuePtr()) {
+  TermWriter(const TensorPattern<D>& pattern, const std::array<const TripleGramian*, D>& triple,
+             SparseMatrix& matrix)
+      : pattern_(pattern),
+        triple_(triple),
+        start_(matrix.outerIndexPtr()),
+        values_(matrix.valuePtr()) {
     std::size_t inner = 1;
     for (std::size_t d = D; d-- > 0;) {
       inner_[d] = inner;
@@ -61,8 +65,9 @@ class TermWriter {
   std::array<std::vector<double>, D> buffer_;
 };
 
-/// Copies the upper half to the lower one. The pattern is symmetric and columns are sorted: walking the rows in order,
-/// the entries of a row below the diagonal arrive in the order in which they are stored.
+/// Copies the upper half to the lower one. The pattern is symmetric and columns are sorted: walking
+/// the rows in order, the entries of a row below the diagonal arrive in the order in which they are
+/// stored.
 void mirror(SparseMatrix& matrix) {
   const auto* start = matrix.outerIndexPtr();
   const auto* column = matrix.innerIndexPtr();
@@ -79,7 +84,8 @@ void mirror(SparseMatrix& matrix) {
 }  // namespace
 
 template <int D>
-Expected<const TripleGramian*> FieldAssembler<D>::triple(std::size_t direction, const KnotVector& knots, int a, int b) {
+Expected<const TripleGramian*> FieldAssembler<D>::triple(std::size_t direction,
+                                                         const KnotVector& knots, int a, int b) {
   for (Kept& kept : kept_[direction]) {
     if (kept.a == a && kept.b == b && kept.knots == knots) {
       kept.used = true;
@@ -88,7 +94,8 @@ Expected<const TripleGramian*> FieldAssembler<D>::triple(std::size_t direction, 
   }
   auto made = triple_gramian(knots, spline_.knots()[direction], a, b);
   if (!made) return std::unexpected(made.error());
-  kept_[direction].push_back({knots, a, b, std::make_shared<const TripleGramian>(std::move(*made)), true});
+  kept_[direction].push_back(
+      {knots, a, b, std::make_shared<const TripleGramian>(std::move(*made)), true});
   return kept_[direction].back().triple.get();
 }
 
@@ -105,7 +112,8 @@ void FieldAssembler<D>::drop_unused() {
 }
 
 template <int D>
-Expected<SparseMatrix> FieldAssembler<D>::assemble_kept(const FieldEnergy<D>& energy, double& error_bound) {
+Expected<SparseMatrix> FieldAssembler<D>::assemble_kept(const FieldEnergy<D>& energy,
+                                                        double& error_bound) {
   if (spline_.rational()) {
     auto made = assemble_rational<D>(spline_, energy, options_);
     if (!made) return std::unexpected(made.error());

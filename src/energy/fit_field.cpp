@@ -43,7 +43,8 @@ Expected<std::vector<double>> values_on(const ParameterFunction<D>& f,
 }
 
 template <int D>
-Expected<SplineField<D>> interpolate(const ParameterFunction<D>& f, const std::array<KnotVector, D>& knots,
+Expected<SplineField<D>> interpolate(const ParameterFunction<D>& f,
+                                     const std::array<KnotVector, D>& knots,
                                      const std::optional<Interval>& range) {
   std::vector<GrevilleInterpolation> interpolation;
   std::array<std::vector<double>, D> places;
@@ -56,8 +57,8 @@ Expected<SplineField<D>> interpolate(const ParameterFunction<D>& f, const std::a
     places[d] = interpolation[d].abscissae();
     const double lower = knots[d].domain().lower, upper = knots[d].domain().upper;
     for (std::size_t i = 0; i < places[d].size(); ++i) {
-      // The limit from the left of a function known only by its values; at the end of the domain it is the value
-      // itself.
+      // The limit from the left of a function known only by its values; at the end of the domain it
+      // is the value itself.
       if (interpolation[d].sides()[i] == Side::left && places[d][i] < upper)
         places[d][i] = std::nextafter(places[d][i], lower);
     }
@@ -85,10 +86,12 @@ struct Judgement {
   std::array<std::vector<bool>, D> marked;
 };
 
-/// The largest |Δ^{p+1}| of the values of one element along every direction, at a stride that spans the element.
+/// The largest |Δ^{p+1}| of the values of one element along every direction, at a stride that spans
+/// the element.
 template <int D>
 std::array<double, D> differences(const std::vector<double>& f, std::size_t corner,
-                                  const std::array<std::size_t, D>& strides, const std::array<int, D>& counts,
+                                  const std::array<std::size_t, D>& strides,
+                                  const std::array<int, D>& counts,
                                   const std::array<int, D>& degrees) {
   std::array<double, D> largest{};
   std::size_t total = 1;
@@ -123,8 +126,8 @@ std::array<double, D> differences(const std::vector<double>& f, std::size_t corn
 
 template <int D>
 Judgement<D> judge(const std::vector<double>& f, const std::vector<double>& approximation,
-                   const std::vector<detail::SpanSamples>& samples, const std::array<KnotVector, D>& knots,
-                   double tolerance) {
+                   const std::vector<detail::SpanSamples>& samples,
+                   const std::array<KnotVector, D>& knots, double tolerance) {
   Judgement<D> result;
   std::array<std::size_t, D> strides;
   std::array<int, D> counts, degrees;
@@ -160,7 +163,8 @@ Judgement<D> judge(const std::vector<double>& f, const std::vector<double>& appr
     if (error <= headroom * tolerance) continue;
     const std::array<double, D> size = differences<D>(f, corner, strides, counts, degrees);
     const double largest = *std::ranges::max_element(size);
-    // Differences far below the error cannot be its cause, which is then a neighbour, itself marked.
+    // Differences far below the error cannot be its cause, which is then a neighbour, itself
+    // marked.
     if (largest < 0.1 * error) continue;
     for (std::size_t d = 0; d < D; ++d) {
       if (size[d] >= 0.2 * largest) result.marked[d][span[d]] = result.any = true;
@@ -175,10 +179,11 @@ Judgement<D> judge(const std::vector<double>& f, const std::vector<double>& appr
 }  // namespace
 
 template <int D>
-Expected<FieldFit<D>> fit_field(const ParameterFunction<D>& f, const std::array<KnotVector, D>& hint,
-                                const FitOptions& options) {
+Expected<FieldFit<D>> fit_field(const ParameterFunction<D>& f,
+                                const std::array<KnotVector, D>& hint, const FitOptions& options) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance)) {
-    return input_error(fmt::format("{} is not a tolerance", options.tolerance), "tolerance", "use a finite number > 0");
+    return input_error(fmt::format("{} is not a tolerance", options.tolerance), "tolerance",
+                       "use a finite number > 0");
   }
   std::array<KnotVector, D> knots = hint;
   double best = std::numeric_limits<double>::infinity();
@@ -191,9 +196,12 @@ Expected<FieldFit<D>> fit_field(const ParameterFunction<D>& f, const std::array<
       net += fmt::format("{}{}", net.empty() ? "" : " x ", k.count());
     }
     if (count > options.max_coefficients) {
-      return numerical_error(fmt::format("the function is met to {:.3g} only, on {} coefficients; {} would be too many",
-                                         best, best_net, net),
-                             "tolerance", "use a larger tolerance, a wider fall-off, or knots at the function's kinks");
+      return numerical_error(
+          fmt::format(
+              "the function is met to {:.3g} only, on {} coefficients; {} would be too many", best,
+              best_net, net),
+          "tolerance",
+          "use a larger tolerance, a wider fall-off, or knots at the function's kinks");
     }
     auto field = interpolate<D>(f, knots, options.range);
     if (!field) return std::unexpected(field.error());
@@ -208,26 +216,30 @@ Expected<FieldFit<D>> fit_field(const ParameterFunction<D>& f, const std::array<
     }
     const auto exact = values_on<D>(f, at);
     if (!exact) return std::unexpected(exact.error());
-    const Judgement<D> judgement = judge<D>(*exact, *field->on_grid(at), samples, knots, options.tolerance);
-    if (judgement.error <= headroom * options.tolerance) return FieldFit<D>{std::move(*field), judgement.error, points};
+    const Judgement<D> judgement =
+        judge<D>(*exact, *field->on_grid(at), samples, knots, options.tolerance);
+    if (judgement.error <= headroom * options.tolerance)
+      return FieldFit<D>{std::move(*field), judgement.error, points};
     if (judgement.error < best) best = judgement.error, best_net = net;
     bool changed = false;
-    for (std::size_t d = 0; d < D; ++d) changed = detail::halve(knots[d], judgement.marked[d]) || changed;
+    for (std::size_t d = 0; d < D; ++d)
+      changed = detail::halve(knots[d], judgement.marked[d]) || changed;
     if (!changed) {
       return numerical_error(
-          fmt::format("the function is met to {:.3g} only, on {} coefficients; its spans are too short "
-                      "to halve",
-                      best, best_net),
+          fmt::format(
+              "the function is met to {:.3g} only, on {} coefficients; its spans are too short "
+              "to halve",
+              best, best_net),
           "tolerance", "use a larger tolerance, or knots repeated where the function jumps");
     }
   }
 }
 
-template Expected<FieldFit<1>> fit_field<1>(const ParameterFunction<1>&, const std::array<KnotVector, 1>&,
-                                            const FitOptions&);
-template Expected<FieldFit<2>> fit_field<2>(const ParameterFunction<2>&, const std::array<KnotVector, 2>&,
-                                            const FitOptions&);
-template Expected<FieldFit<3>> fit_field<3>(const ParameterFunction<3>&, const std::array<KnotVector, 3>&,
-                                            const FitOptions&);
+template Expected<FieldFit<1>> fit_field<1>(const ParameterFunction<1>&,
+                                            const std::array<KnotVector, 1>&, const FitOptions&);
+template Expected<FieldFit<2>> fit_field<2>(const ParameterFunction<2>&,
+                                            const std::array<KnotVector, 2>&, const FitOptions&);
+template Expected<FieldFit<3>> fit_field<3>(const ParameterFunction<3>&,
+                                            const std::array<KnotVector, 3>&, const FitOptions&);
 
 }  // namespace knead

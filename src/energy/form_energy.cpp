@@ -24,10 +24,12 @@ template <int D>
 Expected<void> check_weights(const Spline<D>& rest, const FormWeights& weights) {
   for (const auto& [w, name] : {std::pair(weights.w1, "w1"), std::pair(weights.w2, "w2")}) {
     if (std::isfinite(w) && w >= 0) continue;
-    return input_error(fmt::format("{} is not a weight of a fundamental form", w), name, "use finite numbers >= 0");
+    return input_error(fmt::format("{} is not a weight of a fundamental form", w), name,
+                       "use finite numbers >= 0");
   }
   if (D == 1 && weights.w2 > 0 && rest.knots()[0].degree() < 2) {
-    return input_error("a curve of degree 1 does not bend", "w2", R"(elevate its degree to 2 or more, or give "w2":0)");
+    return input_error("a curve of degree 1 does not bend", "w2",
+                       R"(elevate its degree to 2 or more, or give "w2":0)");
   }
   return {};
 }
@@ -90,17 +92,20 @@ class FormElements {
     }
     constexpr int vectors = form_vectors<D>;
     element.derivative.resize(local_, vectors * per_element_);
-    std::vector<Eigen::MatrixXd> tables(multi_indices<D>(D == 1 ? 2 : 1).size(), Eigen::MatrixXd(local_, 1));
+    std::vector<Eigen::MatrixXd> tables(multi_indices<D>(D == 1 ? 2 : 1).size(),
+                                        Eigen::MatrixXd(local_, 1));
     for (int g = 0; g < per_element_; ++g) {
       std::array<const double*, D> rows;
       double weight = 1;
       for (std::size_t d = D, rest = static_cast<std::size_t>(g); d-- > 0;) {
-        const auto at = static_cast<std::size_t>(begin[d]) + rest % static_cast<std::size_t>(points_[d]);
+        const auto at =
+            static_cast<std::size_t>(begin[d]) + rest % static_cast<std::size_t>(points_[d]);
         rest /= static_cast<std::size_t>(points_[d]);
         rows[d] = quadrature_[d].basis.row(static_cast<int>(at), 0);
         weight *= quadrature_[d].weights[at];
       }
-      if (auto ok = functions_.evaluate(first, rows, 0, tables); !ok) return std::unexpected(ok.error());
+      if (auto ok = functions_.evaluate(first, rows, 0, tables); !ok)
+        return std::unexpected(ok.error());
       const auto positions = form_positions<D>();
       for (int v = 0; v < vectors; ++v) {
         element.derivative.col(vectors * g + v) = tables[positions[static_cast<std::size_t>(v)]];
@@ -135,12 +140,14 @@ struct FormEnergy<D>::Data {
     for (const FormElement& element : elements) {
       const Eigen::Matrix3Xd derivatives = local_points(element, x) * element.derivative;
       for (Eigen::Index k = 0; k < derivatives.cols() / vectors; ++k, ++index) {
-        visit(element, k, rest[index], FormDerivatives<D>(derivatives.template middleCols<vectors>(vectors * k)));
+        visit(element, k, rest[index],
+              FormDerivatives<D>(derivatives.template middleCols<vectors>(vectors * k)));
       }
     }
   }
 
-  [[nodiscard]] Expected<void> add(FormElement element, const std::vector<double>& of_points, const Points& x) {
+  [[nodiscard]] Expected<void> add(FormElement element, const std::vector<double>& of_points,
+                                   const Points& x) {
     const Eigen::Matrix3Xd derivatives = local_points(element, x) * element.derivative;
     for (Eigen::Index k = 0; k < derivatives.cols() / vectors; ++k) {
       const FormDerivatives<D> d = derivatives.template middleCols<vectors>(vectors * k);
@@ -149,7 +156,8 @@ struct FormEnergy<D>::Data {
       if constexpr (D == 1) {
         if (weights.w2 > 0) at.curvature = std::sqrt(detail::SquaredCurvature(d).value);
         if (!std::isfinite(at.curvature)) {
-          return numerical_error("the rest shape has no tangent at a Gauss point", fmt::format("point {}", rest.size()),
+          return numerical_error("the rest shape has no tangent at a Gauss point",
+                                 fmt::format("point {}", rest.size()),
                                  "remove spans on which control points coincide");
         }
       }
@@ -164,7 +172,8 @@ struct FormEnergy<D>::Data {
   [[nodiscard]] SparseMatrix assemble(const Points& x, Take take) const {
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<Tangent> tangents;
-    each_point(x, [&](const FormElement& element, Eigen::Index k, const FormRest<D>& at, const auto& derivatives) {
+    each_point(x, [&](const FormElement& element, Eigen::Index k, const FormRest<D>& at,
+                      const auto& derivatives) {
       tangents.push_back(at.weight * take(FormPoint<D>(derivatives, at, weights)));
       if (k + 1 < element.derivative.cols() / vectors) return;
       append(element, tangents, entries);
@@ -178,7 +187,8 @@ struct FormEnergy<D>::Data {
  private:
   using Tangent = Eigen::Matrix<double, 3 * vectors, 3 * vectors>;
 
-  /// Σ_g Bᵀ T B of one element, B its derivatives at Gauss point g: a product of matrices per pair of coordinates.
+  /// Σ_g Bᵀ T B of one element, B its derivatives at Gauss point g: a product of matrices per pair
+  /// of coordinates.
   static void append(const FormElement& element, const std::vector<Tangent>& tangents,
                      std::vector<Eigen::Triplet<double>>& to) {
     const auto& b = element.derivative;
@@ -189,7 +199,8 @@ struct FormEnergy<D>::Data {
           const auto at = vectors * static_cast<Eigen::Index>(g);
           const Eigen::Matrix<double, vectors, vectors> of_pair =
               tangents[g](Eigen::seqN(c, vectors, 3), Eigen::seqN(e, vectors, 3));
-          weighted.template middleRows<vectors>(at) = of_pair * b.template middleCols<vectors>(at).transpose();
+          weighted.template middleRows<vectors>(at) =
+              of_pair * b.template middleCols<vectors>(at).transpose();
         }
         block.noalias() = b * weighted;
         for (Eigen::Index i = 0; i < b.rows(); ++i) {
@@ -207,12 +218,14 @@ struct FormEnergy<D>::Data {
 };
 
 template <int D>
-Expected<FormEnergy<D>> FormEnergy<D>::create(const Spline<D>& rest, const FormWeights& weights, int gauss_points) {
+Expected<FormEnergy<D>> FormEnergy<D>::create(const Spline<D>& rest, const FormWeights& weights,
+                                              int gauss_points) {
   if (auto ok = check_weights<D>(rest, weights); !ok) return std::unexpected(ok.error());
-  const auto weighted = rest.rational()
-                            ? Expected<Spline<D>>(rest)
-                            : Spline<D>::create(rest.knots(), rest.control_points(),
-                                                std::vector<double>(static_cast<std::size_t>(rest.size()), 1.0));
+  const auto weighted =
+      rest.rational()
+          ? Expected<Spline<D>>(rest)
+          : Spline<D>::create(rest.knots(), rest.control_points(),
+                              std::vector<double>(static_cast<std::size_t>(rest.size()), 1.0));
   if (!weighted) return std::unexpected(weighted.error());
   auto data = std::make_shared<Data>();
   data->weights = weights;
@@ -232,11 +245,12 @@ Expected<FormEnergy<D>> FormEnergy<D>::create(const Spline<D>& rest, const FormW
 template <int D>
 ShellParts FormEnergy<D>::energy(const Points& x) const {
   ShellParts parts;
-  data_->each_point(x, [&](const FormElement&, Eigen::Index, const FormRest<D>& rest, const auto& d) {
-    const FormPoint<D> point(d, rest, data_->weights);
-    parts.membrane += rest.weight * point.metric;
-    parts.bending += rest.weight * point.bend;
-  });
+  data_->each_point(x,
+                    [&](const FormElement&, Eigen::Index, const FormRest<D>& rest, const auto& d) {
+                      const FormPoint<D> point(d, rest, data_->weights);
+                      parts.membrane += rest.weight * point.metric;
+                      parts.bending += rest.weight * point.bend;
+                    });
   return parts;
 }
 
@@ -244,14 +258,16 @@ template <int D>
 Points FormEnergy<D>::gradient(const Points& x) const {
   constexpr int vectors = form_vectors<D>;
   Points result = Points::Zero(x.rows(), 3);
-  data_->each_point(x, [&](const FormElement& element, Eigen::Index k, const FormRest<D>& rest, const auto& d) {
-    const FormPoint<D> point(d, rest, data_->weights);
-    const Eigen::Map<const Eigen::Matrix<double, 3, vectors>> by_vector(point.gradient.data());
-    for (std::size_t r = 0; r < element.nodes.size(); ++r) {
-      const auto row = element.derivative.row(static_cast<Eigen::Index>(r)).template segment<vectors>(vectors * k);
-      result.row(element.nodes[r]) += rest.weight * (by_vector * row.transpose()).transpose();
-    }
-  });
+  data_->each_point(
+      x, [&](const FormElement& element, Eigen::Index k, const FormRest<D>& rest, const auto& d) {
+        const FormPoint<D> point(d, rest, data_->weights);
+        const Eigen::Map<const Eigen::Matrix<double, 3, vectors>> by_vector(point.gradient.data());
+        for (std::size_t r = 0; r < element.nodes.size(); ++r) {
+          const auto row = element.derivative.row(static_cast<Eigen::Index>(r))
+                               .template segment<vectors>(vectors * k);
+          result.row(element.nodes[r]) += rest.weight * (by_vector * row.transpose()).transpose();
+        }
+      });
   return result;
 }
 
@@ -278,7 +294,8 @@ int FormEnergy<D>::size() const {
 template <int D>
 double FormEnergy<D>::stretching_scale() const {
   double sum = 0;
-  for (const FormRest<D>& rest : data_->rest) sum += rest.weight * data_->weights.w1 * rest.metric.squaredNorm();
+  for (const FormRest<D>& rest : data_->rest)
+    sum += rest.weight * data_->weights.w1 * rest.metric.squaredNorm();
   return sum;
 }
 

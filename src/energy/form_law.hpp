@@ -9,8 +9,8 @@
 
 namespace knead::detail {
 
-/// The derivatives of a shape that its forms depend on: of a curve S' and S'', of a volume S_u, S_v and S_w, as
-/// columns.
+/// The derivatives of a shape that its forms depend on: of a curve S' and S'', of a volume S_u, S_v
+/// and S_w, as columns.
 template <int D>
 inline constexpr int form_vectors = D == 1 ? 2 : 3;
 template <int D>
@@ -41,16 +41,19 @@ struct SquaredCurvature {
   }
 };
 
-/// The energy density of a point with its derivatives by those of the shape, one vector after the other.
+/// The energy density of a point with its derivatives by those of the shape, one vector after the
+/// other.
 template <int D>
 struct FormPoint {
   static constexpr int unknowns = 3 * form_vectors<D>;
 
   double metric = 0, bend = 0;
   Eigen::Matrix<double, unknowns, 1> gradient = Eigen::Matrix<double, unknowns, 1>::Zero();
-  Eigen::Matrix<double, unknowns, unknowns> hessian = Eigen::Matrix<double, unknowns, unknowns>::Zero();
-  Eigen::Matrix<double, unknowns, unknowns> material = hessian;  // the part of products of first derivatives
-  Eigen::Matrix<double, D, D> stress;                            // 4 w e
+  Eigen::Matrix<double, unknowns, unknowns> hessian =
+      Eigen::Matrix<double, unknowns, unknowns>::Zero();
+  Eigen::Matrix<double, unknowns, unknowns> material =
+      hessian;                         // the part of products of first derivatives
+  Eigen::Matrix<double, D, D> stress;  // 4 w e
 
   FormPoint(const FormDerivatives<D>& a, const FormRest<D>& rest, const FormWeights& weights)
       : stress(4 * weights.w1 * strain(a, rest)) {
@@ -70,13 +73,15 @@ struct FormPoint {
       tension = axes * principal->values.cwiseMax(0).asDiagonal() * axes.transpose();
     }
     for (int i = 0; i < D; ++i) {
-      for (int k = 0; k < D; ++k) sum.template block<3, 3>(3 * i, 3 * k).diagonal().array() += tension(i, k);
+      for (int k = 0; k < D; ++k)
+        sum.template block<3, 3>(3 * i, 3 * k).diagonal().array() += tension(i, k);
     }
     return sum;
   }
 
  private:
-  [[nodiscard]] static Eigen::Matrix<double, D, D> strain(const FormDerivatives<D>& a, const FormRest<D>& rest) {
+  [[nodiscard]] static Eigen::Matrix<double, D, D> strain(const FormDerivatives<D>& a,
+                                                          const FormRest<D>& rest) {
     const auto tangents = a.template leftCols<D>();
     return tangents.transpose() * tangents - rest.metric;
   }
@@ -106,7 +111,8 @@ struct FormPoint {
     if (k.value == 0 && at_rest > 0) return;  // no derivative
     const double slope = at_rest > 0 ? 1 - at_rest / curvature : 1;
     const double bent = at_rest > 0 ? at_rest / (2 * k.value * curvature) : 0;
-    Eigen::Matrix<double, 6, 3> gram = Eigen::Matrix<double, 6, 3>::Zero();  // derivatives of s, t, r
+    Eigen::Matrix<double, 6, 3> gram =
+        Eigen::Matrix<double, 6, 3>::Zero();  // derivatives of s, t, r
     gram.template block<3, 1>(0, 0) = 2 * a.col(0);
     gram.template block<3, 1>(0, 1) = a.col(1);
     gram.template block<3, 1>(3, 1) = a.col(0);
@@ -123,7 +129,8 @@ struct FormPoint {
     const double s = a.col(0).squaredNorm(), cube = s * std::sqrt(s);
     const Eigen::Vector3d c = a.col(0).cross(a.col(1)) / cube;
     Eigen::Matrix<double, 3, 6> dc;
-    dc << -cross_matrix(a.col(1)) / cube - 3 / s * c * a.col(0).transpose(), cross_matrix(a.col(0)) / cube;
+    dc << -cross_matrix(a.col(1)) / cube - 3 / s * c * a.col(0).transpose(),
+        cross_matrix(a.col(0)) / cube;
     Eigen::Matrix<double, 6, 6> part = 2 * w * dc.transpose() * dc;
     if (at_rest > 0) {
       const Eigen::Matrix<double, 1, 6> row = c.transpose() / curvature * dc;

@@ -92,7 +92,8 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 
 }  // namespace
 
-/// Precedence climbing over the text; operations are appended in the order in which they are carried out.
+/// Precedence climbing over the text; operations are appended in the order in which they are
+/// carried out.
 class FormulaParser {
  public:
   FormulaParser(std::string_view text, std::span<const std::string_view> variables)
@@ -112,7 +113,8 @@ class FormulaParser {
   using Done = Expected<void>;
 
   char next() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n')) ++at_;
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n'))
+      ++at_;
     return at_ < text_.size() ? text_[at_] : '\0';
   }
 
@@ -123,19 +125,23 @@ class FormulaParser {
   Done push(int code, double value = 0) {
     const int takes = code < 0 || code >= first_variable ? 0 : formula_functions[code].arguments;
     waiting_ += 1 - takes;
-    if (waiting_ > Formula::max_depth) return wrong("the formula is nested too deeply", "leave out parentheses");
+    if (waiting_ > Formula::max_depth)
+      return wrong("the formula is nested too deeply", "leave out parentheses");
     formula_.operations_.push_back({code, value});
     return {};
   }
 
   /// What binds tighter than `least`.
   Done expression(int least) {
-    if (++open_ > Formula::max_depth) return wrong("the formula is nested too deeply", "leave out parentheses");
+    if (++open_ > Formula::max_depth)
+      return wrong("the formula is nested too deeply", "leave out parentheses");
     if (auto done = operand(); !done) return done;
-    for (int op = operator_of(next()); op >= 0 && precedence[op] > least; op = operator_of(next())) {
+    for (int op = operator_of(next()); op >= 0 && precedence[op] > least;
+         op = operator_of(next())) {
       ++at_;
       const bool to_the_right = op == 4;
-      if (auto done = expression(to_the_right ? precedence[op] - 1 : precedence[op]); !done) return done;
+      if (auto done = expression(to_the_right ? precedence[op] - 1 : precedence[op]); !done)
+        return done;
       if (auto done = push(op); !done) return done;
     }
     --open_;
@@ -190,7 +196,8 @@ class FormulaParser {
     const int function = function_named(name);
     if (function < 0) {
       return wrong(fmt::format("\"{}\" is neither a variable nor a function", name.substr(0, 40)),
-                   fmt::format("variables are {}; functions are {}", fmt::join(variables_, ", "), function_names()));
+                   fmt::format("variables are {}; functions are {}", fmt::join(variables_, ", "),
+                               function_names()));
     }
     at_ = end;
     return arguments(function);
@@ -199,8 +206,8 @@ class FormulaParser {
   Done arguments(int function) {
     const int count = formula_functions[function].arguments;
     const auto expected = [&] {
-      return wrong(fmt::format("{} takes {} argument{} in parentheses", formula_functions[function].name, count,
-                               count == 1 ? "" : "s"));
+      return wrong(fmt::format("{} takes {} argument{} in parentheses",
+                               formula_functions[function].name, count, count == 1 ? "" : "s"));
     };
     if (next() != '(') return expected();
     ++at_;
@@ -223,7 +230,8 @@ class FormulaParser {
   Formula formula_;
 };
 
-Expected<Formula> Formula::parse(std::string_view text, std::span<const std::string_view> variables) {
+Expected<Formula> Formula::parse(std::string_view text,
+                                 std::span<const std::string_view> variables) {
   return FormulaParser(text, variables).parse();
 }
 
@@ -245,8 +253,9 @@ double Formula::operator()(std::span<const double> values) const {
 }
 
 bool Formula::uses(std::size_t variable) const {
-  return std::ranges::any_of(operations_,
-                             [&](const Operation& o) { return o.code == first_variable + static_cast<int>(variable); });
+  return std::ranges::any_of(operations_, [&](const Operation& o) {
+    return o.code == first_variable + static_cast<int>(variable);
+  });
 }
 
 }  // namespace knead

@@ -21,14 +21,15 @@ double volume(const DomainScaling<D>& scaling) {
   return product;
 }
 
-/// Σ over a tensor grid of points: F_i = Σ_q weight_q R_i(q) f_q, f one row per point, last direction fastest. For
-/// rational bases the values are divided by the denominator; the sum over each direction is a transposed
-/// `contract_along`.
+/// Σ over a tensor grid of points: F_i = Σ_q weight_q R_i(q) f_q, f one row per point, last
+/// direction fastest. For rational bases the values are divided by the denominator; the sum over
+/// each direction is a transposed `contract_along`.
 template <int D>
 Expected<Points> integrate(const Spline<D>& shape, const std::array<BasisTable, D>& tables,
                            const std::array<std::vector<double>, D>& weights, Points f) {
   if (shape.rational()) {
-    // The denominator is the sum of the rational basis's numerators: the spline of the weights, as a coordinate.
+    // The denominator is the sum of the rational basis's numerators: the spline of the weights, as
+    // a coordinate.
     Points w = Points::Zero(shape.size(), 3);
     for (int i = 0; i < shape.size(); ++i) w(i, 0) = shape.weights()[static_cast<std::size_t>(i)];
     const auto denominator_spline = Spline<D>::create(shape.knots(), std::move(w));
@@ -40,7 +41,8 @@ Expected<Points> integrate(const Spline<D>& shape, const std::array<BasisTable, 
     for (Eigen::Index q = 0; q < f.rows(); ++q) {
       const double denominator = at->points()(q, 0);
       if (!(denominator > 0)) {
-        return numerical_error("the rational denominator is not positive", "load", "use positive weights");
+        return numerical_error("the rational denominator is not positive", "load",
+                               "use positive weights");
       }
       f.row(q) /= denominator;
     }
@@ -68,7 +70,8 @@ Expected<Points> integrate(const Spline<D>& shape, const std::array<BasisTable, 
   }
   Points result = Eigen::Map<const Points>(from.data(), shape.size(), 3);
   if (shape.rational()) {
-    for (int i = 0; i < shape.size(); ++i) result.row(i) *= shape.weights()[static_cast<std::size_t>(i)];
+    for (int i = 0; i < shape.size(); ++i)
+      result.row(i) *= shape.weights()[static_cast<std::size_t>(i)];
   }
   return result;
 }
@@ -116,22 +119,26 @@ Expected<Points> weighted_load(const Spline<D>& shape, const Spline<D>& load) {
 }  // namespace
 
 template <int D>
-Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& scaling, const Spline<D>& load) {
+Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& scaling,
+                             const Spline<D>& load) {
   for (std::size_t d = 0; d < D; ++d) {
     const Interval a = shape.knots()[d].domain(), b = load.knots()[d].domain();
     if (a.lower != b.lower || a.upper != b.upper) {
-      return input_error(fmt::format("the domains [{}, {}] of the shape and [{}, {}] of the load differ", a.lower,
-                                     a.upper, b.lower, b.upper),
-                         fmt::format("load: direction {}", d), "give a load over the domain of the shape");
+      return input_error(
+          fmt::format("the domains [{}, {}] of the shape and [{}, {}] of the load differ", a.lower,
+                      a.upper, b.lower, b.upper),
+          fmt::format("load: direction {}", d), "give a load over the domain of the shape");
     }
   }
   if (shape.rational() || load.rational()) {
-    auto result = load.rational() ? weighted_load<D>(shape, load) : detail::rational_load<D>(shape, load);
+    auto result =
+        load.rational() ? weighted_load<D>(shape, load) : detail::rational_load<D>(shape, load);
     if (result) *result *= volume<D>(scaling);
     return result;
   }
   // One direction after the other; the product with three columns of coordinates innermost.
-  std::vector<double> from(load.control_points().data(), load.control_points().data() + load.control_points().size()),
+  std::vector<double> from(load.control_points().data(),
+                           load.control_points().data() + load.control_points().size()),
       to;
   std::size_t inner = from.size(), outer = 1;
   for (std::size_t d = 0; d < D; ++d) {
@@ -157,15 +164,15 @@ Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& sca
 }
 
 template <int D>
-Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& scaling, const LoadFunction<D>& load,
-                             int points_per_span) {
+Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& scaling,
+                             const LoadFunction<D>& load, int points_per_span) {
   std::array<BasisTable, D> tables;
   std::array<std::vector<double>, D> parameters, weights;
   Eigen::Index total = 1;
   for (std::size_t d = 0; d < D; ++d) {
     const KnotVector& k = shape.knots()[d];
-    BasisQuadrature q =
-        gauss_basis(k, points_per_span > 0 ? std::min(points_per_span, max_gauss_points) : k.degree() + 4, 0);
+    BasisQuadrature q = gauss_basis(
+        k, points_per_span > 0 ? std::min(points_per_span, max_gauss_points) : k.degree() + 4, 0);
     tables[d] = std::move(q.basis);
     parameters[d] = std::move(q.parameters);
     weights[d] = std::move(q.weights);
@@ -193,7 +200,8 @@ Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& sca
 }
 
 template <int D>
-Expected<Spline<D>> sampled_load(const Spline<D>& shape, const std::array<int, D>& counts, Points samples) {
+Expected<Spline<D>> sampled_load(const Spline<D>& shape, const std::array<int, D>& counts,
+                                 Points samples) {
   std::array<Interval, D> domain;
   for (std::size_t d = 0; d < D; ++d) domain[d] = shape.knots()[d].domain();
   auto knots = sample_knots<D>(domain, counts);
@@ -203,9 +211,11 @@ Expected<Spline<D>> sampled_load(const Spline<D>& shape, const std::array<int, D
   return made;
 }
 
-#define KNEAD_INSTANTIATE(D)                                                                                        \
-  template Expected<Points> load_forces<D>(const Spline<D>&, const DomainScaling<D>&, const Spline<D>&);            \
-  template Expected<Points> load_forces<D>(const Spline<D>&, const DomainScaling<D>&, const LoadFunction<D>&, int); \
+#define KNEAD_INSTANTIATE(D)                                                          \
+  template Expected<Points> load_forces<D>(const Spline<D>&, const DomainScaling<D>&, \
+                                           const Spline<D>&);                         \
+  template Expected<Points> load_forces<D>(const Spline<D>&, const DomainScaling<D>&, \
+                                           const LoadFunction<D>&, int);              \
   template Expected<Spline<D>> sampled_load<D>(const Spline<D>&, const std::array<int, D>&, Points);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)

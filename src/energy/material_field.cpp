@@ -30,7 +30,8 @@ std::string place_of(const SplineField<D>& field, std::size_t k) {
 }
 
 template <int D>
-Expected<void> check_positive(const Coefficient<D>& coefficient, const std::string& name, bool positive) {
+Expected<void> check_positive(const Coefficient<D>& coefficient, const std::string& name,
+                              bool positive) {
   const auto bad = [&](double c) { return !std::isfinite(c) || (positive && c < 0); };
   const auto message = [](double c) {
     return std::isfinite(c) ? fmt::format("{} is negative, so the energy has no minimum", c)
@@ -43,9 +44,10 @@ Expected<void> check_positive(const Coefficient<D>& coefficient, const std::stri
   const auto& field = std::get<SplineField<D>>(coefficient);
   const auto at = std::ranges::find_if(field.coefficients(), bad);
   if (at == field.coefficients().end()) return {};
-  return input_error(message(*at),
-                     name + ": " + place_of(field, static_cast<std::size_t>(at - field.coefficients().begin())),
-                     "use values >= 0, or finer knots where the values are");
+  return input_error(
+      message(*at),
+      name + ": " + place_of(field, static_cast<std::size_t>(at - field.coefficients().begin())),
+      "use values >= 0, or finer knots where the values are");
 }
 
 template <int D>
@@ -65,7 +67,8 @@ Expected<void> check_alpha_matrix(const MaterialFieldOf<D>& material) {
   MaterialOf<D> one;
   one.beta.fill(0);
   if (constant) {
-    for (std::size_t k = 0; k < one.alpha.size(); ++k) one.alpha[k] = std::get<double>(material.alpha[k]);
+    for (std::size_t k = 0; k < one.alpha.size(); ++k)
+      one.alpha[k] = std::get<double>(material.alpha[k]);
     if (auto ok = validated<D>(one); !ok) return std::unexpected(ok.error());
     return {};
   }
@@ -130,8 +133,9 @@ Expected<void> validated(const MaterialFieldOf<D>& material) {
   coupled.poisson = material.poisson;
   if (auto ok = validated<D>(coupled); !ok) return std::unexpected(ok.error());
   if (!couples_bends(material)) {
-    return input_error("bends that vary differently in different directions have no Poisson's ratio", "poisson",
-                       "let all beta11, beta22 … be the same, or use 0");
+    return input_error(
+        "bends that vary differently in different directions have no Poisson's ratio", "poisson",
+        "let all beta11, beta22 … be the same, or use 0");
   }
   if (auto ok = check_positive<D>(material.mass, "mass", true); !ok) return ok;
   if (auto ok = check_positive<D>(material.damping, "damping", true); !ok) return ok;
@@ -189,7 +193,8 @@ FieldEnergy<D> bend_energy(const MaterialFieldOf<D>& material) {
     for (int j = i + 1; j < D; ++j) {
       const Coefficient<D>&ii = beta_ii(material, i), &jj = beta_ii(material, j);
       if (is_zero<D>(ii) || is_zero<D>(jj)) continue;
-      const Coefficient<D> coupled = varies<D>(ii) ? ii : std::sqrt(std::get<double>(ii) * std::get<double>(jj));
+      const Coefficient<D> coupled =
+          varies<D>(ii) ? ii : std::sqrt(std::get<double>(ii) * std::get<double>(jj));
       result.push_back({material.poisson, coupled, second<D>(i, i), second<D>(j, j)});
       result.push_back({material.poisson, coupled, second<D>(j, j), second<D>(i, i)});
     }
@@ -203,10 +208,12 @@ FieldEnergy<D> weighted_mass_energy(const Coefficient<D>& coefficient) {
 }
 
 template <int D>
-FieldEnergy<D> on_scaled_domain(const FieldEnergy<D>& energy, const std::array<double, D>& factors) {
+FieldEnergy<D> on_scaled_domain(const FieldEnergy<D>& energy,
+                                const std::array<double, D>& factors) {
   FieldEnergy<D> scaled = energy;
   for (FieldTerm<D>& term : scaled) {
-    term.factor = on_scaled_domain<D>(Energy<D>{{term.factor, term.a, term.b}}, factors).front().coefficient;
+    term.factor =
+        on_scaled_domain<D>(Energy<D>{{term.factor, term.a, term.b}}, factors).front().coefficient;
   }
   return scaled;
 }

@@ -10,7 +10,9 @@
 namespace knead {
 namespace {
 
-double fade(double s) { return s <= 0 ? 1 : s >= 1 ? 0 : 1 - s * s * s * (10 - 15 * s + 6 * s * s); }
+double fade(double s) {
+  return s <= 0 ? 1 : s >= 1 ? 0 : 1 - s * s * s * (10 - 15 * s + 6 * s * s);
+}
 
 /// Distance from u to the interval, the shorter way around if closed.
 double outside(double u, double lower, double upper, double period, bool closed) {
@@ -23,12 +25,15 @@ double outside(double u, double lower, double upper, double period, bool closed)
 
 /// The nearest distance from [a, b] to [lower, upper].
 double gap(double a, double b, double lower, double upper, double period, bool closed) {
-  const auto apart = [&](double shift) { return std::max({lower - (b + shift), a + shift - upper, 0.0}); };
+  const auto apart = [&](double shift) {
+    return std::max({lower - (b + shift), a + shift - upper, 0.0});
+  };
   return closed ? std::min({apart(0), apart(period), apart(-period)}) : apart(0);
 }
 
-/// Sets coefficients of functions on whose whole support the weight is 0, or 1, to that number: interpolation is off by
-/// some ten-thousandths there. On such a support the fit only improves, as all coefficients lie in [0, 1].
+/// Sets coefficients of functions on whose whole support the weight is 0, or 1, to that number:
+/// interpolation is off by some ten-thousandths there. On such a support the fit only improves, as
+/// all coefficients lie in [0, 1].
 template <int D>
 std::vector<double> settled(const SplineField<D>& fit, const Region<D>& region) {
   std::vector<double> c = fit.coefficients();
@@ -43,9 +48,12 @@ std::vector<double> settled(const SplineField<D>& fit, const Region<D>& region) 
       const Interval domain = knots.domain();
       const int i = static_cast<int>(rest % static_cast<std::size_t>(net[d]));
       rest /= static_cast<std::size_t>(net[d]);
-      const double a = std::max(knots[i], domain.lower), b = std::min(knots[i + knots.degree() + 1], domain.upper);
-      const double lower = box ? box->lower[d] : ball->centre[d], upper = box ? box->upper[d] : ball->centre[d];
-      const double near = region.factors[d] * gap(a, b, lower, upper, domain.length(), region.closed[d]);
+      const double a = std::max(knots[i], domain.lower),
+                   b = std::min(knots[i + knots.degree() + 1], domain.upper);
+      const double lower = box ? box->lower[d] : ball->centre[d],
+                   upper = box ? box->upper[d] : ball->centre[d];
+      const double near =
+          region.factors[d] * gap(a, b, lower, upper, domain.length(), region.closed[d]);
       // The direct distance, which is no shorter than the way around.
       const double far = region.factors[d] * std::max({lower - a, b - upper, 0.0});
       nearest += near * near;
@@ -67,16 +75,19 @@ std::array<Interval, D> domain_of(const std::array<KnotVector, D>& knots) {
 template <int D>
 Expected<void> check(const Region<D>& region) {
   if (!(region.falloff > 0) || !std::isfinite(region.falloff)) {
-    return input_error(fmt::format("{} is not a width", region.falloff), "falloff", "use a finite number > 0");
+    return input_error(fmt::format("{} is not a width", region.falloff), "falloff",
+                       "use a finite number > 0");
   }
   for (const double f : region.factors) {
-    if (!(f > 0) || !std::isfinite(f)) return input_error(fmt::format("{} is not a scale", f), "factors");
+    if (!(f > 0) || !std::isfinite(f))
+      return input_error(fmt::format("{} is not a scale", f), "factors");
   }
   if (const auto* box = std::get_if<ParameterBox<D>>(&region.shape)) {
     for (std::size_t d = 0; d < D; ++d) {
-      if (!std::isfinite(box->lower[d]) || !std::isfinite(box->upper[d]) || box->lower[d] > box->upper[d]) {
-        return input_error(fmt::format("[{}, {}] is not an interval", box->lower[d], box->upper[d]), "region",
-                           "give lower <= upper");
+      if (!std::isfinite(box->lower[d]) || !std::isfinite(box->upper[d]) ||
+          box->lower[d] > box->upper[d]) {
+        return input_error(fmt::format("[{}, {}] is not an interval", box->lower[d], box->upper[d]),
+                           "region", "give lower <= upper");
       }
     }
     return {};
@@ -86,7 +97,8 @@ Expected<void> check(const Region<D>& region) {
     if (!std::isfinite(c)) return input_error("the centre is not finite", "region");
   }
   if (!(ball.radius >= 0) || !std::isfinite(ball.radius)) {
-    return input_error(fmt::format("{} is not a radius", ball.radius), "region", "use a finite number >= 0");
+    return input_error(fmt::format("{} is not a radius", ball.radius), "region",
+                       "use a finite number >= 0");
   }
   return {};
 }
@@ -95,8 +107,8 @@ Expected<void> check(const Region<D>& region) {
 template <int D>
 class Blend {
  public:
-  Blend(std::span<const Coefficient<D>> old, std::span<const double> values, const std::vector<Interval>& ranges,
-        double tolerance)
+  Blend(std::span<const Coefficient<D>> old, std::span<const double> values,
+        const std::vector<Interval>& ranges, double tolerance)
       : old_(old), values_(values), ranges_(ranges), tolerance_(tolerance) {}
 
   /// The fields; no value if some are off by more than the tolerance: then the spans are marked.
@@ -182,12 +194,14 @@ Interval range_of(const Coefficient<D>& old, double value) {
 }  // namespace
 
 template <int D>
-double Region<D>::weight(const std::array<double, D>& u, const std::array<Interval, D>& domain) const {
+double Region<D>::weight(const std::array<double, D>& u,
+                         const std::array<Interval, D>& domain) const {
   double square = 0;
   const auto* box = std::get_if<ParameterBox<D>>(&shape);
   const auto* ball = std::get_if<ParameterBall<D>>(&shape);
   for (std::size_t d = 0; d < D; ++d) {
-    const double lower = box ? box->lower[d] : ball->centre[d], upper = box ? box->upper[d] : ball->centre[d];
+    const double lower = box ? box->lower[d] : ball->centre[d],
+                 upper = box ? box->upper[d] : ball->centre[d];
     const double distance = factors[d] * outside(u[d], lower, upper, domain[d].length(), closed[d]);
     square += distance * distance;
   }
@@ -195,11 +209,13 @@ double Region<D>::weight(const std::array<double, D>& u, const std::array<Interv
 }
 
 template <int D>
-Expected<std::vector<SplineField<D>>> paint(std::span<const Coefficient<D>> old, std::span<const double> values,
-                                            const Region<D>& region, const std::array<KnotVector, D>& hint,
+Expected<std::vector<SplineField<D>>> paint(std::span<const Coefficient<D>> old,
+                                            std::span<const double> values, const Region<D>& region,
+                                            const std::array<KnotVector, D>& hint,
                                             const PaintOptions& options) {
   if (old.size() != values.size() || old.empty()) {
-    return usage_error(fmt::format("{} values do not fit {} coefficients", values.size(), old.size()));
+    return usage_error(
+        fmt::format("{} values do not fit {} coefficients", values.size(), old.size()));
   }
   if (auto ok = check<D>(region); !ok) return std::unexpected(ok.error());
   const std::array<Interval, D> domain = domain_of<D>(hint);
@@ -220,15 +236,16 @@ Expected<std::vector<SplineField<D>>> paint(std::span<const Coefficient<D>> old,
   std::array<KnotVector, D> start = *base;
   Blend<D> blend(old, values, ranges, options.tolerance);
   while (true) {
-    const auto weight =
-        fit_field<D>([&](const std::array<double, D>& u) { return region.weight(u, domain); }, start, fit);
+    const auto weight = fit_field<D>(
+        [&](const std::array<double, D>& u) { return region.weight(u, domain); }, start, fit);
     if (!weight) return std::unexpected(weight.error());
     auto fields = blend.on(weight->field.knots(), settled<D>(weight->field, region));
     if (!fields) return std::unexpected(fields.error());
     if (*fields) return **std::move(fields);
     start = weight->field.knots();
     if (!blend.halve(start))
-      return numerical_error("the old field changes too fast to be blended", "tolerance", "use a larger one");
+      return numerical_error("the old field changes too fast to be blended", "tolerance",
+                             "use a larger one");
   }
 }
 
@@ -241,8 +258,9 @@ Expected<SplineField<D>> paint(const Coefficient<D>& old, double value, const Re
 }
 
 template <int D>
-Expected<MaterialFieldOf<D>> paint(const MaterialFieldOf<D>& material, const MaterialPaint<D>& values,
-                                   const Region<D>& region, const std::array<KnotVector, D>& hint,
+Expected<MaterialFieldOf<D>> paint(const MaterialFieldOf<D>& material,
+                                   const MaterialPaint<D>& values, const Region<D>& region,
+                                   const std::array<KnotVector, D>& hint,
                                    const PaintOptions& options) {
   MaterialFieldOf<D> result = material;
   std::vector<Coefficient<D>*> painted;
@@ -266,15 +284,17 @@ Expected<MaterialFieldOf<D>> paint(const MaterialFieldOf<D>& material, const Mat
   return result;
 }
 
-#define KNEAD_INSTANTIATE(D)                                                                                           \
-  template struct Region<D>;                                                                                           \
-  template Expected<std::vector<SplineField<D>>> paint<D>(std::span<const Coefficient<D>>, std::span<const double>,    \
-                                                          const Region<D>&, const std::array<KnotVector, D>&,          \
-                                                          const PaintOptions&);                                        \
-  template Expected<SplineField<D>> paint<D>(const Coefficient<D>&, double, const Region<D>&,                          \
-                                             const std::array<KnotVector, D>&, const PaintOptions&);                   \
-  template Expected<MaterialFieldOf<D>> paint<D>(const MaterialFieldOf<D>&, const MaterialPaint<D>&, const Region<D>&, \
-                                                 const std::array<KnotVector, D>&, const PaintOptions&);
+#define KNEAD_INSTANTIATE(D)                                                                  \
+  template struct Region<D>;                                                                  \
+  template Expected<std::vector<SplineField<D>>> paint<D>(                                    \
+      std::span<const Coefficient<D>>, std::span<const double>, const Region<D>&,             \
+      const std::array<KnotVector, D>&, const PaintOptions&);                                 \
+  template Expected<SplineField<D>> paint<D>(const Coefficient<D>&, double, const Region<D>&, \
+                                             const std::array<KnotVector, D>&,                \
+                                             const PaintOptions&);                            \
+  template Expected<MaterialFieldOf<D>> paint<D>(                                             \
+      const MaterialFieldOf<D>&, const MaterialPaint<D>&, const Region<D>&,                   \
+      const std::array<KnotVector, D>&, const PaintOptions&);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)
 KNEAD_INSTANTIATE(3)

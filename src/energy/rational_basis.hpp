@@ -8,8 +8,8 @@
 
 namespace knead {
 
-/// The rational basis R_i = w_i N_i / Σ w N and its partial derivatives on one element, by the quotient rule: with
-/// A_i = w_i N_i and W = Σ A (see `detail::QuotientRule`).
+/// The rational basis R_i = w_i N_i / Σ w N and its partial derivatives on one element, by the
+/// quotient rule: with A_i = w_i N_i and W = Σ A (see `detail::QuotientRule`).
 template <int D>
 class RationalBasis {
  public:
@@ -32,10 +32,12 @@ class RationalBasis {
     return i;
   }
 
-  /// Writes column `point` of out[a](local function, point) for every multi-index a. `rows[d]` is row 0 of a table of
-  /// the given order at this point. Error: the denominator is not positive.
-  [[nodiscard]] Expected<void> evaluate(const std::array<int, D>& first, const std::array<const double*, D>& rows,
-                                        Eigen::Index point, std::vector<Eigen::MatrixXd>& out) const {
+  /// Writes column `point` of out[a](local function, point) for every multi-index a. `rows[d]` is
+  /// row 0 of a table of the given order at this point. Error: the denominator is not positive.
+  [[nodiscard]] Expected<void> evaluate(const std::array<int, D>& first,
+                                        const std::array<const double*, D>& rows,
+                                        Eigen::Index point,
+                                        std::vector<Eigen::MatrixXd>& out) const {
     std::vector<double> sums(indices_.size(), 0.0);
     for (int r = 0; r < local_; ++r) {
       int index = 0;
@@ -48,13 +50,15 @@ class RationalBasis {
       const double weight = spline_.weights()[static_cast<std::size_t>(index)];
       for (std::size_t k = 0; k < indices_.size(); ++k) {
         double product = weight;
-        for (std::size_t d = 0; d < D; ++d) product *= rows[d][indices_[k][d] * width_[d] + offset[d]];
+        for (std::size_t d = 0; d < D; ++d)
+          product *= rows[d][indices_[k][d] * width_[d] + offset[d]];
         out[k](r, point) = product;
         sums[k] += product;
       }
     }
     if (!(sums[0] > 0)) {
-      return numerical_error("the rational denominator is not positive", "stiffness", "use positive weights");
+      return numerical_error("the rational denominator is not positive", "stiffness",
+                             "use positive weights");
     }
     for (std::size_t k = 0; k < indices_.size(); ++k) {
       auto column = out[k].col(point);

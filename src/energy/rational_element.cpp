@@ -14,7 +14,8 @@ using detail::RationalPiece;
 
 namespace {
 
-/// How many points, at least, have their products made together; it leaves both factors in the cache.
+/// How many points, at least, have their products made together; it leaves both factors in the
+/// cache.
 constexpr Eigen::Index chunk = 48;
 
 }  // namespace
@@ -39,7 +40,9 @@ RationalCoefficients<D>::RationalCoefficients(const FieldEnergy<D>& energy) {
     }
     const auto* field = std::get_if<SplineField<D>>(&term.coefficient);
     sum_of_squares_ = sum_of_squares_ && a == b &&
-                      term.factor * (field != nullptr ? field->range().lower : std::get<double>(term.coefficient)) >= 0;
+                      term.factor * (field != nullptr ? field->range().lower
+                                                      : std::get<double>(term.coefficient)) >=
+                          0;
   }
 }
 
@@ -55,12 +58,14 @@ void RationalCoefficients<D>::enter(const std::array<const RationalAxis*, D>& ax
     const auto& knots = v.field->knots();
     const std::array<int, D> net = v.field->net();
     std::array<int, D> first, at{};
-    for (std::size_t d = 0; d < D; ++d) first[d] = knots[d].find_span(axes[d]->lower) - knots[d].degree();
+    for (std::size_t d = 0; d < D; ++d)
+      first[d] = knots[d].find_span(axes[d]->lower) - knots[d].degree();
     v.largest = 0;
     for (;;) {
       int index = 0;
       for (std::size_t d = 0; d < D; ++d) index = index * net[d] + first[d] + at[d];
-      v.largest = std::max(v.largest, std::abs(v.field->coefficients()[static_cast<std::size_t>(index)]));
+      v.largest =
+          std::max(v.largest, std::abs(v.field->coefficients()[static_cast<std::size_t>(index)]));
       std::size_t d = D;
       while (d-- > 0 && ++at[d] > knots[d].degree()) at[d] = 0;
       if (d >= D) break;
@@ -69,7 +74,8 @@ void RationalCoefficients<D>::enter(const std::array<const RationalAxis*, D>& ax
 }
 
 template <int D>
-Expected<void> RationalCoefficients<D>::sample(const std::array<std::vector<double>, D>& parameters) {
+Expected<void> RationalCoefficients<D>::sample(
+    const std::array<std::vector<double>, D>& parameters) {
   std::array<std::span<const double>, D> spans;
   for (std::size_t d = 0; d < D; ++d) spans[d] = parameters[d];
   for (Varying& v : varying_) {
@@ -93,10 +99,12 @@ bool RationalCoefficients<D>::at(int a, int b, std::size_t k, std::span<double> 
 }
 
 template <int D>
-void RationalCoefficients<D>::row_sums(std::size_t direction, double rho, Eigen::VectorXd& sums) const {
+void RationalCoefficients<D>::row_sums(std::size_t direction, double rho,
+                                       Eigen::VectorXd& sums) const {
   sums = constant_.cwiseAbs().rowwise().sum();
   for (const Varying& v : varying_) {
-    sums[v.a] += std::abs(v.factor) * v.largest * std::pow(rho, v.field->knots()[direction].degree());
+    sums[v.a] +=
+        std::abs(v.factor) * v.largest * std::pow(rho, v.field->knots()[direction].degree());
   }
 }
 
@@ -117,7 +125,8 @@ void RationalElement<D>::clear() {
 }
 
 template <int D>
-Expected<void> RationalElement<D>::add(const RationalPiece<D>& piece, const std::array<int, D>& points, bool whole,
+Expected<void> RationalElement<D>::add(const RationalPiece<D>& piece,
+                                       const std::array<int, D>& points, bool whole,
                                        double constant) {
   if (auto ok = tabulate(piece, points); !ok) return ok;
   detail::RationalLine<D> line{{}, {}};
@@ -130,7 +139,8 @@ Expected<void> RationalElement<D>::add(const RationalPiece<D>& piece, const std:
     if (constant > 0) {
       piece.evaluate_polynomial(line, constant, orders, values_.data());
     } else if (!piece.evaluate(line, orders, values_.data())) {
-      return numerical_error("the rational denominator is not positive", "stiffness", "use positive weights");
+      return numerical_error("the rational denominator is not positive", "stiffness",
+                             "use positive weights");
     }
     if (!whole) {
       add_diagonal(line, k);
@@ -148,16 +158,18 @@ Expected<void> RationalElement<D>::add(const RationalPiece<D>& piece, const std:
 }
 
 template <int D>
-Expected<void> RationalElement<D>::tabulate(const RationalPiece<D>& piece, const std::array<int, D>& points) {
+Expected<void> RationalElement<D>::tabulate(const RationalPiece<D>& piece,
+                                            const std::array<int, D>& points) {
   for (std::size_t d = 0; d < D; ++d) points_[d].tabulate(piece.axis(d), points[d], d + 1 == D);
   if (coefficients_.varying().empty()) return {};
   std::array<std::vector<double>, D> parameters;
   for (std::size_t d = 0; d < D; ++d) {
     const RationalAxis& axis = piece.axis(d);
     for (const double t : detail::unit_gauss<double>(points[d]).t) {
-      // Strictly inside, so that the span to the right is the intended one; a piece of a single ulp has no interior.
-      parameters[d].push_back(
-          std::clamp(axis.lower + t * axis.length(), axis.lower, std::nextafter(axis.upper, axis.lower)));
+      // Strictly inside, so that the span to the right is the intended one; a piece of a single ulp
+      // has no interior.
+      parameters[d].push_back(std::clamp(axis.lower + t * axis.length(), axis.lower,
+                                         std::nextafter(axis.upper, axis.lower)));
     }
     parameters[d].resize(points_[d].size(), parameters[d].back());
   }
@@ -195,7 +207,8 @@ void RationalElement<D>::add_squares(const detail::RationalLine<D>& line, std::s
     for (std::size_t g = 0; g < factor_.size(); ++g) {
       factor_[g] = std::sqrt(factor_[g] * (outer * line.points[D - 1]->weights[g]));
     }
-    detail::rational_kernels().scale(factor_.data(), derivative(a), functions_, n, rows_, left_.data() + filled_);
+    detail::rational_kernels().scale(factor_.data(), derivative(a), functions_, n, rows_,
+                                     left_.data() + filled_);
     filled_ += n;
   }
   if (filled_ >= chunk * coefficients_.count()) flush();
@@ -213,8 +226,8 @@ void RationalElement<D>::add_products(const detail::RationalLine<D>& line, std::
     right.setZero();
     for (int b = 0; b < coefficients_.count(); ++b) {
       if (!coefficients_.at(a, b, k, factor_)) continue;
-      right.array() +=
-          Eigen::Map<const Eigen::ArrayXXd>(derivative(b), n, functions_).colwise() * (outer * factor * weights);
+      right.array() += Eigen::Map<const Eigen::ArrayXXd>(derivative(b), n, functions_).colwise() *
+                       (outer * factor * weights);
     }
     filled_ += n;
   }
@@ -224,7 +237,8 @@ void RationalElement<D>::add_products(const detail::RationalLine<D>& line, std::
 template <int D>
 void RationalElement<D>::flush() {
   const double* right = coefficients_.sum_of_squares() ? left_.data() : right_.data();
-  detail::rational_kernels().lower_products(left_.data(), right, rows_, filled_, functions_, block_.data());
+  detail::rational_kernels().lower_products(left_.data(), right, rows_, filled_, functions_,
+                                            block_.data());
   filled_ = 0;
 }
 

@@ -11,8 +11,8 @@
 
 namespace knead {
 
-/// What the terms of an energy ask of the rational functions R: the matrix C of Σ_ab C_ab ∂^a R_I ∂^b R_J over the
-/// derivatives that occur.
+/// What the terms of an energy ask of the rational functions R: the matrix C of Σ_ab C_ab ∂^a R_I
+/// ∂^b R_J over the derivatives that occur.
 template <int D>
 class RationalCoefficients {
  public:
@@ -37,7 +37,8 @@ class RationalCoefficients {
   [[nodiscard]] bool sum_of_squares() const { return sum_of_squares_; }
   [[nodiscard]] const std::vector<Varying>& varying() const { return varying_; }
 
-  /// Finds the largest coefficient of every field on a part of the domain that none of their knots cuts.
+  /// Finds the largest coefficient of every field on a part of the domain that none of their knots
+  /// cuts.
   void enter(const std::array<const detail::RationalAxis*, D>& axes);
 
   /// The fields at all combinations of parameters.
@@ -46,8 +47,9 @@ class RationalCoefficients {
   /// C_ab at n of the points sampled, from point k on. False: 0 at all of them.
   [[nodiscard]] bool at(int a, int b, std::size_t k, std::span<double> out) const;
 
-  /// Σ_b of bounds of |C_ab| on the part entered, for one parameter on a Bernstein ellipse. A polynomial of degree q
-  /// that is at most M on an interval is at most M ρ^q on the ellipse (S. N. Bernstein).
+  /// Σ_b of bounds of |C_ab| on the part entered, for one parameter on a Bernstein ellipse. A
+  /// polynomial of degree q that is at most M on an interval is at most M ρ^q on the ellipse (S. N.
+  /// Bernstein).
   void row_sums(std::size_t direction, double rho, Eigen::VectorXd& sums) const;
 
  private:
@@ -71,22 +73,25 @@ class RationalElement {
   [[nodiscard]] const Eigen::MatrixXd& block() const { return block_; }
   [[nodiscard]] const Eigen::VectorXd& diagonal() const { return diagonal_; }
 
-  /// Adds the rule with these points; the diagonal alone unless `whole`. A positive `constant` stands for the
-  /// denominator. Error: the denominator is not positive. Cost for a surface of degree p: about 5 (p + 1)⁴ operations
-  /// per point for stretch or bend.
-  [[nodiscard]] Expected<void> add(const detail::RationalPiece<D>& piece, const std::array<int, D>& points, bool whole,
+  /// Adds the rule with these points; the diagonal alone unless `whole`. A positive `constant`
+  /// stands for the denominator. Error: the denominator is not positive. Cost for a surface of
+  /// degree p: about 5 (p + 1)⁴ operations per point for stretch or bend.
+  [[nodiscard]] Expected<void> add(const detail::RationalPiece<D>& piece,
+                                   const std::array<int, D>& points, bool whole,
                                    double constant = 0);
 
  private:
-  [[nodiscard]] Expected<void> tabulate(const detail::RationalPiece<D>& piece, const std::array<int, D>& points);
+  [[nodiscard]] Expected<void> tabulate(const detail::RationalPiece<D>& piece,
+                                        const std::array<int, D>& points);
   void add_diagonal(const detail::RationalLine<D>& line, std::size_t k);
   void add_squares(const detail::RationalLine<D>& line, std::size_t k);
   void add_products(const detail::RationalLine<D>& line, std::size_t k);
   void flush();
   /// The next n rows of `left_` or `right_`, to be filled.
-  [[nodiscard]] auto next_rows(std::vector<double, CacheLineAllocator<double>>& columns, Eigen::Index n) const {
-    return Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>(columns.data() + filled_, n, functions_,
-                                                                Eigen::OuterStride<>(rows_));
+  [[nodiscard]] auto next_rows(std::vector<double, CacheLineAllocator<double>>& columns,
+                               Eigen::Index n) const {
+    return Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>(
+        columns.data() + filled_, n, functions_, Eigen::OuterStride<>(rows_));
   }
   /// Derivative `a` of those used, along a line: function after function.
   [[nodiscard]] const double* derivative(int a) const {
@@ -99,8 +104,9 @@ class RationalElement {
   std::array<detail::RationalPoints, D> points_;
   std::vector<double, CacheLineAllocator<double>> values_;
   std::vector<double> factor_;
-  /// A column of `rows_` for each function, vectors of which do not straddle cache lines: derivatives along lines;
-  /// those times weight and C. Of a sum of squares, derivatives times the root of both.
+  /// A column of `rows_` for each function, vectors of which do not straddle cache lines:
+  /// derivatives along lines; those times weight and C. Of a sum of squares, derivatives times the
+  /// root of both.
   Eigen::Index rows_;
   std::vector<double, CacheLineAllocator<double>> left_, right_;
   Eigen::Index filled_ = 0;  ///< rows of these

@@ -21,7 +21,8 @@ class RationalLoad {
 
   Expected<Points> run() {
     if (auto done = sum_up(false); !done) return std::unexpected(done.error());
-    // The sizes by few points may have been too large for the tolerance to be kept; those of this pass are not.
+    // The sizes by few points may have been too large for the tolerance to be kept; those of this
+    // pass are not.
     for (int pass = 0; pass < 4; ++pass) {
       size_ = measure_;
       if (auto done = sum_up(true); !done) return std::unexpected(done.error());
@@ -45,15 +46,20 @@ class RationalLoad {
     return breaks;
   }
 
-  /// Forces, the integrals of R and bounds of their errors; by few points, for the integrals, unless `certified`.
+  /// Forces, the integrals of R and bounds of their errors; by few points, for the integrals,
+  /// unless `certified`.
   Expected<void> sum_up(bool certified) {
     forces_ = Points::Zero(shape_.size(), 3);
     measure_ = errors_ = Eigen::VectorXd::Zero(shape_.size());
-    RationalRule<D> rule(1, {.most_points = D == 3 ? 16 : 24, .all_points = 1e4 * elements_.count() + 1e7});
+    RationalRule<D> rule(
+        1, {.most_points = D == 3 ? 16 : 24, .all_points = 1e4 * elements_.count() + 1e7});
     Expected<void> done;
     double error = 0;
-    const auto size = [&](const double* bounds, std::size_t d, double rho) { return this->size(bounds, d, rho); };
-    const auto visit = [&](const RationalPiece<D>& piece, const std::array<int, D>& points, double piece_error) {
+    const auto size = [&](const double* bounds, std::size_t d, double rho) {
+      return this->size(bounds, d, rho);
+    };
+    const auto visit = [&](const RationalPiece<D>& piece, const std::array<int, D>& points,
+                           double piece_error) {
       error += piece_error;
       done = add(piece, points);
       return done.has_value();
@@ -62,12 +68,14 @@ class RationalLoad {
       error = 0;
       std::array<int, D> few;
       for (std::size_t d = 0; d < D; ++d) few[d] = piece.axis(d).degree() + 2;
-      const double allowed =
-          load_tolerance / static_cast<double>(elements_.functions()) * RationalElements<D>::share(piece);
-      const bool kept = certified ? rule.integrate(piece, allowed, size, visit) : visit(piece, few, 0);
+      const double allowed = load_tolerance / static_cast<double>(elements_.functions()) *
+                             RationalElements<D>::share(piece);
+      const bool kept =
+          certified ? rule.integrate(piece, allowed, size, visit) : visit(piece, few, 0);
       if (!kept && done) {
-        done = numerical_error("the weights of one element differ so much that loads on it cannot be integrated",
-                               "load", "use weights that differ less");
+        done = numerical_error(
+            "the weights of one element differ so much that loads on it cannot be integrated",
+            "load", "use weights that differ less");
       }
       for (std::size_t r = 0; r < elements_.functions() && certified; ++r) {
         errors_[elements_.rows()[r]] += error * size_[elements_.rows()[r]];
@@ -77,7 +85,8 @@ class RationalLoad {
     return done;
   }
 
-  /// A bound of R f relative to ∫ R and max |f|: f is a polynomial, which grows by ρ per degree at most (Bernstein).
+  /// A bound of R f relative to ∫ R and max |f|: f is a polynomial, which grows by ρ per degree at
+  /// most (Bernstein).
   [[nodiscard]] double size(const double* bounds, std::size_t direction, double rho) const {
     double largest = 0;
     for (std::size_t r = 0; r < elements_.functions(); ++r) {
@@ -96,7 +105,8 @@ class RationalLoad {
       line.points[d] = &points_[d];
       std::vector<double> at;
       for (const double t : unit_gauss<double>(points[d]).t) {
-        at.push_back(std::clamp(axis.lower + t * axis.length(), axis.lower, std::nextafter(axis.upper, axis.lower)));
+        at.push_back(std::clamp(axis.lower + t * axis.length(), axis.lower,
+                                std::nextafter(axis.upper, axis.lower)));
       }
       at.resize(points_[d].size(), at.back());
       auto made = tabulate_basis(load_.knots()[d], at, 0);
@@ -110,7 +120,8 @@ class RationalLoad {
     Eigen::Index first = 0;
     do {
       if (!piece.evaluate(line, 1, values_.data())) {
-        return numerical_error("the rational denominator is not positive", "load", "use positive weights");
+        return numerical_error("the rational denominator is not positive", "load",
+                               "use positive weights");
       }
       add_line(line, f->points(), first);
       first += static_cast<Eigen::Index>(line.size());

@@ -18,7 +18,8 @@ using detail::RationalPiece;
 template <int D>
 class RationalAssembly {
  public:
-  RationalAssembly(const Spline<D>& spline, const FieldEnergy<D>& energy, const StiffnessOptions& options)
+  RationalAssembly(const Spline<D>& spline, const FieldEnergy<D>& energy,
+                   const StiffnessOptions& options)
       : spline_(spline),
         options_(options),
         coefficients_(energy),
@@ -29,18 +30,21 @@ class RationalAssembly {
 
   [[nodiscard]] Expected<RationalStiffness> run() {
     RationalStiffness result{pattern_.allocate(), std::numeric_limits<double>::infinity()};
-    const bool certified = options_.rational_gauss_points == 0 && options_.denominator == RationalDenominator::exact;
+    const bool certified =
+        options_.rational_gauss_points == 0 && options_.denominator == RationalDenominator::exact;
     if (!certified) {
       if (auto done = sum_up(result.matrix, false); !done) return std::unexpected(done.error());
       return result;
     }
     if (auto done = estimate_sizes(); !done) return std::unexpected(done.error());
-    // The sizes by few points may have been too large for the tolerance to be kept; those of this pass are not.
+    // The sizes by few points may have been too large for the tolerance to be kept; those of this
+    // pass are not.
     for (int pass = 0; pass < 4 && !(result.error_bound <= options_.rational_tolerance); ++pass) {
       if (auto done = sum_up(result.matrix, true); !done) return std::unexpected(done.error());
       result.error_bound = 0;
       for (Eigen::Index i = 0; i < size_.size(); ++i) {
-        if (errors_[i] > 0) result.error_bound = std::max(result.error_bound, errors_[i] / diagonal_[i]);
+        if (errors_[i] > 0)
+          result.error_bound = std::max(result.error_bound, errors_[i] / diagonal_[i]);
       }
       size_ = diagonal_;
     }
@@ -112,18 +116,20 @@ class RationalAssembly {
       usual *= degree + 8;
       most = std::max(most, degree + 8);
     }
-    return {.most_points = most, .all_points = 8 * elements_.count() * usual + 3e8 / static_cast<double>(functions())};
+    return {.most_points = most,
+            .all_points = 8 * elements_.count() * usual + 3e8 / static_cast<double>(functions())};
   }
 
-  [[nodiscard]] Expected<void> integrate(const RationalPiece<D>& piece, detail::RationalRule<D>& rule,
-                                         RationalElement<D>& sums) {
+  [[nodiscard]] Expected<void> integrate(const RationalPiece<D>& piece,
+                                         detail::RationalRule<D>& rule, RationalElement<D>& sums) {
     // An entry sums as many spans as there are functions on one; a part of a span has its share.
-    const double allowed =
-        options_.rational_tolerance / static_cast<double>(functions()) * detail::RationalElements<D>::share(piece);
+    const double allowed = options_.rational_tolerance / static_cast<double>(functions()) *
+                           detail::RationalElements<D>::share(piece);
     Expected<void> done;
     double error = 0;
     const bool kept = rule.integrate(
-        piece, allowed, [&](const double* bounds, std::size_t d, double rho) { return size(bounds, d, rho); },
+        piece, allowed,
+        [&](const double* bounds, std::size_t d, double rho) { return size(bounds, d, rho); },
         [&](const RationalPiece<D>& part, const std::array<int, D>& points, double part_error) {
           error += part_error;
           done = sums.add(part, points, true);
@@ -135,28 +141,32 @@ class RationalAssembly {
     return {};
   }
 
-  /// With as many points as the options say, or the thesis' denominator (§ 5.8), whose products are polynomials.
-  [[nodiscard]] Expected<void> integrate_by_count(const RationalPiece<D>& piece, RationalElement<D>& sums) {
+  /// With as many points as the options say, or the thesis' denominator (§ 5.8), whose products are
+  /// polynomials.
+  [[nodiscard]] Expected<void> integrate_by_count(const RationalPiece<D>& piece,
+                                                  RationalElement<D>& sums) {
     std::array<int, D> points;
     double constant = 0;
     const bool exact = options_.denominator == RationalDenominator::exact;
     for (std::size_t d = 0; d < D; ++d) {
       int field = 0;
-      for (const auto& v : coefficients_.varying()) field = std::max(field, v.field->knots()[d].degree());
+      for (const auto& v : coefficients_.varying())
+        field = std::max(field, v.field->knots()[d].degree());
       const int own = exact ? options_.rational_gauss_points : pattern_.degree[d] + 1;
       points[d] = std::min(own + (field + 1) / 2, max_rational_gauss_points);
     }
     if (!exact) {
       constant = piece.middle_denominator();
       if (!(constant > 0)) {
-        return numerical_error("the rational denominator is not positive", "stiffness", "use positive weights");
+        return numerical_error("the rational denominator is not positive", "stiffness",
+                               "use positive weights");
       }
     }
     return sums.add(piece, points, true, constant);
   }
 
-  /// The integrand's bound, relative to the sizes of its two functions. With r_a = Σ_b |C_ab|, by Cauchy's inequality
-  /// Σ |C_ab| x_a y_b <= √(Σ r_a x_a²) √(Σ r_a y_a²).
+  /// The integrand's bound, relative to the sizes of its two functions. With r_a = Σ_b |C_ab|, by
+  /// Cauchy's inequality Σ |C_ab| x_a y_b <= √(Σ r_a x_a²) √(Σ r_a y_a²).
   [[nodiscard]] double size(const double* bounds, std::size_t direction, double rho) {
     coefficients_.row_sums(direction, rho, row_sums_);
     double largest = 0;
@@ -173,19 +183,19 @@ class RationalAssembly {
 
   [[nodiscard]] Expected<void> too_uneven() const {
     const auto [least, most] = std::ranges::minmax(elements_.weights());
-    return numerical_error(
-        fmt::format(
-            "the weights of one element, {} to {}, differ so much that its energy cannot be integrated to {} of "
-            "the diagonal",
-            least, most, options_.rational_tolerance),
-        "stiffness", "use weights that differ less, or a larger tolerance");
+    return numerical_error(fmt::format("the weights of one element, {} to {}, differ so much that "
+                                       "its energy cannot be integrated to {} of "
+                                       "the diagonal",
+                                       least, most, options_.rational_tolerance),
+                           "stiffness", "use weights that differ less, or a larger tolerance");
   }
 
   void add(const RationalElement<D>& sums, SparseMatrix& matrix) {
     for (std::size_t r = 0; r < functions(); ++r) {
       diagonal_[elements_.rows()[r]] += sums.diagonal()[static_cast<Eigen::Index>(r)];
       for (std::size_t c = 0; c <= r; ++c) {
-        const double value = sums.block()(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
+        const double value =
+            sums.block()(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
         entry(matrix, r, c) += value;
         if (c < r) entry(matrix, c, r) += value;
       }
@@ -211,14 +221,18 @@ class RationalAssembly {
 };
 
 template <int D>
-Expected<void> check(const Spline<D>& spline, const FieldEnergy<D>& energy, const StiffnessOptions& options) {
+Expected<void> check(const Spline<D>& spline, const FieldEnergy<D>& energy,
+                     const StiffnessOptions& options) {
   if (!(options.rational_tolerance > 0)) {
-    return usage_error(fmt::format("the tolerance {} is not positive", options.rational_tolerance), {},
-                       "use a fraction such as 1e-10");
+    return usage_error(fmt::format("the tolerance {} is not positive", options.rational_tolerance),
+                       {}, "use a fraction such as 1e-10");
   }
-  if (options.rational_gauss_points < 0 || options.rational_gauss_points > max_rational_gauss_points) {
-    return usage_error(fmt::format("{} Gauss points are not available", options.rational_gauss_points), {},
-                       fmt::format("use 1 to {}, or 0 for as many as the tolerance needs", max_rational_gauss_points));
+  if (options.rational_gauss_points < 0 ||
+      options.rational_gauss_points > max_rational_gauss_points) {
+    return usage_error(
+        fmt::format("{} Gauss points are not available", options.rational_gauss_points), {},
+        fmt::format("use 1 to {}, or 0 for as many as the tolerance needs",
+                    max_rational_gauss_points));
   }
   for (const FieldTerm<D>& term : energy) {
     int a = 0, b = 0;
@@ -227,16 +241,16 @@ Expected<void> check(const Spline<D>& spline, const FieldEnergy<D>& energy, cons
       b += term.b[d];
     }
     if (std::max(a, b) > detail::rational_order) {
-      return usage_error(fmt::format("an energy term of order {} is not available", std::max(a, b)), {},
-                         "use total orders 0 to 2 for rational shapes");
+      return usage_error(fmt::format("an energy term of order {} is not available", std::max(a, b)),
+                         {}, "use total orders 0 to 2 for rational shapes");
     }
     const auto* field = std::get_if<SplineField<D>>(&term.coefficient);
     for (std::size_t d = 0; d < D && field != nullptr; ++d) {
       const Interval own = spline.knots()[d].domain(), other = field->knots()[d].domain();
       if (own.lower != other.lower || own.upper != other.upper) {
-        return input_error(
-            fmt::format("the domains [{}, {}] and [{}, {}] differ", own.lower, own.upper, other.lower, other.upper), {},
-            "give a field over the domain of the spline");
+        return input_error(fmt::format("the domains [{}, {}] and [{}, {}] differ", own.lower,
+                                       own.upper, other.lower, other.upper),
+                           {}, "give a field over the domain of the spline");
       }
     }
   }
@@ -256,14 +270,15 @@ template <int D>
 Expected<RationalStiffness> assemble_rational(const Spline<D>& spline, const Energy<D>& energy,
                                               const StiffnessOptions& options) {
   FieldEnergy<D> constant;
-  for (const EnergyTerm<D>& term : energy) constant.push_back({1, term.coefficient, term.a, term.b});
+  for (const EnergyTerm<D>& term : energy)
+    constant.push_back({1, term.coefficient, term.a, term.b});
   return assemble_rational<D>(spline, constant, options);
 }
 
-#define KNEAD_INSTANTIATE(D)                                                                         \
-  template Expected<RationalStiffness> assemble_rational<D>(const Spline<D>&, const FieldEnergy<D>&, \
-                                                            const StiffnessOptions&);                \
-  template Expected<RationalStiffness> assemble_rational<D>(const Spline<D>&, const Energy<D>&,      \
+#define KNEAD_INSTANTIATE(D)                                                                    \
+  template Expected<RationalStiffness> assemble_rational<D>(                                    \
+      const Spline<D>&, const FieldEnergy<D>&, const StiffnessOptions&);                        \
+  template Expected<RationalStiffness> assemble_rational<D>(const Spline<D>&, const Energy<D>&, \
                                                             const StiffnessOptions&);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)

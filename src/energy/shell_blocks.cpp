@@ -14,24 +14,28 @@ const ShellKernels& fastest_shell_kernels() {
   return wide ? *avx2_shell_kernels : *vector128_shell_kernels;
 }
 
-std::size_t lanewise(std::ptrdiff_t numbers) { return static_cast<std::size_t>(ShellBlockShape::lanes * numbers); }
+std::size_t lanewise(std::ptrdiff_t numbers) {
+  return static_cast<std::size_t>(ShellBlockShape::lanes * numbers);
+}
 
 }  // namespace
 
 ShellBlocks::ShellBlocks(const Surface& surface, const std::array<BasisQuadrature, 2>& quadrature,
-                         const std::array<int, 2>& points, const std::vector<ShellElement>& elements,
-                         std::vector<ShellRest>& rest)
+                         const std::array<int, 2>& points,
+                         const std::vector<ShellElement>& elements, std::vector<ShellRest>& rest)
     : shape_{{quadrature[0].basis.degree + 1, quadrature[1].basis.degree + 1},
              {points[0], points[1]},
              surface.rational()},
       kernels_(&fastest_shell_kernels()),
       spans_(quadrature[1].basis.size() / points[1]) {
-  for (const ShellElement& element : elements) nodes_.insert(nodes_.end(), element.nodes.begin(), element.nodes.end());
+  for (const ShellElement& element : elements)
+    nodes_.insert(nodes_.end(), element.nodes.begin(), element.nodes.end());
   const auto total = static_cast<int>(elements.size());
   for (int first = 0; first < total; first += lanes) {
     Block block;
     block.count = std::min(lanes, total - first);
-    for (int l = 0; l < lanes; ++l) block.element[static_cast<std::size_t>(l)] = std::min(first + l, total - 1);
+    for (int l = 0; l < lanes; ++l)
+      block.element[static_cast<std::size_t>(l)] = std::min(first + l, total - 1);
     pack_tables(block, quadrature);
     if (shape_.rational) pack_weights(block, surface, quadrature);
     blocks_.push_back(std::move(block));
@@ -40,7 +44,8 @@ ShellBlocks::ShellBlocks(const Surface& surface, const std::array<BasisQuadratur
   for (Block& block : blocks_) pack_rest(block, rest);
 }
 
-/// Against forms of zero and with a stiffness of one the stresses are half the metric and minus the curvature.
+/// Against forms of zero and with a stiffness of one the stresses are half the metric and minus the
+/// curvature.
 void ShellBlocks::measure_rest(const Points& x, std::vector<ShellRest>& rest) {
   const ShellRest unit{0,
                        0,
@@ -60,7 +65,8 @@ void ShellBlocks::measure_rest(const Points& x, std::vector<ShellRest>& rest) {
   }
 }
 
-void ShellBlocks::pack_tables(Block& block, const std::array<BasisQuadrature, 2>& quadrature) const {
+void ShellBlocks::pack_tables(Block& block,
+                              const std::array<BasisQuadrature, 2>& quadrature) const {
   for (std::size_t d = 0; d < 2; ++d) {
     const std::ptrdiff_t numbers = 3 * shape_.points[d] * shape_.functions[d];
     block.table[d].resize(lanewise(numbers));
@@ -97,7 +103,8 @@ void ShellBlocks::pack_rest(Block& block, const std::vector<ShellRest>& rest) co
   }
 }
 
-/// With W = Σ w N at every point: 1/W and by what the numerator p contributes to S_u, S_v, S_uu, S_vv, S_uv.
+/// With W = Σ w N at every point: 1/W and by what the numerator p contributes to S_u, S_v, S_uu,
+/// S_vv, S_uv.
 void ShellBlocks::pack_weights(Block& block, const Surface& surface,
                                const std::array<BasisQuadrature, 2>& quadrature) const {
   block.weight.resize(lanewise(shape_.local()));
@@ -115,7 +122,8 @@ void ShellBlocks::pack_weights(Block& block, const Surface& surface,
       const auto sum = [&](int a, int b) {
         double total = 0;
         for (std::ptrdiff_t r = 0; r < shape_.local(); ++r) {
-          total += block.weight[lanewise(r) + l] * quadrature[0].basis.row(u, a)[r / shape_.functions[1]] *
+          total += block.weight[lanewise(r) + l] *
+                   quadrature[0].basis.row(u, a)[r / shape_.functions[1]] *
                    quadrature[1].basis.row(v, b)[r % shape_.functions[1]];
         }
         return total;
@@ -148,19 +156,22 @@ void ShellBlocks::gather(const Block& block, const Points& x, std::vector<double
   }
 }
 
-ShellParts ShellBlocks::forces(const Points& x, Eigen::Ref<Points>* gradient, ShellStress* stress) const {
+ShellParts ShellBlocks::forces(const Points& x, Eigen::Ref<Points>* gradient,
+                               ShellStress* stress) const {
   std::vector<double> here(lanewise(3 * shape_.local())), force(here.size()),
       work(static_cast<std::size_t>(shape_.work())), resultants(lanewise(6 * shape_.gauss()));
   std::array<double, 2 * lanes> parts{};
   for (const Block& block : blocks_) {
     gather(block, x, here);
     kernels_->forces(shape_, data(block), here.data(), work.data(), parts.data(),
-                     gradient != nullptr ? force.data() : nullptr, stress != nullptr ? resultants.data() : nullptr);
+                     gradient != nullptr ? force.data() : nullptr,
+                     stress != nullptr ? resultants.data() : nullptr);
     for (std::size_t l = 0; l < static_cast<std::size_t>(block.count); ++l) {
       const int* node = nodes(block.element[l]);
       for (std::ptrdiff_t r = 0; gradient != nullptr && r < shape_.local(); ++r) {
         const double weight = shape_.rational ? block.weight[lanewise(r) + l] : 1;
-        for (std::ptrdiff_t c = 0; c < 3; ++c) (*gradient)(node[r], c) += weight * force[lanewise(3 * r + c) + l];
+        for (std::ptrdiff_t c = 0; c < 3; ++c)
+          (*gradient)(node[r], c) += weight * force[lanewise(3 * r + c) + l];
       }
       for (std::ptrdiff_t k = 0; stress != nullptr && k < shape_.gauss(); ++k) {
         for (std::ptrdiff_t c = 0; c < 6; ++c) {
@@ -187,7 +198,8 @@ class ShellBlockSum {
     double* to = at(a, b);
     const std::ptrdiff_t step = 3 * (start_[a + 1] - start_[a]);
     for (std::ptrdiff_t c = 0; c < 3; ++c) {
-      for (std::ptrdiff_t e = 0; e < 3; ++e) to[c * step + e] += block[static_cast<std::size_t>(3 * c + e)];
+      for (std::ptrdiff_t e = 0; e < 3; ++e)
+        to[c * step + e] += block[static_cast<std::size_t>(3 * c + e)];
     }
   }
 
@@ -206,10 +218,10 @@ std::size_t ShellBlocks::hessian_numbers() const {
   return lanewise(9 * shape_.functions[0] * shape_.functions[0] * shape_.pairs());
 }
 
-void ShellBlocks::find_hessians(std::span<const Block> blocks, const Points& x, const ShellStress& stress,
-                                double* to) const {
-  std::vector<double> here(lanewise(3 * shape_.local())), work(static_cast<std::size_t>(shape_.work())),
-      resultants(lanewise(6 * shape_.gauss()));
+void ShellBlocks::find_hessians(std::span<const Block> blocks, const Points& x,
+                                const ShellStress& stress, double* to) const {
+  std::vector<double> here(lanewise(3 * shape_.local())),
+      work(static_cast<std::size_t>(shape_.work())), resultants(lanewise(6 * shape_.gauss()));
   for (const Block& block : blocks) {
     gather(block, x, here);
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -223,11 +235,14 @@ void ShellBlocks::find_hessians(std::span<const Block> blocks, const Points& x, 
 }
 
 template <class Owns>
-void ShellBlocks::add_entries(const Block& block, const double* numbers, const Owns& owns, ShellBlockSum& sum) const {
+void ShellBlocks::add_entries(const Block& block, const double* numbers, const Owns& owns,
+                              ShellBlockSum& sum) const {
   const std::ptrdiff_t p = shape_.functions[0], q = shape_.functions[1];
   for (std::size_t l = 0; l < static_cast<std::size_t>(block.count); ++l) {
     const int* node = nodes(block.element[l]);
-    const auto weight = [&](std::ptrdiff_t r) { return shape_.rational ? block.weight[lanewise(r) + l] : 1; };
+    const auto weight = [&](std::ptrdiff_t r) {
+      return shape_.rational ? block.weight[lanewise(r) + l] : 1;
+    };
     for (std::ptrdiff_t j = 0; j < q; ++j) {
       for (std::ptrdiff_t k = j; k < q; ++k) {
         if (!owns(node[j]) && !owns(node[k])) continue;
@@ -239,7 +254,8 @@ void ShellBlocks::add_entries(const Block& block, const double* numbers, const O
             std::array<double, 9> here_there, there_here;
             for (std::size_t c = 0; c < 3; ++c) {
               for (std::size_t e = 0; e < 3; ++e) {
-                const std::size_t number = a == b && e < c ? 3 * e + c : 3 * c + e;  // symmetric to the last bit
+                // Symmetric to the last bit.
+                const std::size_t number = a == b && e < c ? 3 * e + c : 3 * c + e;
                 here_there[3 * c + e] = there_here[3 * e + c] = w * from[lanes * number];
               }
             }
@@ -252,12 +268,14 @@ void ShellBlocks::add_entries(const Block& block, const double* numbers, const O
   }
 }
 
-void ShellBlocks::add_hessian(const Points& x, const ShellStress& stress, const TensorPattern<2>& pattern,
-                              const SparseMatrix& scalar, SparseMatrix& matrix) const {
+void ShellBlocks::add_hessian(const Points& x, const ShellStress& stress,
+                              const TensorPattern<2>& pattern, const SparseMatrix& scalar,
+                              SparseMatrix& matrix) const {
   const std::span<const Block> all = blocks_;
   const bool shared = thread_count() > 1 && all.size() >= 8;
-  // Some blocks at a time: their numbers, by all threads; then the sums, each thread those of some rows of the matrix
-  // (of a share of the second direction), so that every entry is summed up in the order of the elements.
+  // Some blocks at a time: their numbers, by all threads; then the sums, each thread those of some
+  // rows of the matrix (of a share of the second direction), so that every entry is summed up in
+  // the order of the elements.
   const std::size_t together = shared ? 32 : 1;
   const std::ptrdiff_t shares = shared ? std::min(4, pattern.net[1]) : 1;
   std::vector<double> numbers(std::min(together, all.size()) * hessian_numbers());
@@ -265,11 +283,13 @@ void ShellBlocks::add_hessian(const Points& x, const ShellStress& stress, const 
   for (std::size_t first = 0; first < all.size(); first += together) {
     const std::span<const Block> some = all.subspan(first, std::min(together, all.size() - first));
     parallel_for(std::ssize(some), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      find_hessians(some.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)), x, stress,
-                    numbers.data() + static_cast<std::size_t>(begin) * hessian_numbers());
+      find_hessians(
+          some.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)), x,
+          stress, numbers.data() + static_cast<std::size_t>(begin) * hessian_numbers());
     });
     parallel_for(shares, 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      const auto n = static_cast<std::ptrdiff_t>(pattern.net[1]), from = begin * n / shares, to = end * n / shares;
+      const auto n = static_cast<std::ptrdiff_t>(pattern.net[1]), from = begin * n / shares,
+                 to = end * n / shares;
       const auto owns = [&](int node) { return from <= node % n && node % n < to; };
       const auto every = [](int) { return true; };
       for (std::size_t k = 0; k < some.size(); ++k) {

@@ -44,7 +44,8 @@ struct PointAngle {
   }
 };
 
-/// The first derivatives of the basis of one side at one point of the seam: those of functions that are not zero.
+/// The first derivatives of the basis of one side at one point of the seam: those of functions that
+/// are not zero.
 struct SidePoint {
   std::vector<int> nodes;
   Eigen::MatrixX2d gradient;
@@ -54,16 +55,19 @@ class SideBasis {
  public:
   static Expected<SideBasis> create(const CreaseSide& side) {
     const Surface& rest = *side.rest;
-    auto weighted = rest.rational() ? Expected<Surface>(rest)
-                                    : Surface::create(rest.knots(), rest.control_points(),
-                                                      std::vector<double>(static_cast<std::size_t>(rest.size()), 1.0));
+    auto weighted =
+        rest.rational()
+            ? Expected<Surface>(rest)
+            : Surface::create(rest.knots(), rest.control_points(),
+                              std::vector<double>(static_cast<std::size_t>(rest.size()), 1.0));
     if (!weighted) return std::unexpected(weighted.error());
     return SideBasis(side, std::move(*weighted));
   }
 
   /// At a parameter along the edge.
   [[nodiscard]] Expected<SidePoint> at(double parameter) const {
-    const KnotVector &along = weighted_.knots(1 - side_.across), &across = weighted_.knots(side_.across);
+    const KnotVector &along = weighted_.knots(1 - side_.across),
+                     &across = weighted_.knots(side_.across);
     const double place[] = {parameter};
     const double end[] = {side_.at_end ? across.domain().upper : across.domain().lower};
     const auto table = tabulate_basis(along, place, 1), edge = tabulate_basis(across, end, 1);
@@ -71,7 +75,8 @@ class SideBasis {
     if (!edge) return std::unexpected(edge.error());
     std::array<int, 2> first;
     std::array<const double*, 2> rows;
-    const auto l = static_cast<std::size_t>(1 - side_.across), c = static_cast<std::size_t>(side_.across);
+    const auto l = static_cast<std::size_t>(1 - side_.across),
+               c = static_cast<std::size_t>(side_.across);
     first[l] = table->first[0];
     rows[l] = table->row(0, 0);
     first[c] = edge->first[0];
@@ -79,7 +84,8 @@ class SideBasis {
     const RationalBasis<2> functions(weighted_, 1);
     const int local = (along.degree() + 1) * (across.degree() + 1);
     std::vector<Eigen::MatrixXd> values(3, Eigen::MatrixXd(local, 1));
-    if (auto ok = functions.evaluate(first, rows, 0, values); !ok) return std::unexpected(ok.error());
+    if (auto ok = functions.evaluate(first, rows, 0, values); !ok)
+      return std::unexpected(ok.error());
     const Eigen::MatrixXd &u = values[static_cast<std::size_t>(multi_index_position<2>({1, 0}))],
                           &v = values[static_cast<std::size_t>(multi_index_position<2>({0, 1}))];
     SidePoint point;
@@ -98,7 +104,8 @@ class SideBasis {
   }
 
  private:
-  SideBasis(const CreaseSide& side, Surface weighted) : side_(side), weighted_(std::move(weighted)) {}
+  SideBasis(const CreaseSide& side, Surface weighted)
+      : side_(side), weighted_(std::move(weighted)) {}
   CreaseSide side_;
   Surface weighted_;
 };
@@ -119,7 +126,8 @@ std::vector<double> breaks_of(const KnotVector& a, const KnotVector& b, bool rev
   append(b, reversed);
   std::ranges::sort(breaks);
   constexpr double same = 1e-9;  // shares this close are one
-  const auto end = std::ranges::unique(breaks, [](double x, double y) { return y - x <= same; }).begin();
+  const auto end =
+      std::ranges::unique(breaks, [](double x, double y) { return y - x <= same; }).begin();
   breaks.erase(end, breaks.end());
   return breaks;
 }
@@ -128,10 +136,11 @@ std::vector<double> breaks_of(const KnotVector& a, const KnotVector& b, bool rev
 
 struct ShellCrease::Data {
   struct Gauss {
-    double weight;              // of the quadrature, times k and the speed at rest
-    std::vector<int> nodes;     // of both sides
-    Eigen::MatrixX4d gradient;  // derivatives of their functions by u and v of side a, then of side b
-    double c, s;                // at rest
+    double weight;           // of the quadrature, times k and the speed at rest
+    std::vector<int> nodes;  // of both sides
+    Eigen::MatrixX4d
+        gradient;  // derivatives of their functions by u and v of side a, then of side b
+    double c, s;   // at rest
 
     [[nodiscard]] SideTangents tangents(const Points& x) const {
       SideTangents a = SideTangents::Zero();
@@ -144,13 +153,15 @@ struct ShellCrease::Data {
   int along = 0;
   std::vector<Gauss> points;
 
-  [[nodiscard]] Expected<void> add(const SidePoint& a, const SidePoint& b, double weight, const Points& rest_a,
-                                   const Points& rest_b, int first_a, int first_b);
+  [[nodiscard]] Expected<void> add(const SidePoint& a, const SidePoint& b, double weight,
+                                   const Points& rest_a, const Points& rest_b, int first_a,
+                                   int first_b);
 };
 
 /// `weight` does not count the speed yet.
-Expected<void> ShellCrease::Data::add(const SidePoint& a, const SidePoint& b, double weight, const Points& rest_a,
-                                      const Points& rest_b, int first_a, int first_b) {
+Expected<void> ShellCrease::Data::add(const SidePoint& a, const SidePoint& b, double weight,
+                                      const Points& rest_a, const Points& rest_b, int first_a,
+                                      int first_b) {
   Gauss point{weight, a.nodes, {}, 0, 0};
   point.nodes.insert(point.nodes.end(), b.nodes.begin(), b.nodes.end());
   point.gradient = Eigen::MatrixX4d::Zero(static_cast<Eigen::Index>(point.nodes.size()), 4);
@@ -159,12 +170,14 @@ Expected<void> ShellCrease::Data::add(const SidePoint& a, const SidePoint& b, do
   SideTangents at_rest = SideTangents::Zero();
   for (std::size_t r = 0; r < point.nodes.size(); ++r) {
     const bool of_a = r < a.nodes.size();
-    const Eigen::RowVector3d place = of_a ? rest_a.row(point.nodes[r] - first_a) : rest_b.row(point.nodes[r] - first_b);
+    const Eigen::RowVector3d place =
+        of_a ? rest_a.row(point.nodes[r] - first_a) : rest_b.row(point.nodes[r] - first_b);
     at_rest += place.transpose() * point.gradient.row(static_cast<Eigen::Index>(r));
   }
   const PointAngle angle(at_rest, along);
   if (!std::isfinite(angle.c) || !std::isfinite(angle.s)) {
-    return numerical_error("a side of a crease has no normal at rest", "seam", "remove collapsed edges beside it");
+    return numerical_error("a side of a crease has no normal at rest", "seam",
+                           "remove collapsed edges beside it");
   }
   point.c = angle.c;
   point.s = angle.s;
@@ -173,7 +186,8 @@ Expected<void> ShellCrease::Data::add(const SidePoint& a, const SidePoint& b, do
   return {};
 }
 
-Expected<ShellCrease> ShellCrease::create(const CreaseSide& a, const CreaseSide& b, bool reversed, double stiffness) {
+Expected<ShellCrease> ShellCrease::create(const CreaseSide& a, const CreaseSide& b, bool reversed,
+                                          double stiffness) {
   if (!(std::isfinite(stiffness) && stiffness > 0)) {
     return input_error(fmt::format("{} is not a stiffness of a crease", stiffness), "stiffness",
                        "use a finite number > 0");
@@ -189,7 +203,8 @@ Expected<ShellCrease> ShellCrease::create(const CreaseSide& a, const CreaseSide&
   auto data = std::make_shared<Data>();
   data->along = 1 - a.across;
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
-    const double half = 0.5 * (breaks[k + 1] - breaks[k]), middle = 0.5 * (breaks[k + 1] + breaks[k]);
+    const double half = 0.5 * (breaks[k + 1] - breaks[k]),
+                 middle = 0.5 * (breaks[k + 1] + breaks[k]);
     for (int g = 0; g < count; ++g) {
       const double share = middle + half * rule.abscissae[static_cast<std::size_t>(g)];
       const double share_b = reversed ? 1 - share : share;
@@ -197,9 +212,10 @@ Expected<ShellCrease> ShellCrease::create(const CreaseSide& a, const CreaseSide&
       const auto at_b = basis_b->at(domain_b.lower + share_b * domain_b.length());
       if (!at_a) return std::unexpected(at_a.error());
       if (!at_b) return std::unexpected(at_b.error());
-      const double weight = stiffness * half * domain_a.length() * rule.weights[static_cast<std::size_t>(g)];
-      if (auto ok =
-              data->add(*at_a, *at_b, weight, a.rest->control_points(), b.rest->control_points(), a.first, b.first);
+      const double weight =
+          stiffness * half * domain_a.length() * rule.weights[static_cast<std::size_t>(g)];
+      if (auto ok = data->add(*at_a, *at_b, weight, a.rest->control_points(),
+                              b.rest->control_points(), a.first, b.first);
           !ok) {
         return std::unexpected(ok.error());
       }
@@ -212,7 +228,8 @@ double ShellCrease::energy(const Points& x) const {
   double sum = 0;
   for (const Data::Gauss& point : data_->points) {
     const PointAngle now(point.tangents(x), data_->along);
-    sum += 0.5 * point.weight * ((now.c - point.c) * (now.c - point.c) + (now.s - point.s) * (now.s - point.s));
+    sum += 0.5 * point.weight *
+           ((now.c - point.c) * (now.c - point.c) + (now.s - point.s) * (now.s - point.s));
   }
   return sum;
 }
@@ -220,15 +237,18 @@ double ShellCrease::energy(const Points& x) const {
 void ShellCrease::add_gradient(const Points& x, Points& gradient) const {
   for (const Data::Gauss& point : data_->points) {
     const PointAngle now(point.tangents(x), data_->along);
-    const Gradient by_tangents = point.weight * ((now.c - point.c) * now.dc + (now.s - point.s) * now.ds);
+    const Gradient by_tangents =
+        point.weight * ((now.c - point.c) * now.dc + (now.s - point.s) * now.ds);
     const Eigen::Map<const SideTangents> f(by_tangents.data());
     for (std::size_t r = 0; r < point.nodes.size(); ++r) {
-      gradient.row(point.nodes[r]) += (f * point.gradient.row(static_cast<Eigen::Index>(r)).transpose()).transpose();
+      gradient.row(point.nodes[r]) +=
+          (f * point.gradient.row(static_cast<Eigen::Index>(r)).transpose()).transpose();
     }
   }
 }
 
-void ShellCrease::append_hessian(const Points& x, std::vector<Eigen::Triplet<double>>& entries) const {
+void ShellCrease::append_hessian(const Points& x,
+                                 std::vector<Eigen::Triplet<double>>& entries) const {
   for (const Data::Gauss& point : data_->points) {
     const PointAngle now(point.tangents(x), data_->along);
     const auto n = static_cast<Eigen::Index>(point.nodes.size());
@@ -236,13 +256,16 @@ void ShellCrease::append_hessian(const Points& x, std::vector<Eigen::Triplet<dou
     for (int k = 0; k < 2; ++k) {
       const Gradient& by = k == 0 ? now.dc : now.ds;
       const Eigen::Map<const SideTangents> f(by.data());
-      for (Eigen::Index r = 0; r < n; ++r) rows.col(k).segment<3>(3 * r) = f * point.gradient.row(r).transpose();
+      for (Eigen::Index r = 0; r < n; ++r)
+        rows.col(k).segment<3>(3 * r) = f * point.gradient.row(r).transpose();
     }
     const Eigen::MatrixXd block = point.weight * rows * rows.transpose();
     for (Eigen::Index i = 0; i < 3 * n; ++i) {
       for (Eigen::Index j = 0; j < 3 * n; ++j) {
-        entries.emplace_back(3 * point.nodes[static_cast<std::size_t>(i / 3)] + static_cast<int>(i % 3),
-                             3 * point.nodes[static_cast<std::size_t>(j / 3)] + static_cast<int>(j % 3), block(i, j));
+        entries.emplace_back(
+            3 * point.nodes[static_cast<std::size_t>(i / 3)] + static_cast<int>(i % 3),
+            3 * point.nodes[static_cast<std::size_t>(j / 3)] + static_cast<int>(j % 3),
+            block(i, j));
       }
     }
   }

@@ -23,7 +23,9 @@ using detail::Vector6;
 
 using Basis = Eigen::Block<const Eigen::MatrixXd, Eigen::Dynamic, 5, true>;
 
-Basis basis_at(const ShellElement& element, Eigen::Index point) { return element.derivative.middleCols<5>(5 * point); }
+Basis basis_at(const ShellElement& element, Eigen::Index point) {
+  return element.derivative.middleCols<5>(5 * point);
+}
 
 Eigen::Matrix3Xd coordinates(const ShellElement& element, const Points& x) {
   Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(element.nodes.size()));
@@ -35,11 +37,13 @@ Eigen::Matrix3Xd coordinates(const ShellElement& element, const Points& x) {
 
 /// The basis on the element whose Gauss points are [begin_d, begin_d + points_d) of the two tables.
 Expected<ShellElement> make_element(const Surface& rational, const RationalBasis<2>& functions,
-                                    const std::array<BasisQuadrature, 2>& quadrature, const std::array<int, 2>& begin,
+                                    const std::array<BasisQuadrature, 2>& quadrature,
+                                    const std::array<int, 2>& begin,
                                     const std::array<int, 2>& points) {
   const std::array<int, 2> first{quadrature[0].basis.first[static_cast<std::size_t>(begin[0])],
                                  quadrature[1].basis.first[static_cast<std::size_t>(begin[1])]};
-  const int p = rational.knots(0).degree(), q = rational.knots(1).degree(), local = (p + 1) * (q + 1);
+  const int p = rational.knots(0).degree(), q = rational.knots(1).degree(),
+            local = (p + 1) * (q + 1);
   ShellElement element;
   for (int r = 0; r < local; ++r) {
     const auto i = functions.global(first, r);
@@ -50,7 +54,8 @@ Expected<ShellElement> make_element(const Surface& rational, const RationalBasis
   for (int k = 0; k < total; ++k) {
     const std::array<const double*, 2> rows{quadrature[0].basis.row(begin[0] + k / points[1], 0),
                                             quadrature[1].basis.row(begin[1] + k % points[1], 0)};
-    if (auto ok = functions.evaluate(first, rows, k, tables); !ok) return std::unexpected(ok.error());
+    if (auto ok = functions.evaluate(first, rows, k, tables); !ok)
+      return std::unexpected(ok.error());
   }
   const auto table = [&](int a, int b) -> const Eigen::MatrixXd& {
     return tables[static_cast<std::size_t>(multi_index_position<2>({a, b}))];
@@ -58,8 +63,8 @@ Expected<ShellElement> make_element(const Surface& rational, const RationalBasis
   element.value = table(0, 0);
   element.derivative.resize(local, 5 * total);
   for (Eigen::Index k = 0; k < total; ++k) {
-    element.derivative.middleCols<5>(5 * k) << table(1, 0).col(k), table(0, 1).col(k), table(2, 0).col(k),
-        table(0, 2).col(k), table(1, 1).col(k);
+    element.derivative.middleCols<5>(5 * k) << table(1, 0).col(k), table(0, 1).col(k),
+        table(2, 0).col(k), table(0, 2).col(k), table(1, 1).col(k);
   }
   return element;
 }
@@ -103,19 +108,23 @@ struct ShellEnergy::Data {
     for (const ShellElement& element : elements) {
       const Eigen::Matrix3Xd derivatives = coordinates(element, x) * element.derivative;
       for (Eigen::Index k = 0; k < element.value.cols(); ++k, ++index) {
-        visit(element, k, rest[static_cast<std::size_t>(index)], ShellPoint(derivatives.middleCols<5>(5 * k)), index);
+        visit(element, k, rest[static_cast<std::size_t>(index)],
+              ShellPoint(derivatives.middleCols<5>(5 * k)), index);
       }
     }
   }
 
-  /// \param points Gauss points of each direction with their number on an element, and the first ones of this element.
+  /// \param points Gauss points of each direction with their number on an element, and the first
+  /// ones of this element.
   [[nodiscard]] Expected<void> add_rest(const ShellElement& element, const Points& x,
-                                        const detail::ShellQuadrature& points, const std::array<int, 2>& begin) {
+                                        const detail::ShellQuadrature& points,
+                                        const std::array<int, 2>& begin) {
     const Eigen::Matrix3Xd derivatives = coordinates(element, x) * element.derivative;
     for (Eigen::Index k = 0; k < element.value.cols(); ++k) {
       const ShellPoint at(derivatives.middleCols<5>(5 * k));
       if (!(at.area > 0) || !at.inverse.allFinite()) {
-        return numerical_error("the rest shape has no normal at a Gauss point", fmt::format("point {}", rest.size()),
+        return numerical_error("the rest shape has no normal at a Gauss point",
+                               fmt::format("point {}", rest.size()),
                                "remove folds and spans on which control points coincide");
       }
       const auto [weight, u] = points.at(begin, static_cast<int>(k));
@@ -123,8 +132,9 @@ struct ShellEnergy::Data {
       if (!here) return std::unexpected(here.error());
       const auto [membrane, bending] = law.stiffness(at, *here);
       measure.push_back(weight);
-      rest.push_back({weight * law.measure(at), weight * at.area, weight * at.area * law.mass(here->thickness),
-                      at.metric, at.curvature, membrane, bending});
+      rest.push_back({weight * law.measure(at), weight * at.area,
+                      weight * at.area * law.mass(here->thickness), at.metric, at.curvature,
+                      membrane, bending});
     }
     return {};
   }
@@ -146,26 +156,29 @@ struct ShellEnergy::Data {
   }
 };
 
-Expected<ShellEnergy> ShellEnergy::create(const Surface& rest, const ShellMaterial& material, int gauss_points) {
+Expected<ShellEnergy> ShellEnergy::create(const Surface& rest, const ShellMaterial& material,
+                                          int gauss_points) {
   if (auto ok = validated(material); !ok) return std::unexpected(ok.error());
   auto data = std::make_shared<Data>();
   data->law.material = material;
   return with_law(rest, std::move(data), gauss_points);
 }
 
-Expected<ShellEnergy> ShellEnergy::of_forms(const Surface& rest, const FundamentalMaterial& material,
-                                            int gauss_points) {
+Expected<ShellEnergy> ShellEnergy::of_forms(const Surface& rest,
+                                            const FundamentalMaterial& material, int gauss_points) {
   if (auto ok = validated_weights(material); !ok) return std::unexpected(ok.error());
   auto data = std::make_shared<Data>();
   data->law.material = material;
   return with_law(rest, std::move(data), gauss_points);
 }
 
-Expected<ShellEnergy> ShellEnergy::with_law(const Surface& surface, std::shared_ptr<Data> data, int gauss_points) {
+Expected<ShellEnergy> ShellEnergy::with_law(const Surface& surface, std::shared_ptr<Data> data,
+                                            int gauss_points) {
   for (std::size_t d = 0; d < 2; ++d) {
     const KnotVector& knots = surface.knots()[d];
     if (knots.degree() < 2) {
-      return input_error("a surface of degree 1 does not bend", fmt::format("direction {}", d == 0 ? "u" : "v"),
+      return input_error("a surface of degree 1 does not bend",
+                         fmt::format("direction {}", d == 0 ? "u" : "v"),
                          "elevate its degree to 2 or more");
     }
     data->pattern.degree[d] = knots.degree();
@@ -179,14 +192,16 @@ Expected<ShellEnergy> ShellEnergy::with_law(const Surface& surface, std::shared_
   const auto weighted =
       surface.rational()
           ? Expected<Surface>(surface)
-          : Surface::create(surface.knots(), x, std::vector<double>(static_cast<std::size_t>(surface.size()), 1.0));
+          : Surface::create(surface.knots(), x,
+                            std::vector<double>(static_cast<std::size_t>(surface.size()), 1.0));
   if (!weighted) return std::unexpected(weighted.error());
   const RationalBasis<2> functions(*weighted, 2);
   for (int u = 0; u < quadrature[0].basis.size(); u += points[0]) {
     for (int v = 0; v < quadrature[1].basis.size(); v += points[1]) {
       auto element = make_element(*weighted, functions, quadrature, {u, v}, points);
       if (!element) return std::unexpected(element.error());
-      if (auto ok = data->add_rest(*element, x, *gauss, {u, v}); !ok) return std::unexpected(ok.error());
+      if (auto ok = data->add_rest(*element, x, *gauss, {u, v}); !ok)
+        return std::unexpected(ok.error());
       data->elements.push_back(std::move(*element));
     }
   }
@@ -196,7 +211,9 @@ Expected<ShellEnergy> ShellEnergy::with_law(const Surface& surface, std::shared_
   return ShellEnergy(std::move(data));
 }
 
-ShellParts ShellEnergy::energy(const Points& x) const { return data_->blocks.forces(x, nullptr, nullptr); }
+ShellParts ShellEnergy::energy(const Points& x) const {
+  return data_->blocks.forces(x, nullptr, nullptr);
+}
 
 ShellParts ShellEnergy::energy(const Points& x, Eigen::Ref<Points> gradient) const {
   return data_->blocks.forces(x, &gradient, nullptr);
@@ -216,8 +233,8 @@ ShellStress ShellEnergy::stress(const Points& x) const {
 
 ShellStress ShellEnergy::stress(const Points& x, const Points& d) const {
   ShellStress result(6, static_cast<Eigen::Index>(data_->rest.size()));
-  data_->each_point(x, [&](const ShellElement& element, Eigen::Index k, const ShellRest& rest, const ShellPoint& at,
-                           Eigen::Index index) {
+  data_->each_point(x, [&](const ShellElement& element, Eigen::Index k, const ShellRest& rest,
+                           const ShellPoint& at, Eigen::Index index) {
     Vector6 strain = detail::shell_strain(at, rest.metric, rest.curvature);
     const Eigen::Matrix3Xd local = coordinates(element, d);
     Eigen::Matrix<double, 6, Eigen::Dynamic> rows(6, 3 * local.cols());
@@ -234,7 +251,8 @@ ShellStress ShellEnergy::stress(const Points& x, const Points& d) const {
 ShellStress ShellEnergy::tension(const ShellStress& stress) const {
   ShellStress result = ShellStress::Zero(6, stress.cols());
   for (Eigen::Index k = 0; k < stress.cols(); ++k) {
-    result.col(k).head<3>() = detail::tension(stress.col(k).head<3>(), data_->rest[static_cast<std::size_t>(k)].metric);
+    result.col(k).head<3>() =
+        detail::tension(stress.col(k).head<3>(), data_->rest[static_cast<std::size_t>(k)].metric);
   }
   return result;
 }
@@ -245,22 +263,27 @@ SparseMatrix ShellEnergy::hessian(const Points& x, const ShellStress& stress) co
   return matrix;
 }
 
-Points ShellEnergy::area_load(const Point& per_area) const { return data_->spread(&ShellRest::area, per_area); }
+Points ShellEnergy::area_load(const Point& per_area) const {
+  return data_->spread(&ShellRest::area, per_area);
+}
 
-Points ShellEnergy::weight(const Point& acceleration) const { return data_->spread(&ShellRest::mass, acceleration); }
+Points ShellEnergy::weight(const Point& acceleration) const {
+  return data_->spread(&ShellRest::mass, acceleration);
+}
 
-Points ShellEnergy::normal_load(const Points& x, const Points& velocity, double pressure, const Point& wind) const {
+Points ShellEnergy::normal_load(const Points& x, const Points& velocity, double pressure,
+                                const Point& wind) const {
   Points result = Points::Zero(data_->size, 3);
-  data_->each_point(
-      x, [&](const ShellElement& element, Eigen::Index k, const ShellRest&, const ShellPoint& at, Eigen::Index index) {
-        const auto basis = element.value.col(k);
-        const Point moving = coordinates(element, velocity) * basis;
-        const double measure = data_->measure[static_cast<std::size_t>(index)];
-        const Point force = measure * at.area * (pressure + at.normal.dot(wind - moving)) * at.normal;
-        for (std::size_t r = 0; r < element.nodes.size(); ++r) {
-          result.row(element.nodes[r]) += basis[static_cast<Eigen::Index>(r)] * force.transpose();
-        }
-      });
+  data_->each_point(x, [&](const ShellElement& element, Eigen::Index k, const ShellRest&,
+                           const ShellPoint& at, Eigen::Index index) {
+    const auto basis = element.value.col(k);
+    const Point moving = coordinates(element, velocity) * basis;
+    const double measure = data_->measure[static_cast<std::size_t>(index)];
+    const Point force = measure * at.area * (pressure + at.normal.dot(wind - moving)) * at.normal;
+    for (std::size_t r = 0; r < element.nodes.size(); ++r) {
+      result.row(element.nodes[r]) += basis[static_cast<Eigen::Index>(r)] * force.transpose();
+    }
+  });
   return result;
 }
 
@@ -297,18 +320,21 @@ double ShellEnergy::stretching_scale() const {
   }
   double sum = 0;
   for (const ShellRest& rest : data_->rest) {
-    sum += rest.weight / 8 * rest.metric.dot(Eigen::Vector3d(1, 1, 4).asDiagonal() * rest.membrane * rest.metric);
+    sum += rest.weight / 8 *
+           rest.metric.dot(Eigen::Vector3d(1, 1, 4).asDiagonal() * rest.membrane * rest.metric);
   }
   return sum;
 }
 
 double ShellEnergy::bending_stiffness() const {
   if (const auto* m = std::get_if<ShellMaterial>(&data_->law.material)) {
-    return m->young * m->thickness * m->thickness * m->thickness / (12 * (1 - m->poisson * m->poisson));
+    return m->young * m->thickness * m->thickness * m->thickness /
+           (12 * (1 - m->poisson * m->poisson));
   }
   double sum = 0;
   for (const ShellRest& rest : data_->rest) {
-    sum += rest.weight * rest.metric.dot(Eigen::Vector3d(1, 1, 4).asDiagonal() * rest.bending * rest.metric);
+    sum += rest.weight *
+           rest.metric.dot(Eigen::Vector3d(1, 1, 4).asDiagonal() * rest.bending * rest.metric);
   }
   return sum / area();
 }

@@ -13,15 +13,18 @@ struct ShellCoefficients {
   double young = 0, thickness = 0;
 };
 
-/// What an energy makes of the geometry of a rest shape: the measure per du dv, and stress resultants per strain.
+/// What an energy makes of the geometry of a rest shape: the measure per du dv, and stress
+/// resultants per strain.
 struct ShellLaw {
   std::variant<ShellMaterial, FundamentalMaterial> material;
 
   [[nodiscard]] double measure(const ShellPoint& rest) const {
     return std::holds_alternative<ShellMaterial>(material) ? rest.area : 1;
   }
-  /// The energy per measure is quadratic in ε and κ, written 11, 22, 2·12. `here` is of a shell the one at the point.
-  [[nodiscard]] std::array<Eigen::Matrix3d, 2> stiffness(const ShellPoint& rest, const ShellCoefficients& here) const {
+  /// The energy per measure is quadratic in ε and κ, written 11, 22, 2·12. `here` is of a shell the
+  /// one at the point.
+  [[nodiscard]] std::array<Eigen::Matrix3d, 2> stiffness(const ShellPoint& rest,
+                                                         const ShellCoefficients& here) const {
     if (const auto* shell = std::get_if<ShellMaterial>(&material)) {
       const double t = here.thickness;
       const Eigen::Matrix3d elastic = plane_stress(rest.inverse, here.young, shell->poisson);

@@ -48,7 +48,8 @@ struct ShellPoint {
     const Eigen::Vector3d cross = tangent.col(0).cross(tangent.col(1));
     area = cross.norm();
     normal = cross / area;
-    metric << tangent.col(0).squaredNorm(), tangent.col(1).squaredNorm(), tangent.col(0).dot(tangent.col(1));
+    metric << tangent.col(0).squaredNorm(), tangent.col(1).squaredNorm(),
+        tangent.col(0).dot(tangent.col(1));
     const double determinant = area * area;
     inverse << metric[1] / determinant, metric[0] / determinant, -metric[2] / determinant;
     dual.col(0) = inverse[0] * tangent.col(0) + inverse[2] * tangent.col(1);
@@ -69,7 +70,8 @@ inline Eigen::Matrix3d plane_stress(const Eigen::Vector3d& inverse, double young
   return young / (1 - poisson * poisson) * m;
 }
 
-/// The part of membrane forces n^αβ that pulls: with A = L Lᵀ the metric, Lᵀ n L without its negative eigenvalues.
+/// The part of membrane forces n^αβ that pulls: with A = L Lᵀ the metric, Lᵀ n L without its
+/// negative eigenvalues.
 inline Eigen::Vector3d tension(const Eigen::Vector3d& force, const Eigen::Vector3d& metric) {
   Eigen::Matrix2d l = Eigen::Matrix2d::Zero(), n;
   l(0, 0) = std::sqrt(metric[0]);
@@ -77,7 +79,8 @@ inline Eigen::Vector3d tension(const Eigen::Vector3d& force, const Eigen::Vector
   l(1, 1) = std::sqrt(std::max(0.0, metric[1] - l(1, 0) * l(1, 0)));
   n << force[0], force[2], force[2], force[1];
   const Eigen::Matrix2d here = l.transpose() * n * l;
-  const double mean = (here(0, 0) + here(1, 1)) / 2, half = (here(0, 0) - here(1, 1)) / 2, shear = here(0, 1);
+  const double mean = (here(0, 0) + here(1, 1)) / 2, half = (here(0, 0) - here(1, 1)) / 2,
+               shear = here(0, 1);
   const double radius = std::sqrt(half * half + shear * shear);
   if (mean >= radius) return force;
   if (mean <= -radius) return Eigen::Vector3d::Zero();
@@ -90,7 +93,8 @@ inline Eigen::Vector3d tension(const Eigen::Vector3d& force, const Eigen::Vector
 }
 
 /// ε and κ of a point against the rest shape's forms, each written 11, 22, 2·12.
-inline Vector6 shell_strain(const ShellPoint& at, const Eigen::Vector3d& metric, const Eigen::Vector3d& curvature) {
+inline Vector6 shell_strain(const ShellPoint& at, const Eigen::Vector3d& metric,
+                            const Eigen::Vector3d& curvature) {
   Vector6 strain;
   strain.head<3>() = (at.metric - metric) / 2;
   strain.tail<3>() = curvature - at.curvature;
@@ -99,9 +103,9 @@ inline Vector6 shell_strain(const ShellPoint& at, const Eigen::Vector3d& metric,
   return strain;
 }
 
-/// The functions of one point that strains depend on: for local function r the covariant second derivatives
-/// c_αβ = R_,αβ − Γ^γ_αβ R_,γ, with which δb_αβ = n · Σ_r c_αβ(r) δx_r.
-/// \param basis R_,1, R_,2, R_,11, R_,22, R_,12 as columns.
+/// The functions of one point that strains depend on: for local function r the covariant second
+/// derivatives c_αβ = R_,αβ − Γ^γ_αβ R_,γ, with which δb_αβ = n · Σ_r c_αβ(r) δx_r. \param basis
+/// R_,1, R_,2, R_,11, R_,22, R_,12 as columns.
 template <class Basis>
 Eigen::MatrixX3d covariant_second(const ShellPoint& at, const Basis& basis) {
   Eigen::MatrixX3d c = basis.template rightCols<3>();
@@ -111,7 +115,8 @@ Eigen::MatrixX3d covariant_second(const ShellPoint& at, const Basis& basis) {
 
 /// ∂(ε, κ)/∂x of one point: 6 rows, columns c L + r for coordinate c of local function r.
 template <class Basis, class Out>
-void strain_rows(const ShellPoint& at, const Basis& basis, const Eigen::MatrixX3d& second, Out&& rows) {
+void strain_rows(const ShellPoint& at, const Basis& basis, const Eigen::MatrixX3d& second,
+                 Out&& rows) {
   const Eigen::Index local = basis.rows();
   for (Eigen::Index c = 0; c < 3; ++c) {
     auto block = rows.middleCols(c * local, local);

@@ -11,7 +11,8 @@ namespace knead::detail {
 namespace {
 
 /// On the pieces between knots of the surface and of fields.
-Expected<BasisQuadrature> on_pieces(const KnotVector& knots, std::vector<double> breaks, int points) {
+Expected<BasisQuadrature> on_pieces(const KnotVector& knots, std::vector<double> breaks,
+                                    int points) {
   const GaussRule rule = gauss_legendre(points);
   BasisQuadrature result;
   std::ranges::sort(breaks);
@@ -19,8 +20,8 @@ Expected<BasisQuadrature> on_pieces(const KnotVector& knots, std::vector<double>
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     const double half = (breaks[k + 1] - breaks[k]) / 2;
     for (std::size_t g = 0; g < rule.abscissae.size(); ++g) {
-      result.parameters.push_back(
-          std::clamp(breaks[k] + half + half * rule.abscissae[g], breaks[k], std::nextafter(breaks[k + 1], breaks[k])));
+      result.parameters.push_back(std::clamp(breaks[k] + half + half * rule.abscissae[g], breaks[k],
+                                             std::nextafter(breaks[k + 1], breaks[k])));
       result.weights.push_back(half * rule.weights[g]);
     }
   }
@@ -32,8 +33,8 @@ Expected<BasisQuadrature> on_pieces(const KnotVector& knots, std::vector<double>
 
 }  // namespace
 
-Expected<ShellQuadrature> shell_quadrature(const std::array<KnotVector, 2>& knots, const ShellLaw& law,
-                                           int gauss_points) {
+Expected<ShellQuadrature> shell_quadrature(const std::array<KnotVector, 2>& knots,
+                                           const ShellLaw& law, int gauss_points) {
   static constexpr std::array<const char*, 2> names = {"young", "thickness"};
   static constexpr std::array<int, 2> powers = {1, 3};  // in the bending stiffness
   const auto fields = law.fields();
@@ -42,16 +43,18 @@ Expected<ShellQuadrature> shell_quadrature(const std::array<KnotVector, 2>& knot
     const auto [lower, upper] = knots[d].domain();
     std::vector<double> breaks;
     const auto add = [&, a = lower, b = upper](const KnotVector& k) {
-      std::ranges::copy_if(k.knots(), std::back_inserter(breaks), [&](double x) { return a <= x && x <= b; });
+      std::ranges::copy_if(k.knots(), std::back_inserter(breaks),
+                           [&](double x) { return a <= x && x <= b; });
     };
     int degree = 0;
     for (std::size_t f = 0; f < fields.size(); ++f) {
       if (fields[f] == nullptr) continue;
       const KnotVector& own = fields[f]->knots()[d];
       if (own.domain().lower != lower || own.domain().upper != upper) {
-        return input_error(fmt::format("the domains [{}, {}] of the shape and [{}, {}] of the field differ", lower,
-                                       upper, own.domain().lower, own.domain().upper),
-                           names[f], "give a field over the domain of the shape");
+        return input_error(
+            fmt::format("the domains [{}, {}] of the shape and [{}, {}] of the field differ", lower,
+                        upper, own.domain().lower, own.domain().upper),
+            names[f], "give a field over the domain of the shape");
       }
       degree += powers[f] * own.degree();
       add(own);

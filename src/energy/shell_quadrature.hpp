@@ -7,8 +7,8 @@
 
 namespace knead::detail {
 
-/// Gauss points of both directions, so many on each piece, which lies within one span of the surface and one of each
-/// field of the material.
+/// Gauss points of both directions, so many on each piece, which lies within one span of the
+/// surface and one of each field of the material.
 struct ShellQuadrature {
   std::array<BasisQuadrature, 2> directions;
   std::array<int, 2> points{};
@@ -26,11 +26,12 @@ struct ShellQuadrature {
   }
 };
 
-/// \param gauss_points per piece and direction; 0: p + 1, and as many more as the degrees of young · thickness³ ask
-/// for. Error (input): a field on another domain.
-[[nodiscard]] Expected<ShellQuadrature> shell_quadrature(const std::array<KnotVector, 2>& knots, const ShellLaw& law,
-                                                         int gauss_points);
+/// \param gauss_points per piece and direction; 0: p + 1, and as many more as the degrees of young
+/// · thickness³ ask for. Error (input): a field on another domain.
+[[nodiscard]] Expected<ShellQuadrature> shell_quadrature(const std::array<KnotVector, 2>& knots,
+                                                         const ShellLaw& law, int gauss_points);
 
-[[nodiscard]] Expected<ShellCoefficients> coefficients_at(const ShellLaw& law, const std::array<double, 2>& u);
+[[nodiscard]] Expected<ShellCoefficients> coefficients_at(const ShellLaw& law,
+                                                          const std::array<double, 2>& u);
 
 }  // namespace knead::detail

@@ -9,32 +9,39 @@ namespace {
 
 detail::ShellPoint point_of(const Evaluation<2>& s, Eigen::Index k) {
   detail::ShellDerivatives d;
-  d << s.at({1, 0}).row(k).transpose(), s.at({0, 1}).row(k).transpose(), s.at({2, 0}).row(k).transpose(),
-      s.at({0, 2}).row(k).transpose(), s.at({1, 1}).row(k).transpose();
+  d << s.at({1, 0}).row(k).transpose(), s.at({0, 1}).row(k).transpose(),
+      s.at({2, 0}).row(k).transpose(), s.at({0, 2}).row(k).transpose(),
+      s.at({1, 1}).row(k).transpose();
   return detail::ShellPoint(d);
 }
 
-/// The trace and the determinant of a tensor with contravariant components 11, 22, 12, in orthonormal ones.
+/// The trace and the determinant of a tensor with contravariant components 11, 22, 12, in
+/// orthonormal ones.
 struct Invariants {
   double trace, determinant;
 
   Invariants(const Eigen::Vector3d& t, const Eigen::Vector3d& metric)
       : trace(metric[0] * t[0] + metric[1] * t[1] + 2 * metric[2] * t[2]),
-        determinant((t[0] * t[1] - t[2] * t[2]) * (metric[0] * metric[1] - metric[2] * metric[2])) {}
+        determinant((t[0] * t[1] - t[2] * t[2]) * (metric[0] * metric[1] - metric[2] * metric[2])) {
+  }
 
   /// The larger first.
   [[nodiscard]] std::array<double, 2> principal() const {
     const double root = std::sqrt(std::max(0.0, trace * trace / 4 - determinant));
     return {trace / 2 + root, trace / 2 - root};
   }
-  [[nodiscard]] double von_mises() const { return std::sqrt(std::max(0.0, trace * trace - 3 * determinant)); }
+  [[nodiscard]] double von_mises() const {
+    return std::sqrt(std::max(0.0, trace * trace - 3 * determinant));
+  }
 };
 
-ShellPointResults results_at(const detail::ShellPoint& rest, const detail::ShellPoint& now, const ShellMaterial& m) {
+ShellPointResults results_at(const detail::ShellPoint& rest, const detail::ShellPoint& now,
+                             const ShellMaterial& m) {
   const double t = m.thickness;
   const detail::Vector6 strain = detail::shell_strain(now, rest.metric, rest.curvature);
   const Eigen::Matrix3d elastic = detail::plane_stress(rest.inverse, m.young, m.poisson);
-  const Eigen::Vector3d n = t * elastic * strain.head<3>(), moment = t * t * t / 12 * elastic * strain.tail<3>();
+  const Eigen::Vector3d n = t * elastic * strain.head<3>(),
+                        moment = t * t * t / 12 * elastic * strain.tail<3>();
   const Eigen::Vector3d kappa(strain[3], strain[4], strain[5] / 2);
   const auto curved = Invariants(kappa, rest.inverse).principal();
   ShellPointResults result;
@@ -51,7 +58,8 @@ ShellPointResults results_at(const detail::ShellPoint& rest, const detail::Shell
 }  // namespace
 
 Expected<std::vector<ShellPointResults>> shell_results(const Surface& rest, const Surface& current,
-                                                       const ShellMaterial& material, const Parameters<2>& at) {
+                                                       const ShellMaterial& material,
+                                                       const Parameters<2>& at) {
   const auto before = evaluate<2>(rest, at, 2), now = evaluate<2>(current, at, 2);
   if (!before) return std::unexpected(before.error());
   if (!now) return std::unexpected(now.error());

@@ -50,7 +50,8 @@ ShellParts ShellStructure::energy(const Points& x, Points& gradient) const {
   ShellParts sum;
   gradient = Points::Zero(x.rows(), 3);
   for (std::size_t k = 0; k < shells_.size(); ++k) {
-    const ShellParts part = shells_[k].energy(rows_of(x, k), gradient.middleRows(rows_[k], rows_[k + 1] - rows_[k]));
+    const ShellParts part =
+        shells_[k].energy(rows_of(x, k), gradient.middleRows(rows_[k], rows_[k + 1] - rows_[k]));
     sum.membrane += part.membrane;
     sum.bending += part.bending;
   }
@@ -69,13 +70,15 @@ Points ShellStructure::gradient(const Points& x) const {
 
 ShellStructure::Stress ShellStructure::stress(const Points& x) const {
   Stress result;
-  for (std::size_t k = 0; k < shells_.size(); ++k) result.push_back(shells_[k].stress(rows_of(x, k)));
+  for (std::size_t k = 0; k < shells_.size(); ++k)
+    result.push_back(shells_[k].stress(rows_of(x, k)));
   return result;
 }
 
 ShellStructure::Stress ShellStructure::stress(const Points& x, const Points& d) const {
   Stress result;
-  for (std::size_t k = 0; k < shells_.size(); ++k) result.push_back(shells_[k].stress(rows_of(x, k), rows_of(d, k)));
+  for (std::size_t k = 0; k < shells_.size(); ++k)
+    result.push_back(shells_[k].stress(rows_of(x, k), rows_of(d, k)));
   return result;
 }
 
@@ -87,7 +90,8 @@ ShellStructure::Stress ShellStructure::tension(const Stress& stress) const {
 
 SparseMatrix ShellStructure::hessian(const Points& x, const Stress& stress) const {
   std::vector<SparseMatrix> blocks;
-  for (std::size_t k = 0; k < shells_.size(); ++k) blocks.push_back(shells_[k].hessian(rows_of(x, k), stress[k]));
+  for (std::size_t k = 0; k < shells_.size(); ++k)
+    blocks.push_back(shells_[k].hessian(rows_of(x, k), stress[k]));
   SparseMatrix sum = blocks.size() == 1 ? std::move(blocks.front()) : along_diagonal(blocks);
   if (creases_.empty()) return sum;
   std::vector<Eigen::Triplet<double>> entries;

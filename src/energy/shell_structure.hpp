@@ -7,12 +7,14 @@
 
 namespace knead {
 
-/// Shells and the creases between them: one energy of all their control points, N × 3, shell after shell. What joins
-/// edges in position, and smooth ones in their tangent planes, are linear constraints. Immutable, const is thread-safe.
+/// Shells and the creases between them: one energy of all their control points, N × 3, shell after
+/// shell. What joins edges in position, and smooth ones in their tangent planes, are linear
+/// constraints. Immutable, const is thread-safe.
 class ShellStructure {
  public:
   /// One shell is a structure, too.
-  ShellStructure(ShellEnergy shell) : ShellStructure(std::vector<ShellEnergy>{std::move(shell)}) {}  // NOLINT
+  ShellStructure(ShellEnergy shell)
+      : ShellStructure(std::vector<ShellEnergy>{std::move(shell)}) {}  // NOLINT
   /// At least one shell. Rows of creases are those of `rows`.
   explicit ShellStructure(std::vector<ShellEnergy> shells, std::vector<ShellCrease> creases = {});
 

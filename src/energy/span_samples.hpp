@@ -21,18 +21,21 @@ struct SpanSamples {
     per_span = std::max(least_per_span, (least + count - 1) / count);
     for (const int s : spans) {
       for (int k = 0; k < per_span; ++k) {
-        parameters.push_back(
-            std::clamp(knots[s] + (knots[s + 1] - knots[s]) * (k + 0.5) / per_span, knots[s], knots[s + 1]));
+        parameters.push_back(std::clamp(knots[s] + (knots[s + 1] - knots[s]) * (k + 0.5) / per_span,
+                                        knots[s], knots[s + 1]));
       }
     }
   }
 };
 
-/// Halves the marked spans (flags in the order of `knots.spans()`), and neighbours until no span is more than twice as
-/// long as the next one unless it was before. Spans too short to halve stay. Returns whether anything changed.
+/// Halves the marked spans (flags in the order of `knots.spans()`), and neighbours until no span is
+/// more than twice as long as the next one unless it was before. Spans too short to halve stay.
+/// Returns whether anything changed.
 inline bool halve(KnotVector& knots, std::vector<bool> marked) {
   const std::vector<int> spans = knots.spans();
-  const auto length = [&](std::size_t k) { return (knots[spans[k] + 1] - knots[spans[k]]) / (marked[k] ? 2 : 1); };
+  const auto length = [&](std::size_t k) {
+    return (knots[spans[k] + 1] - knots[spans[k]]) / (marked[k] ? 2 : 1);
+  };
   for (bool grew = true; grew;) {
     grew = false;
     for (std::size_t k = 0; k + 1 < spans.size(); ++k) {

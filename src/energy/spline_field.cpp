@@ -17,25 +17,29 @@ namespace {
 
 template <int D>
 std::array<KnotVector, D> array_of(std::vector<KnotVector> knots) {
-  return [&]<std::size_t... d>(std::index_sequence<d...>) { return std::array<KnotVector, D>{std::move(knots[d])...}; }
+  return [&]<std::size_t... d>(std::index_sequence<d...>) {
+    return std::array<KnotVector, D>{std::move(knots[d])...};
+  }
   (std::make_index_sequence<D>{});
 }
 
 }  // namespace
 
 template <int D>
-Expected<SplineField<D>> SplineField<D>::create(std::array<KnotVector, D> knots, std::vector<double> coefficients) {
+Expected<SplineField<D>> SplineField<D>::create(std::array<KnotVector, D> knots,
+                                                std::vector<double> coefficients) {
   std::array<int, D> counts;
   for (std::size_t d = 0; d < D; ++d) counts[d] = knots[d].count();
   const std::optional<std::int64_t> asked = product_of(counts);
   if (!asked || static_cast<std::int64_t>(coefficients.size()) != *asked) {
-    return input_error(
-        fmt::format("the knots ask for {} coefficients, not {}", fmt::join(counts, " x "), coefficients.size()));
+    return input_error(fmt::format("the knots ask for {} coefficients, not {}",
+                                   fmt::join(counts, " x "), coefficients.size()));
   }
   const std::size_t count = coefficients.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (!std::isfinite(coefficients[i])) {
-      return input_error("the coefficient is not a finite number", fmt::format("coefficient {}", i));
+      return input_error("the coefficient is not a finite number",
+                         fmt::format("coefficient {}", i));
     }
   }
   return SplineField(std::move(knots), std::move(coefficients));
@@ -60,8 +64,8 @@ std::vector<double> SplineField<D>::on_grid(const std::array<const BasisTable*, 
 }
 
 template <int D>
-Expected<std::vector<double>> SplineField<D>::on_grid(const std::array<std::span<const double>, D>& parameters,
-                                                      Side side) const {
+Expected<std::vector<double>> SplineField<D>::on_grid(
+    const std::array<std::span<const double>, D>& parameters, Side side) const {
   std::array<BasisTable, D> tables;
   std::array<const BasisTable*, D> pointers;
   for (std::size_t d = 0; d < D; ++d) {
@@ -89,9 +93,9 @@ Expected<KnotVector> common_knots(std::span<const KnotVector> knots) {
   for (const KnotVector& k : knots) {
     const Interval other = k.domain();
     if (other.lower != domain.lower || other.upper != domain.upper) {
-      return input_error(
-          fmt::format("the domains [{}, {}] and [{}, {}] differ", domain.lower, domain.upper, other.lower, other.upper),
-          {}, "give fields over the domain of the spline");
+      return input_error(fmt::format("the domains [{}, {}] and [{}, {}] differ", domain.lower,
+                                     domain.upper, other.lower, other.upper),
+                         {}, "give fields over the domain of the spline");
     }
     degree = std::max(degree, k.degree());
   }
@@ -104,7 +108,8 @@ Expected<KnotVector> common_knots(std::span<const KnotVector> knots) {
     }
   }
   std::vector<double> result(static_cast<std::size_t>(degree + 1), domain.lower);
-  for (const auto& [x, m] : multiplicity) result.insert(result.end(), static_cast<std::size_t>(m), x);
+  for (const auto& [x, m] : multiplicity)
+    result.insert(result.end(), static_cast<std::size_t>(m), x);
   result.insert(result.end(), static_cast<std::size_t>(degree + 1), domain.upper);
   return KnotVector::create(degree, std::move(result));
 }
@@ -123,7 +128,8 @@ Expected<std::array<KnotVector, D>> common_knots(std::span<const std::array<Knot
 }
 
 template <int D>
-Expected<SplineField<D>> on_knots(const Coefficient<D>& coefficient, const std::array<KnotVector, D>& knots) {
+Expected<SplineField<D>> on_knots(const Coefficient<D>& coefficient,
+                                  const std::array<KnotVector, D>& knots) {
   std::size_t count = 1;
   for (const KnotVector& k : knots) count *= static_cast<std::size_t>(k.count());
   if (const double* constant = std::get_if<double>(&coefficient)) {
@@ -137,9 +143,10 @@ Expected<SplineField<D>> on_knots(const Coefficient<D>& coefficient, const std::
   for (std::size_t d = 0; d < D; ++d) {
     const Interval own = field.knots()[d].domain(), other = knots[d].domain();
     if (own.lower != other.lower || own.upper != other.upper) {
-      return input_error(
-          fmt::format("the domains [{}, {}] and [{}, {}] differ", own.lower, own.upper, other.lower, other.upper),
-          fmt::format("direction {}", d), "give a field over the domain of the spline");
+      return input_error(fmt::format("the domains [{}, {}] and [{}, {}] differ", own.lower,
+                                     own.upper, other.lower, other.upper),
+                         fmt::format("direction {}", d),
+                         "give a field over the domain of the spline");
     }
     auto made = GrevilleInterpolation::create(knots[d]);
     if (!made) return std::unexpected(made.error());
@@ -163,8 +170,8 @@ Expected<std::array<KnotVector, D>> sample_knots(const std::array<Interval, D>& 
   std::vector<KnotVector> made;
   for (std::size_t d = 0; d < D; ++d) {
     if (counts[d] < 2) {
-      return input_error(fmt::format("{} samples do not span a grid", counts[d]), fmt::format("direction {}", d),
-                         "give 2 or more in every direction");
+      return input_error(fmt::format("{} samples do not span a grid", counts[d]),
+                         fmt::format("direction {}", d), "give 2 or more in every direction");
     }
   }
   if (!product_of(counts)) {
@@ -180,21 +187,24 @@ Expected<std::array<KnotVector, D>> sample_knots(const std::array<Interval, D>& 
 }
 
 template <int D>
-Expected<SplineField<D>> sampled_field(const std::array<Interval, D>& domain, const std::array<int, D>& counts,
+Expected<SplineField<D>> sampled_field(const std::array<Interval, D>& domain,
+                                       const std::array<int, D>& counts,
                                        std::vector<double> samples) {
   auto knots = sample_knots<D>(domain, counts);
   if (!knots) return std::unexpected(knots.error());
   return SplineField<D>::create(std::move(*knots), std::move(samples));
 }
 
-#define KNEAD_INSTANTIATE(D)                                                                                    \
-  template class SplineField<D>;                                                                                \
-  template Expected<std::array<KnotVector, D>> common_knots<D>(std::span<const std::array<KnotVector, D>>);     \
-  template Expected<SplineField<D>> on_knots<D>(const Coefficient<D>&, const std::array<KnotVector, D>&);       \
-  template Expected<std::array<KnotVector, D>> sample_knots<D>(const std::array<Interval, D>&,                  \
-                                                               const std::array<int, D>&);                      \
-  template Expected<SplineField<D>> sampled_field<D>(const std::array<Interval, D>&, const std::array<int, D>&, \
-                                                     std::vector<double>);
+#define KNEAD_INSTANTIATE(D)                                                                   \
+  template class SplineField<D>;                                                               \
+  template Expected<std::array<KnotVector, D>> common_knots<D>(                                \
+      std::span<const std::array<KnotVector, D>>);                                             \
+  template Expected<SplineField<D>> on_knots<D>(const Coefficient<D>&,                         \
+                                                const std::array<KnotVector, D>&);             \
+  template Expected<std::array<KnotVector, D>> sample_knots<D>(const std::array<Interval, D>&, \
+                                                               const std::array<int, D>&);     \
+  template Expected<SplineField<D>> sampled_field<D>(                                          \
+      const std::array<Interval, D>&, const std::array<int, D>&, std::vector<double>);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)
 KNEAD_INSTANTIATE(3)

@@ -24,7 +24,8 @@ Expected<void> check_orders(const Energy<D>& energy) {
   for (const EnergyTerm<D>& term : energy) {
     for (std::size_t d = 0; d < D; ++d) {
       if (term.a[d] < 0 || term.a[d] > 2 || term.b[d] < 0 || term.b[d] > 2) {
-        return usage_error(fmt::format("an energy term of order {} is not available", std::max(term.a[d], term.b[d])),
+        return usage_error(fmt::format("an energy term of order {} is not available",
+                                       std::max(term.a[d], term.b[d])),
                            {}, "use orders 0 to 2 per direction");
       }
     }
@@ -61,9 +62,12 @@ struct RowWriter {
   }
 
   [[nodiscard]] int width() const { return 2 * p + 1; }
-  [[nodiscard]] std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(n) * width() + spare; }
+  [[nodiscard]] std::ptrdiff_t stride() const {
+    return static_cast<std::ptrdiff_t>(n) * width() + spare;
+  }
 
-  /// For a pair of outer indices the terms collapse to one coefficient per factor of the last direction.
+  /// For a pair of outer indices the terms collapse to one coefficient per factor of the last
+  /// direction.
   void find_weights(const std::array<int, D>& i, const std::vector<std::array<int, D>>& columns,
                     std::vector<double>& weights) const {
     weights.assign(columns.size() * kinds, 0.0);
@@ -96,12 +100,13 @@ struct RowWriter {
         // Away from the ends all rows are alike.
         const int alike = line == p && n > 2 * p ? n - 2 * p : 1;
         const std::ptrdiff_t length = pattern.length(last, line), values = alike * count * length;
-        const double* from =
-            band.data() + static_cast<std::ptrdiff_t>(line) * width() + pattern.first(last, line) - line + p;
+        const double* from = band.data() + static_cast<std::ptrdiff_t>(line) * width() +
+                             pattern.first(last, line) - line + p;
         const bool past_the_end = behind - to < values + spare;
         if (past_the_end) last_values.resize(static_cast<std::size_t>(values + spare));
-        kernels.write_runs(from, stride(), width(), alike, weights.data(), static_cast<std::ptrdiff_t>(kinds), count,
-                           length, past_the_end ? last_values.data() : to);
+        kernels.write_runs(from, stride(), width(), alike, weights.data(),
+                           static_cast<std::ptrdiff_t>(kinds), count, length,
+                           past_the_end ? last_values.data() : to);
         if (past_the_end) std::copy_n(last_values.data(), values, to);
         to += values;
         line += alike;
@@ -113,9 +118,10 @@ struct RowWriter {
   void write_all(SparseMatrix& matrix) const {
     const int count = pattern.outer().size();
     const double work = static_cast<double>(matrix.nonZeros()) / count * static_cast<double>(kinds);
-    detail::parallel_for(count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      write(static_cast<int>(begin), static_cast<int>(end), matrix);
-    });
+    detail::parallel_for(count, detail::block_size(count, work),
+                         [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+                           write(static_cast<int>(begin), static_cast<int>(end), matrix);
+                         });
   }
 
   TensorPattern<D> pattern;
@@ -129,11 +135,12 @@ struct RowWriter {
 }  // namespace
 
 template <int D>
-Expected<Stiffness<D>> Stiffness<D>::create(const std::array<KnotVector, D>& knots, const Energy<D>& given,
+Expected<Stiffness<D>> Stiffness<D>::create(const std::array<KnotVector, D>& knots,
+                                            const Energy<D>& given,
                                             const StiffnessOptions& options) {
   if (auto checked = check_orders<D>(given); !checked) return std::unexpected(checked.error());
-  // Terms with a != b come in mirrored pairs. Summed first, a pair gives x + y above the diagonal and y + x below, the
-  // same number: K is symmetric to the last bit.
+  // Terms with a != b come in mirrored pairs. Summed first, a pair gives x + y above the diagonal
+  // and y + x below, the same number: K is symmetric to the last bit.
   Energy<D> energy = given;
   std::ranges::stable_partition(energy, [](const EnergyTerm<D>& term) { return term.a != term.b; });
   Stiffness result;
@@ -148,9 +155,11 @@ Expected<Stiffness<D>> Stiffness<D>::create(const std::array<KnotVector, D>& kno
     std::map<std::pair<int, int>, int> known;
     for (std::size_t t = 0; t < energy.size(); ++t) {
       const int a = energy[t].a[d], b = energy[t].b[d];
-      const auto [it, added] = known.try_emplace({a, b}, static_cast<int>(result.factors_[d].size()));
+      const auto [it, added] =
+          known.try_emplace({a, b}, static_cast<int>(result.factors_[d].size()));
       if (added) {
-        // G^ab with a < b is the transpose of G^ba, so that the two halves of a symmetric pair agree to the last bit.
+        // G^ab with a < b is the transpose of G^ba, so that the two halves of a symmetric pair
+        // agree to the last bit.
         auto matrix = gramian(knots[d], std::max(a, b), std::min(a, b), options.method);
         if (!matrix) return std::unexpected(matrix.error());
         result.factors_[d].push_back(a < b ? matrix->transposed() : std::move(*matrix));
@@ -172,7 +181,8 @@ Expected<Stiffness<D>> Stiffness<D>::create(const Spline<D>& spline, const Energ
 }
 
 template <int D>
-Stiffness<D> Stiffness<D>::of_matrix(const Spline<D>& spline, SparseMatrix matrix, double error_bound) {
+Stiffness<D> Stiffness<D>::of_matrix(const Spline<D>& spline, SparseMatrix matrix,
+                                     double error_bound) {
   assert(matrix.rows() == spline.size() && matrix.cols() == spline.size());
   Stiffness result;
   result.net_ = spline.net();

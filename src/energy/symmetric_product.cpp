@@ -21,8 +21,8 @@ struct Row {
 
 }  // namespace
 
-// Every row of the result is gathered once from a column of A and never read. Four sums side by side do not wait for
-// one another.
+// Every row of the result is gathered once from a column of A and never read. Four sums side by
+// side do not wait for one another.
 Points transposed_product(const SparseMatrix& a, const Points& x) {
   assert(a.isCompressed() && a.rows() == x.rows());
   std::vector<Row> rows(static_cast<std::size_t>(x.rows()));
@@ -33,23 +33,25 @@ Points transposed_product(const SparseMatrix& a, const Points& x) {
   const double* value = a.valuePtr();
   const Row* from = rows.data();
   Points result(a.cols(), 3);
-  const double work =
-      3.0 * static_cast<double>(a.nonZeros()) / static_cast<double>(std::max<Eigen::Index>(a.cols(), 1));
-  detail::parallel_for(a.cols(), detail::block_size(a.cols(), work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (Eigen::Index j = begin; j < end; ++j) {
-      Row sum[4];
-      auto k = start[j];
-      for (; k + 4 <= start[j + 1]; k += 4) {
-        for (int c = 0; c < 4; ++c) sum[c].add(value[k + c], from[index[k + c]]);
-      }
-      for (; k < start[j + 1]; ++k) sum[0].add(value[k], from[index[k]]);
-      for (int c = 1; c < 4; ++c) sum[0].add(1, sum[c]);
-      double* to = result.data() + 3 * j;
-      to[0] = sum[0].xy[0];
-      to[1] = sum[0].xy[1];
-      to[2] = sum[0].z[0];
-    }
-  });
+  const double work = 3.0 * static_cast<double>(a.nonZeros()) /
+                      static_cast<double>(std::max<Eigen::Index>(a.cols(), 1));
+  detail::parallel_for(a.cols(), detail::block_size(a.cols(), work),
+                       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+                         for (Eigen::Index j = begin; j < end; ++j) {
+                           Row sum[4];
+                           auto k = start[j];
+                           for (; k + 4 <= start[j + 1]; k += 4) {
+                             for (int c = 0; c < 4; ++c)
+                               sum[c].add(value[k + c], from[index[k + c]]);
+                           }
+                           for (; k < start[j + 1]; ++k) sum[0].add(value[k], from[index[k]]);
+                           for (int c = 1; c < 4; ++c) sum[0].add(1, sum[c]);
+                           double* to = result.data() + 3 * j;
+                           to[0] = sum[0].xy[0];
+                           to[1] = sum[0].xy[1];
+                           to[2] = sum[0].z[0];
+                         }
+                       });
   return result;
 }
 

@@ -10,14 +10,17 @@
 
 namespace knead {
 
-/// The positions of the entries of a D-fold tensor product of band matrices in compressed storage: row i = (i_0, …,
-/// i_{D−1}) holds the columns j with |i_d − j_d| <= p_d, sorted with the last direction fastest.
+/// The positions of the entries of a D-fold tensor product of band matrices in compressed storage:
+/// row i = (i_0, …, i_{D−1}) holds the columns j with |i_d − j_d| <= p_d, sorted with the last
+/// direction fastest.
 template <int D>
 struct TensorPattern {
   std::array<int, D> net, degree;
 
   [[nodiscard]] int first(std::size_t d, int i) const { return std::max(0, i - degree[d]); }
-  [[nodiscard]] int length(std::size_t d, int i) const { return std::min(net[d] - 1, i + degree[d]) - first(d, i) + 1; }
+  [[nodiscard]] int length(std::size_t d, int i) const {
+    return std::min(net[d] - 1, i + degree[d]) - first(d, i) + 1;
+  }
   [[nodiscard]] int size() const {
     int n = 1;
     for (int m : net) n *= m;
@@ -64,7 +67,8 @@ struct TensorPattern {
     SparseMatrix matrix(size(), size());
     auto* start = matrix.outerIndexPtr();
     start[0] = 0;
-    std::vector<std::vector<int>> bases(static_cast<std::size_t>(rows.size()));  // first column of each run
+    std::vector<std::vector<int>> bases(
+        static_cast<std::size_t>(rows.size()));  // first column of each run
     for (int row = 0; row < rows.size(); ++row) {
       std::vector<int>& base = bases[static_cast<std::size_t>(row)];
       for (const std::array<int, D>& j : rows.columns(rows.unpack(row))) {
@@ -72,23 +76,25 @@ struct TensorPattern {
         for (std::size_t d = 0; d + 1 < D; ++d) column = column * net[d] + j[d];
         base.push_back(column * n);
       }
-      for (int k = 0; k < n; ++k, ++start) start[1] = start[0] + static_cast<int>(base.size()) * length(D - 1, k);
+      for (int k = 0; k < n; ++k, ++start)
+        start[1] = start[0] + static_cast<int>(base.size()) * length(D - 1, k);
     }
     matrix.resizeNonZeros(*start);
     const std::ptrdiff_t outer_size = rows.size();
     const double work = static_cast<double>(matrix.nonZeros()) / rows.size();
-    detail::parallel_for(outer_size, detail::block_size(outer_size, work), [&](std::ptrdiff_t row, std::ptrdiff_t end) {
-      auto* to = matrix.innerIndexPtr() + matrix.outerIndexPtr()[row * n];
-      for (; row < end; ++row) {
-        for (int k = 0; k < n; ++k) {
-          const int begin = first(D - 1, k), count = length(D - 1, k);
-          for (const int run : bases[static_cast<std::size_t>(row)]) {
-            for (int c = 0; c < count; ++c) to[c] = run + begin + c;
-            to += count;
-          }
-        }
-      }
-    });
+    detail::parallel_for(outer_size, detail::block_size(outer_size, work),
+                         [&](std::ptrdiff_t row, std::ptrdiff_t end) {
+                           auto* to = matrix.innerIndexPtr() + matrix.outerIndexPtr()[row * n];
+                           for (; row < end; ++row) {
+                             for (int k = 0; k < n; ++k) {
+                               const int begin = first(D - 1, k), count = length(D - 1, k);
+                               for (const int run : bases[static_cast<std::size_t>(row)]) {
+                                 for (int c = 0; c < count; ++c) to[c] = run + begin + c;
+                                 to += count;
+                               }
+                             }
+                           }
+                         });
     return matrix;
   }
 
@@ -106,13 +112,16 @@ struct RationalStiffness {
   double error_bound;  ///< as `Stiffness::error_bound`
 };
 
-/// As `StiffnessOptions` say. Errors: orders or options (usage), a field over another domain (input), a denominator
-/// that is not positive or weights that differ too much for the tolerance (numerical).
+/// As `StiffnessOptions` say. Errors: orders or options (usage), a field over another domain
+/// (input), a denominator that is not positive or weights that differ too much for the tolerance
+/// (numerical).
 template <int D>
-[[nodiscard]] Expected<RationalStiffness> assemble_rational(const Spline<D>& spline, const Energy<D>& energy,
+[[nodiscard]] Expected<RationalStiffness> assemble_rational(const Spline<D>& spline,
+                                                            const Energy<D>& energy,
                                                             const StiffnessOptions& options);
 template <int D>
-[[nodiscard]] Expected<RationalStiffness> assemble_rational(const Spline<D>& spline, const FieldEnergy<D>& energy,
+[[nodiscard]] Expected<RationalStiffness> assemble_rational(const Spline<D>& spline,
+                                                            const FieldEnergy<D>& energy,
                                                             const StiffnessOptions& options);
 
 }  // namespace knead

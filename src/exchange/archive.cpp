@@ -9,11 +9,13 @@ using namespace std::string_view_literals;
 
 constexpr std::size_t gzip_head = 10, gzip_tail = 8;
 constexpr std::size_t local_head = 30, central_head = 46, end_record = 22;
-constexpr std::string_view central_mark = "PK\x01\x02", end_mark = "PK\x05\x06", local_mark = "PK\x03\x04";
+constexpr std::string_view central_mark = "PK\x01\x02", end_mark = "PK\x05\x06",
+                           local_mark = "PK\x03\x04";
 
 std::uint32_t number(std::string_view bytes, std::size_t at, std::size_t count) {
   std::uint32_t value = 0;
-  for (std::size_t k = count; k-- > 0;) value = value << 8U | static_cast<unsigned char>(bytes[at + k]);
+  for (std::size_t k = count; k-- > 0;)
+    value = value << 8U | static_cast<unsigned char>(bytes[at + k]);
   return value;
 }
 std::uint16_t number16(std::string_view bytes, std::size_t at) {
@@ -39,7 +41,8 @@ Expected<Archive> read_gzip(std::string_view bytes) {
   enum Flag : unsigned { header_crc = 2, extra = 4, name = 8, comment = 16, reserved = 0xE0 };
   if (bytes.size() < gzip_head + gzip_tail) return too_short(Compression::gzip);
   const auto flags = static_cast<unsigned char>(bytes[3]);
-  if (bytes[2] != 8 || (flags & reserved) != 0) return other_kind("the file is gzip of a kind that is not known");
+  if (bytes[2] != 8 || (flags & reserved) != 0)
+    return other_kind("the file is gzip of a kind that is not known");
   std::size_t at = gzip_head;
   if ((flags & extra) != 0) at += 2 + std::size_t{number16(bytes, at)};
   for (const Flag text : {name, comment}) {
@@ -58,14 +61,17 @@ Expected<Archive> read_gzip(std::string_view bytes) {
   return archive;
 }
 
-/// Where the record that ends a ZIP archive begins: with its comment it reaches to the end of the file.
+/// Where the record that ends a ZIP archive begins: with its comment it reaches to the end of the
+/// file.
 std::size_t end_of_directory(std::string_view bytes) {
   constexpr std::size_t longest_comment = 0xFFFF;
   if (bytes.size() < end_record) return bytes.npos;
   const std::size_t last = bytes.size() - end_record;
   const std::size_t first = last > longest_comment ? last - longest_comment : 0;
   for (std::size_t at = last + 1; at-- > first;) {
-    if (bytes.substr(at, 4) == end_mark && at + end_record + number16(bytes, at + 20) == bytes.size()) return at;
+    if (bytes.substr(at, 4) == end_mark &&
+        at + end_record + number16(bytes, at + 20) == bytes.size())
+      return at;
   }
   return bytes.npos;
 }
@@ -76,12 +82,14 @@ Expected<std::string_view> central_entry(std::string_view bytes) {
   if (end == bytes.npos) return too_short(Compression::zip);
   const std::size_t count = number16(bytes, end + 10), size = number32(bytes, end + 12),
                     begin = number32(bytes, end + 16);
-  if (count == 0xFFFF || size == 0xFFFFFFFF || begin == 0xFFFFFFFF) return other_kind("the archive is a ZIP64");
+  if (count == 0xFFFF || size == 0xFFFFFFFF || begin == 0xFFFFFFFF)
+    return other_kind("the archive is a ZIP64");
   if (number32(bytes, end + 4) != 0 || number16(bytes, end + 8) != count) {
     return other_kind("the ZIP archive is one part of several");
   }
   if (count != 1) {
-    return other_kind(count == 0 ? "the ZIP archive is empty" : fmt::format("the ZIP archive holds {} files", count));
+    return other_kind(count == 0 ? "the ZIP archive is empty"
+                                 : fmt::format("the ZIP archive holds {} files", count));
   }
   if (begin + size > end || size < central_head || bytes.substr(begin, 4) != central_mark) {
     return damaged("the directory of the ZIP archive is damaged");
@@ -93,7 +101,8 @@ Expected<Archive> read_zip(std::string_view bytes) {
   const auto entry = central_entry(bytes);
   if (!entry) return std::unexpected(entry.error());
   const std::string_view head = *entry;
-  const std::size_t name = number16(head, 28), packed = number32(head, 20), begin = number32(head, 42);
+  const std::size_t name = number16(head, 28), packed = number32(head, 20),
+                    begin = number32(head, 42);
   const std::uint16_t flags = number16(head, 8), method = number16(head, 10);
   Archive archive;
   archive.size = number32(head, 24);
@@ -101,14 +110,18 @@ Expected<Archive> read_zip(std::string_view bytes) {
     return other_kind("the archive is a ZIP64");
   }
   constexpr unsigned encrypted = 1, strongly = 1U << 6, masked = 1U << 13, utf8 = 1U << 11;
-  if ((flags & (encrypted | strongly | masked)) != 0) return other_kind("the ZIP archive is encrypted");
-  if (method != 0 && method != 8) return other_kind(fmt::format("the ZIP archive uses the method {}", method));
+  if ((flags & (encrypted | strongly | masked)) != 0)
+    return other_kind("the ZIP archive is encrypted");
+  if (method != 0 && method != 8)
+    return other_kind(fmt::format("the ZIP archive uses the method {}", method));
   const auto wrong = [] { return damaged("the entry of the ZIP archive is damaged"); };
-  // Nothing may overlap: the local head, its name and extra field, the data, and the directory in this order.
+  // Nothing may overlap: the local head, its name and extra field, the data, and the directory in
+  // this order.
   const auto directory = static_cast<std::size_t>(head.data() - bytes.data());
   if (central_head + name > head.size() || begin + local_head > directory) return wrong();
   if (bytes.substr(begin, 4) != local_mark || number16(bytes, begin + 8) != method) return wrong();
-  const std::size_t data = begin + local_head + number16(bytes, begin + 26) + number16(bytes, begin + 28);
+  const std::size_t data =
+      begin + local_head + number16(bytes, begin + 26) + number16(bytes, begin + 28);
   if (data + packed > directory || (method == 0 && packed != archive.size)) return wrong();
   archive.kind = Compression::zip;
   archive.packed = bytes.substr(data, packed);
@@ -124,7 +137,8 @@ Expected<Archive> read_zip(std::string_view bytes) {
   return archive;
 }
 
-/// What the local head and that of the directory have in common, from the version that is needed on.
+/// What the local head and that of the directory have in common, from the version that is needed
+/// on.
 std::string common_head(const Archive& archive) {
   constexpr std::size_t needed = 20;  // version 2.0, the first with DEFLATE
   std::string text;
@@ -143,7 +157,8 @@ std::string common_head(const Archive& archive) {
 
 std::string write_zip(const Archive& archive) {
   std::string text;
-  text.reserve(archive.packed.size() + 2 * archive.entry.size() + local_head + central_head + end_record);
+  text.reserve(archive.packed.size() + 2 * archive.entry.size() + local_head + central_head +
+               end_record);
   const std::string common = common_head(archive);
   text.append(local_mark).append(common).append(archive.entry).append(archive.packed);
   const std::size_t directory = text.size();

@@ -25,8 +25,8 @@ struct Archive {
   std::uint32_t attributes = 0;
 };
 
-/// Reads the frame of a gzip member (RFC 1952) or of a ZIP archive with one entry (APPNOTE 6.3), whose sizes are those
-/// of its central directory. Errors (input): `uncompress` lists them.
+/// Reads the frame of a gzip member (RFC 1952) or of a ZIP archive with one entry (APPNOTE 6.3),
+/// whose sizes are those of its central directory. Errors (input): `uncompress` lists them.
 [[nodiscard]] Expected<Archive> read_archive(std::string_view bytes);
 
 /// The file with other data in that frame. Extra fields and comments of ZIP are left out.

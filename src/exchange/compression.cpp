@@ -19,20 +19,24 @@ Expected<std::string> unpack(const detail::Archive& archive, std::size_t most) {
   if (archive.size > most) {
     return input_error(
         fmt::format("unpacked the file has {:.1f} MiB, more than the {:.4g} that are allowed",
-                    static_cast<double>(archive.size) / (1 << 20), static_cast<double>(most) / (1 << 20)),
+                    static_cast<double>(archive.size) / (1 << 20),
+                    static_cast<double>(most) / (1 << 20)),
         {}, "allow more (--max-unpacked) if it comes from somebody you trust");
   }
   if (archive.deflated && archive.size / largest_ratio > archive.packed.size()) {
     return input_error("the compressed file states a size that its data cannot have", {},
                        "have it written or sent again");
   }
-  auto bytes = archive.deflated ? detail::inflate(archive.packed, archive.size) : std::string(archive.packed);
+  auto bytes = archive.deflated ? detail::inflate(archive.packed, archive.size)
+                                : std::string(archive.packed);
   if (!bytes) {
-    if (bytes.error().remedy.empty()) bytes.error().remedy = "have it written or sent again, or unpack it";
+    if (bytes.error().remedy.empty())
+      bytes.error().remedy = "have it written or sent again, or unpack it";
     return bytes;
   }
   if (detail::crc_32(*bytes) != archive.crc) {
-    return input_error("the compressed file is damaged: its checksum differs", {}, "have it written or sent again");
+    return input_error("the compressed file is damaged: its checksum differs", {},
+                       "have it written or sent again");
   }
   return bytes;
 }
@@ -76,7 +80,8 @@ Expected<std::string> compress_by_name(std::string bytes, std::string_view file_
     if (!plain) return plain;
     bytes = *std::move(plain);
   }
-  return compress(bytes, wanted, std::filesystem::path(uncompressed_name(file_name)).filename().string());
+  return compress(bytes, wanted,
+                  std::filesystem::path(uncompressed_name(file_name)).filename().string());
 }
 
 Expected<std::string> compress_like(std::string_view bytes, std::string_view like) {
@@ -93,9 +98,11 @@ Expected<std::string> compress_like(std::string_view bytes, std::string_view lik
 Expected<std::string> describe_compression(std::string_view bytes) {
   const auto archive = detail::read_archive(bytes);
   if (!archive) return std::unexpected(archive.error());
-  const std::string entry =
-      archive->kind == Compression::zip ? fmt::format("entry \"{}\", ", printable(archive->entry)) : std::string();
-  return fmt::format("compressed as {}: {}{} of {} bytes", name_of(archive->kind), entry, bytes.size(), archive->size);
+  const std::string entry = archive->kind == Compression::zip
+                                ? fmt::format("entry \"{}\", ", printable(archive->entry))
+                                : std::string();
+  return fmt::format("compressed as {}: {}{} of {} bytes", name_of(archive->kind), entry,
+                     bytes.size(), archive->size);
 }
 
 }  // namespace knead

@@ -20,9 +20,12 @@ std::vector<std::pair<std::string, int>> fields_of(std::span<const FieldGrid> gr
   return fields;
 }
 
-std::string data_array(const std::string& type, const std::string& name, int components, const std::string& values) {
-  return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}</DataArray>\n",
-                     type, name, components, values);
+std::string data_array(const std::string& type, const std::string& name, int components,
+                       const std::string& values) {
+  return fmt::format(
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
+      "format=\"ascii\">\n{}</DataArray>\n",
+      type, name, components, values);
 }
 
 void append_number(std::string& text, double value) {
@@ -32,10 +35,12 @@ void append_number(std::string& text, double value) {
 std::string values_of(std::span<const FieldGrid> grids, const std::string& name, int components) {
   std::string text;
   for (const FieldGrid& grid : grids) {
-    const auto field = std::ranges::find_if(
-        grid.fields, [&](const GridField& f) { return f.name == name && f.components == components; });
+    const auto field = std::ranges::find_if(grid.fields, [&](const GridField& f) {
+      return f.name == name && f.components == components;
+    });
     const auto count = static_cast<std::size_t>(grid.points.rows() * components);
-    for (std::size_t k = 0; k < count; ++k) append_number(text, field == grid.fields.end() ? 0 : field->values[k]);
+    for (std::size_t k = 0; k < count; ++k)
+      append_number(text, field == grid.fields.end() ? 0 : field->values[k]);
     text += "\n";
   }
   return text;
@@ -67,12 +72,14 @@ std::string vtu_text(std::span<const FieldGrid> grids) {
     fields += data_array("Float64", name, components, values_of(grids, name, components));
   }
   return fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n"
       "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
       "<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n<PointData>\n{}</PointData>\n"
       "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-      first, count, data_array("Float64", "points", 3, points), data_array("Int64", "connectivity", 1, cells),
-      data_array("Int64", "offsets", 1, ends), data_array("UInt8", "types", 1, types), fields);
+      first, count, data_array("Float64", "points", 3, points),
+      data_array("Int64", "connectivity", 1, cells), data_array("Int64", "offsets", 1, ends),
+      data_array("UInt8", "types", 1, types), fields);
 }
 
 }  // namespace knead

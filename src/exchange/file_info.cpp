@@ -12,9 +12,10 @@ namespace knead {
 
 static void describe(FileSurface& s, Fields& fields) {
   fields.name("file surface", "A B-spline surface of a file.");
-  fields.add_all("id", s.id, "name", s.name, "degree", s.degree, "net", s.net, "rational", s.rational, "weights",
-                 s.weights, "clamped", s.clamped, "closed", s.closed, "knots", s.knots, "max_interior_multiplicity",
-                 s.max_interior_multiplicity, "faces", s.faces, "trimmed", s.trimmed, "bounding_box", s.bounding_box);
+  fields.add_all("id", s.id, "name", s.name, "degree", s.degree, "net", s.net, "rational",
+                 s.rational, "weights", s.weights, "clamped", s.clamped, "closed", s.closed,
+                 "knots", s.knots, "max_interior_multiplicity", s.max_interior_multiplicity,
+                 "faces", s.faces, "trimmed", s.trimmed, "bounding_box", s.bounding_box);
 }
 
 static void describe(FileUnreadable& s, Fields& fields) {
@@ -30,8 +31,8 @@ static void describe(FileOtherSurface& s, Fields& fields) {
 
 static void describe(FileCurve& c, Fields& fields) {
   fields.name("file curve", "");
-  fields.add_all("id", c.id, "name", c.name, "degree", c.degree, "control_points", c.control_points, "rational",
-                 c.rational, "clamped", c.clamped, "knots", c.knots);
+  fields.add_all("id", c.id, "name", c.name, "degree", c.degree, "control_points", c.control_points,
+                 "rational", c.rational, "clamped", c.clamped, "knots", c.knots);
 }
 
 static void describe(FileTessellation& t, Fields& fields) {
@@ -46,8 +47,8 @@ static void describe(FilePlacement& p, Fields& fields) {
 
 static void describe(FileInstance& i, Fields& fields) {
   fields.name("file instance", "A placement of a component in an assembly.");
-  fields.add_all("id", i.id, "name", i.name, "parent", i.parent, "child", i.child, "placement", i.placement, "frame",
-                 i.frame);
+  fields.add_all("id", i.id, "name", i.name, "parent", i.parent, "child", i.child, "placement",
+                 i.placement, "frame", i.frame);
 }
 
 static void describe(FilePlace& p, Fields& fields) {
@@ -57,13 +58,14 @@ static void describe(FilePlace& p, Fields& fields) {
 
 static void describe(FilePart& p, Fields& fields) {
   fields.name("file part", "Geometry with coordinates of its own.");
-  fields.add_all("name", p.name, "unit", p.unit, "surfaces", p.surfaces, "faces", p.faces, "curves", p.curves, "places",
-                 p.places);
+  fields.add_all("name", p.name, "unit", p.unit, "surfaces", p.surfaces, "faces", p.faces, "curves",
+                 p.curves, "places", p.places);
 }
 
 static void describe(FileAssembly& a, Fields& fields) {
   fields.name("file assembly", "The parts of a file and where they stand.");
-  fields.add("reason", a.reason, {.help = "why it cannot be followed; then the rest is missing", .omit_empty = true});
+  fields.add("reason", a.reason,
+             {.help = "why it cannot be followed; then the rest is missing", .omit_empty = true});
   fields.add("unit", a.unit, {.omit_empty = true});
   fields.add("parts", a.parts, {.omit_empty = true});
   fields.add("warnings", a.warnings, {.omit_empty = true});
@@ -71,7 +73,8 @@ static void describe(FileAssembly& a, Fields& fields) {
 
 static void describe(FileLeftOut& l, Fields& fields) {
   fields.name("file left out", "What is not listed, and why.");
-  fields.add_all("what", l.what, "count", l.count, "reason", l.reason, "remedy", l.remedy, "ids", l.ids);
+  fields.add_all("what", l.what, "count", l.count, "reason", l.reason, "remedy", l.remedy, "ids",
+                 l.ids);
 }
 
 static void describe(FileVisibleEdge& e, Fields& fields) {
@@ -86,18 +89,22 @@ static void describe(FileVisible& v, Fields& fields) {
   fields.add("in_shell", v.in_shell);
   fields.add("extent", v.extent, {.help = "two corners", .unit = Unit::fraction});
   fields.add("box", v.box, {.help = "of the edges", .unit = Unit::length});
-  fields.add("middle", v.middle, {.help = "the visible point farthest from all edges", .unit = Unit::fraction});
-  fields.add("distance", v.distance, {.help = "of the middle from the nearest edge", .unit = Unit::length});
+  fields.add("middle", v.middle,
+             {.help = "the visible point farthest from all edges", .unit = Unit::fraction});
+  fields.add("distance", v.distance,
+             {.help = "of the middle from the nearest edge", .unit = Unit::length});
   fields.add("edges", v.edges);
 }
 
 static void describe(FileInfo& f, Fields& fields) {
   fields.name("file info", "What is in a CAD file.");
-  fields.add_all("file", f.file, "format", f.format, "schema", f.schema, "units", f.units, "surfaces", f.surfaces,
-                 "unreadable_surfaces", f.unreadable_surfaces, "other_surfaces", f.other_surfaces, "curves", f.curves,
-                 "tessellated_items", f.tessellated_items, "instances", f.instances, "assembly", f.assembly, "left_out",
+  fields.add_all("file", f.file, "format", f.format, "schema", f.schema, "units", f.units,
+                 "surfaces", f.surfaces, "unreadable_surfaces", f.unreadable_surfaces,
+                 "other_surfaces", f.other_surfaces, "curves", f.curves, "tessellated_items",
+                 f.tessellated_items, "instances", f.instances, "assembly", f.assembly, "left_out",
                  f.left_out, "remarks", f.remarks);
-  fields.add("visible", f.visible, {.help = "what faces show of the surfaces, if asked for", .omit_empty = true});
+  fields.add("visible", f.visible,
+             {.help = "what faces show of the surfaces, if asked for", .omit_empty = true});
 }
 
 namespace {
@@ -105,12 +112,19 @@ namespace {
 Corner corner_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
 std::array<double, 2> pair_of(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
 
-std::array<int, 2> degrees(const Surface& surface) { return {surface.knots(0).degree(), surface.knots(1).degree()}; }
+std::array<int, 2> degrees(const Surface& surface) {
+  return {surface.knots(0).degree(), surface.knots(1).degree()};
+}
 
-std::vector<double> values_of(const KnotVector& knots) { return {knots.knots().begin(), knots.knots().end()}; }
+std::vector<double> values_of(const KnotVector& knots) {
+  return {knots.knots().begin(), knots.knots().end()};
+}
 
 FileSurface info_of(std::string id, std::string name, const Surface& surface) {
-  FileSurface info{.id = std::move(id), .name = std::move(name), .degree = degrees(surface), .net = surface.net()};
+  FileSurface info{.id = std::move(id),
+                   .name = std::move(name),
+                   .degree = degrees(surface),
+                   .net = surface.net()};
   info.rational = surface.rational();
   if (info.rational) {
     const auto [least, most] = std::ranges::minmax_element(surface.weights());
@@ -127,7 +141,8 @@ FileSurface info_of(std::string id, std::string name, const Surface& surface) {
   return info;
 }
 
-std::vector<FileSurface> surfaces_of(const Source& source, const brep::Model* model, const FileInfoOptions& options) {
+std::vector<FileSurface> surfaces_of(const Source& source, const brep::Model* model,
+                                     const FileInfoOptions& options) {
   std::vector<FileSurface> list;
   const std::size_t count = model != nullptr ? model->surfaces.size() : source.surfaces().size();
   for (std::size_t k = 0; k < count; ++k) {
@@ -147,7 +162,8 @@ std::vector<FileSurface> surfaces_of(const Source& source, const brep::Model* mo
   return list;
 }
 
-std::vector<FileOtherSurface> others_of(const Source& source, const brep::Model& model, bool conversions) {
+std::vector<FileOtherSurface> others_of(const Source& source, const brep::Model& model,
+                                        bool conversions) {
   std::vector<FileOtherSurface> list;
   const auto splines = conversions ? brep::exact_splines(model) : std::vector<Expected<Surface>>();
   const bool step = source.format() == "STEP";
@@ -156,7 +172,8 @@ std::vector<FileOtherSurface> others_of(const Source& source, const brep::Model&
     if (!conversions) continue;
     const auto& made = splines[list.size() - 1];
     info.convertible = step && made;
-    if (!info.convertible) info.reason = made ? "only faces of a STEP file are converted" : made.error().message();
+    if (!info.convertible)
+      info.reason = made ? "only faces of a STEP file are converted" : made.error().message();
     if (made) {
       info.spline = std::array{degrees(*made), made->net()};
     } else {
@@ -176,13 +193,14 @@ FileAssembly assembly_of(const brep::Model& model) {
   if (!assembly) return {.reason = assembly.error().message()};
   FileAssembly info{.unit = assembly->unit, .parts = {{}}, .warnings = assembly->warnings};
   for (const brep::Part& part : assembly->parts) {
-    FilePart& made =
-        info.parts->emplace_back(FilePart{part.name, part.unit, part.surfaces, part.faces, part.curves, {}});
+    FilePart& made = info.parts->emplace_back(
+        FilePart{part.name, part.unit, part.surfaces, part.faces, part.curves, {}});
     for (const brep::PartPlace& place : part.places) {
       FilePlace& at = made.places.emplace_back(FilePlace{place.path});
       for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 4; ++j) {
-          at.matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = place.to_model.matrix()(i, j);
+          at.matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
+              place.to_model.matrix()(i, j);
         }
       }
     }
@@ -197,8 +215,8 @@ FileVisible visible_of(const brep::SplineSurface& s, const VisibleRegion& region
   Eigen::AlignedBox3d box;
   for (const TrimEdge& edge : region.edges) {
     for (const Point& p : edge.points) box.extend(p);
-    info.edges.push_back(
-        {edge.id, pair_of(edge.course.front()), pair_of(edge.course.back()), edge.neighbours, edge.seam});
+    info.edges.push_back({edge.id, pair_of(edge.course.front()), pair_of(edge.course.back()),
+                          edge.neighbours, edge.seam});
   }
   info.box = {corner_of(box.min()), corner_of(box.max())};
   if (const auto middle = visible_middle(s.surface, region)) {
@@ -224,7 +242,8 @@ std::vector<FileVisible> visible_parts(const std::shared_ptr<const brep::Model>&
 
 /// Of the file as a whole; of other formats than STEP the geometry is read as STEP.
 std::string unit_of(const Source& source, const brep::Model* model) {
-  if (model != nullptr && (source.format() == "STEP" || source.surfaces().empty())) return model->length_unit();
+  if (model != nullptr && (source.format() == "STEP" || source.surfaces().empty()))
+    return model->length_unit();
   return source.surfaces().empty() ? "unknown" : source.surfaces().front().unit;
 }
 
@@ -243,13 +262,13 @@ FileInfo file_info(const Source& source, const FileInfoOptions& options) {
   }
   for (const SourceCurve& c : source.curves()) {
     const KnotVector& knots = c.curve->knots(0);
-    info.curves.push_back({c.id, c.name, knots.degree(), static_cast<int>(c.curve->size()), c.curve->rational(),
-                           knots.clamped(), values_of(knots)});
+    info.curves.push_back({c.id, c.name, knots.degree(), static_cast<int>(c.curve->size()),
+                           c.curve->rational(), knots.clamped(), values_of(knots)});
   }
   for (const LeftOut& left : options.faces ? left_out_of_faces(source) : left_out_of_list(source)) {
     info.left_out.push_back({left.many, static_cast<int>(left.count), left.reason,
-                             left.remedy.empty() ? std::nullopt : std::optional(left.remedy), left.ids,
-                             sentence(left)});
+                             left.remedy.empty() ? std::nullopt : std::optional(left.remedy),
+                             left.ids, sentence(left)});
   }
   info.remarks = source.remarks();
   if (model == nullptr) return info;
@@ -259,7 +278,8 @@ FileInfo file_info(const Source& source, const FileInfoOptions& options) {
         {item.mesh.id, item.name, item.unit, static_cast<int>(item.mesh.triangles.size())});
   }
   for (const brep::Instance& i : model->instances) {
-    info.instances.push_back({i.id, i.name, i.parent, i.child, placement_of(i.placement), placement_of(i.frame)});
+    info.instances.push_back(
+        {i.id, i.name, i.parent, i.child, placement_of(i.placement), placement_of(i.frame)});
   }
   info.assembly = assembly_of(*model);
   if (options.faces) info.visible = visible_parts(model);

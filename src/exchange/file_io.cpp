@@ -20,10 +20,14 @@
 namespace knead {
 namespace {
 
-std::unexpected<Error> system_error(const std::filesystem::path& path, const std::string& what, int code,
-                                    std::string remedy = {}) {
-  return std::unexpected(
-      Error{ErrorKind::input, what + ": " + std::strerror(code), {}, std::move(remedy), path.string(), 0});
+std::unexpected<Error> system_error(const std::filesystem::path& path, const std::string& what,
+                                    int code, std::string remedy = {}) {
+  return std::unexpected(Error{ErrorKind::input,
+                               what + ": " + std::strerror(code),
+                               {},
+                               std::move(remedy),
+                               path.string(),
+                               0});
 }
 
 // A file descriptor that closes itself.
@@ -63,8 +67,9 @@ mode_t new_file_mode() {
   return 0666 & ~mask;
 }
 
-/// Waits until a pipe, opened without blocking, has something to read or was closed by who wrote into it; false if
-/// nobody has opened it for writing in time. From then on it blocks. `bytes` gets what had to be read to find out.
+/// Waits until a pipe, opened without blocking, has something to read or was closed by who wrote
+/// into it; false if nobody has opened it for writing in time. From then on it blocks. `bytes` gets
+/// what had to be read to find out.
 bool wait_for_writer(int fd, std::string& bytes) {
   // Linux reports the end of a pipe only once a writer has come and gone.
   pollfd event{fd, POLLIN, 0};
@@ -104,18 +109,20 @@ std::filesystem::path directory_of(const std::filesystem::path& target) {
 void remove_leftovers(const std::filesystem::path& directory) {
   namespace fs = std::filesystem;
   std::error_code code;
-  for (fs::directory_iterator entry(directory, code), end; !code && entry != end; entry.increment(code)) {
+  for (fs::directory_iterator entry(directory, code), end; !code && entry != end;
+       entry.increment(code)) {
     const std::string name = entry->path().filename().string();
     if (!name.starts_with(temporary_prefix) || name.size() != temporary_prefix.size() + 6) continue;
-    const Descriptor file(::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    const Descriptor file(
+        ::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status {};
     if (file.get() < 0 || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
     if (::flock(file.get(), LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
   }
 }
 
-/// A temporary file in the directory, locked for as long as it is open; `name` is where it is. Below 0: `errno` says
-/// why.
+/// A temporary file in the directory, locked for as long as it is open; `name` is where it is.
+/// Below 0: `errno` says why.
 int open_temporary(const std::filesystem::path& directory, std::string& name) {
   for (;;) {
     name = (directory / (std::string(temporary_prefix) + "XXXXXX")).string();
@@ -152,7 +159,8 @@ Expected<std::string> read_file(const std::filesystem::path& path, std::size_t m
     if (static_cast<unsigned long long>(status.st_size) > most) return too_large();
     expected = static_cast<std::size_t>(status.st_size);
   }
-  // One byte more than the file has shows that it ends there, without room for what it might have grown by.
+  // One byte more than the file has shows that it ends there, without room for what it might have
+  // grown by.
   std::string bytes;
   detail::reserve_large(bytes, expected + 1);
   bytes.resize(expected + 1);
@@ -160,14 +168,15 @@ Expected<std::string> read_file(const std::filesystem::path& path, std::size_t m
 #ifndef __wasi__
   if (S_ISFIFO(status.st_mode)) bytes.clear();
   if (S_ISFIFO(status.st_mode) && !wait_for_writer(file.get(), bytes)) {
-    return std::unexpected(
-        Error{ErrorKind::input, "nothing writes into this pipe", {}, "name a file", path.string(), 0});
+    return std::unexpected(Error{
+        ErrorKind::input, "nothing writes into this pipe", {}, "name a file", path.string(), 0});
   }
   if (!S_ISREG(status.st_mode)) static_cast<void>(::fcntl(file.get(), F_SETFL, 0));
   if (S_ISFIFO(status.st_mode)) filled = bytes.size();
 #endif
   for (;;) {
-    if (filled == bytes.size()) bytes.resize(bytes.size() + std::max<std::size_t>(65536, bytes.size() / 2));
+    if (filled == bytes.size())
+      bytes.resize(bytes.size() + std::max<std::size_t>(65536, bytes.size() / 2));
     const auto count = ::read(file.get(), bytes.data() + filled, bytes.size() - filled);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return system_error(path, "cannot be read", errno);
@@ -196,7 +205,8 @@ Expected<void> check_writable(const std::filesystem::path& path) {
   if (!target) return std::unexpected(target.error());
   struct stat status {};
   if (::stat(target->c_str(), &status) == 0) {
-    if (S_ISDIR(status.st_mode)) return system_error(path, "cannot be written", EISDIR, "name a file");
+    if (S_ISDIR(status.st_mode))
+      return system_error(path, "cannot be written", EISDIR, "name a file");
     if (!S_ISREG(status.st_mode)) return {};
     // Renaming needs no right to the file that goes away, but who protects a file means it.
     if ((status.st_mode & 0222U) == 0 || ::access(target->c_str(), W_OK) != 0) {
@@ -205,7 +215,8 @@ Expected<void> check_writable(const std::filesystem::path& path) {
     }
   }
   if (::access(directory_of(*target).c_str(), W_OK | X_OK) != 0) {
-    return system_error(path, "cannot be written", errno, "check that its directory exists and may be written to");
+    return system_error(path, "cannot be written", errno,
+                        "check that its directory exists and may be written to");
   }
   return {};
 }
@@ -219,7 +230,8 @@ Expected<void> write_file_atomically(const std::filesystem::path& path, std::str
   if (exists && !S_ISREG(status.st_mode)) {
     // A device or pipe (/dev/stdout) cannot be renamed over.
     const Descriptor sink(::open(target->c_str(), O_WRONLY | O_CLOEXEC));
-    if (sink.get() < 0 || !write_all(sink.get(), bytes)) return system_error(path, "cannot be written", errno);
+    if (sink.get() < 0 || !write_all(sink.get(), bytes))
+      return system_error(path, "cannot be written", errno);
     return {};
   }
   const auto directory = directory_of(*target);
@@ -227,7 +239,8 @@ Expected<void> write_file_atomically(const std::filesystem::path& path, std::str
   std::string temporary;
   const Descriptor file(open_temporary(directory, temporary));
   if (file.get() < 0) return system_error(path, "cannot be written", errno);
-  if (!write_all(file.get(), bytes) || ::fchmod(file.get(), exists ? status.st_mode & 07777U : new_file_mode()) != 0 ||
+  if (!write_all(file.get(), bytes) ||
+      ::fchmod(file.get(), exists ? status.st_mode & 07777U : new_file_mode()) != 0 ||
       ::fsync(file.get()) != 0 || ::rename(temporary.c_str(), target->c_str()) != 0) {
     const int reason = errno;
     ::unlink(temporary.c_str());

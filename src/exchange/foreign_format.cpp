@@ -15,25 +15,32 @@ constexpr std::size_t head_size = 4096;  // bytes that are looked at
 
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
 
-bool is_text_stl(std::string_view head) { return head.starts_with("solid") && head.find("facet normal") != head.npos; }
+bool is_text_stl(std::string_view head) {
+  return head.starts_with("solid") && head.find("facet normal") != head.npos;
+}
 
 /// 80 bytes, the number of triangles, and 50 bytes for each.
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < 84) return false;
   std::uint64_t count = 0;
-  for (std::size_t k = 0; k < 4; ++k) count += std::uint64_t{static_cast<unsigned char>(bytes[80 + k])} << (8 * k);
+  for (std::size_t k = 0; k < 4; ++k)
+    count += std::uint64_t{static_cast<unsigned char>(bytes[80 + k])} << (8 * k);
   return count > 0 && bytes.size() == 84 + 50 * count;
 }
 
 /// Scripts and documents of Knead; the latter have a name or a source.
-bool is_script(std::string_view head) { return head.starts_with("{") && head.find("\"knead\"") != head.npos; }
+bool is_script(std::string_view head) {
+  return head.starts_with("{") && head.find("\"knead\"") != head.npos;
+}
 bool is_document(std::string_view head) {
-  return is_script(head) && (head.find("\"name\"") != head.npos || head.find("\"source\"") != head.npos);
+  return is_script(head) &&
+         (head.find("\"name\"") != head.npos || head.find("\"source\"") != head.npos);
 }
 
 bool is_gltf(std::string_view head) {
   return head.starts_with("glTF") ||
-         (head.starts_with("{") && head.find("\"asset\"") != head.npos && head.find("\"version\"") != head.npos);
+         (head.starts_with("{") && head.find("\"asset\"") != head.npos &&
+          head.find("\"version\"") != head.npos);
 }
 
 /// IGES 5.3, § 2.2.4.2.
@@ -53,10 +60,12 @@ struct Known {
 // Those whose beginning decides come first.
 constexpr Known cad_formats[] = {
     {"an IGES file", is_iges_head},
-    {"a Rhino file (.3dm)", [](std::string_view head) { return head.starts_with("3D Geometry File Format"); }},
+    {"a Rhino file (.3dm)",
+     [](std::string_view head) { return head.starts_with("3D Geometry File Format"); }},
     {"an Open CASCADE file (.brep)",
      [](std::string_view head) {
-       return head.starts_with("DBRep_DrawableShape") || head.find("CASCADE Topology V") != head.npos ||
+       return head.starts_with("DBRep_DrawableShape") ||
+              head.find("CASCADE Topology V") != head.npos ||
               head.find("Open CASCADE Topology") != head.npos;
      }},
     {"a Parasolid file",
@@ -64,17 +73,23 @@ constexpr Known cad_formats[] = {
        return head.starts_with("**ABCDEFGHIJKLMNOPQRSTUVWXYZ") || head.starts_with("PS\0\0"sv) ||
               head.find("SCH_SCHEMA") != head.npos || head.find("TRANSMIT FILE") != head.npos;
      }},
-    {"a CATIA file", [](std::string_view head) { return head.starts_with("V5_CFV2") || head.starts_with("V4_CFV2"); }},
+    {"a CATIA file",
+     [](std::string_view head) {
+       return head.starts_with("V5_CFV2") || head.starts_with("V4_CFV2");
+     }},
     {"a SolidWorks file, or another one in OLE format",
      [](std::string_view head) { return head.starts_with("\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"); }},
     {"a STEP file in XML",
-     [](std::string_view head) { return head.starts_with("<?xml") && head.find("10303") != head.npos; }},
+     [](std::string_view head) {
+       return head.starts_with("<?xml") && head.find("10303") != head.npos;
+     }},
 };
 
 constexpr Known mesh_formats[] = {
     {"an STL file", is_text_stl},
     {"a glTF file", is_gltf},
-    {"a PLY file", [](std::string_view head) { return head.starts_with("ply\n") || head.starts_with("ply\r"); }},
+    {"a PLY file",
+     [](std::string_view head) { return head.starts_with("ply\n") || head.starts_with("ply\r"); }},
 };
 
 constexpr Known packed_formats[] = {
@@ -90,10 +105,12 @@ std::optional<Error> foreign_format(std::string_view bytes) {
   const auto error = [](std::string what, std::string remedy) {
     return Error{ErrorKind::input, std::move(what), {}, std::move(remedy)};
   };
-  if (bytes.empty()) return error("not a STEP file: it is empty", "export the model again, as a STEP file");
+  if (bytes.empty())
+    return error("not a STEP file: it is empty", "export the model again, as a STEP file");
   std::string_view head = bytes.substr(0, head_size);
   if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
-    return error("not a STEP file: its text is UTF-16", "save it as plain text, one byte per character");
+    return error("not a STEP file: its text is UTF-16",
+                 "save it as plain text, one byte per character");
   }
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   for (const Known& format : cad_formats) {
@@ -102,20 +119,23 @@ std::optional<Error> foreign_format(std::string_view bytes) {
                  "open it in the program that wrote it, and export it as STEP (AP214 or AP242)");
   }
   if (is_script(head)) {
-    return is_document(head)
-               ? error("not a STEP file but a Knead document",
-                       "open it in the studio, and save the CAD file there; `knead info` lists its content")
-               : error("not a STEP file but a script", "name the CAD file, and the script with --script");
+    return is_document(head) ? error("not a STEP file but a Knead document",
+                                     "open it in the studio, and save the CAD file there; `knead "
+                                     "info` lists its content")
+                             : error("not a STEP file but a script",
+                                     "name the CAD file, and the script with --script");
   }
   const bool binary_stl = is_binary_stl(bytes);
   for (const Known& format : mesh_formats) {
     if (!format.recognised(head) && !(binary_stl && format.recognised == is_text_stl)) continue;
-    return error(fmt::format("not a STEP file but {}, a mesh without B-spline surfaces", format.name),
-                 "export the model that it was made of as STEP");
+    return error(
+        fmt::format("not a STEP file but {}, a mesh without B-spline surfaces", format.name),
+        "export the model that it was made of as STEP");
   }
   for (const Known& format : packed_formats) {
     if (format.recognised(head)) {
-      return error(fmt::format("not a STEP file but {}", format.name), "unpack it, and open the STEP file in it");
+      return error(fmt::format("not a STEP file but {}", format.name),
+                   "unpack it, and open the STEP file in it");
     }
   }
   return std::nullopt;

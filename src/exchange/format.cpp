@@ -66,18 +66,20 @@ std::string list_of_endings(FormatContent content, bool opened) {
 }
 
 Expected<const Format*> format_of_name(std::string_view file_name, FormatContent content) {
-  const std::string plain = content == FormatContent::surfaces ? uncompressed_name(file_name) : std::string(file_name);
+  const std::string plain =
+      content == FormatContent::surfaces ? uncompressed_name(file_name) : std::string(file_name);
   for (const Format& format : formats()) {
     if (format.content == content && has_ending(format, plain)) return &format;
   }
-  return input_error(
-      fmt::format("\"{}\" is not a {} file", file_name, content == FormatContent::triangles ? "mesh" : "CAD"), {},
-      "use a name that ends in " + list_of_endings(content));
+  return input_error(fmt::format("\"{}\" is not a {} file", file_name,
+                                 content == FormatContent::triangles ? "mesh" : "CAD"),
+                     {}, "use a name that ends in " + list_of_endings(content));
 }
 
 std::unexpected<Error> detail::nothing_to_write() {
-  return input_error("there is no surface to write", {},
-                     "make one with the command `new`, or begin with a file that has B-spline surfaces");
+  return input_error(
+      "there is no surface to write", {},
+      "make one with the command `new`, or begin with a file that has B-spline surfaces");
 }
 
 const std::vector<SourceCurve>& Source::curves() const {
@@ -89,11 +91,13 @@ Expected<void> Source::can_move_edge(const std::string& id) const {
   return input_error("only edges of faces can follow", id);
 }
 
-Expected<std::shared_ptr<const Source>> Source::with_splines(std::span<const std::string> /*surfaces*/) const {
+Expected<std::shared_ptr<const Source>> Source::with_splines(
+    std::span<const std::string> /*surfaces*/) const {
   return input_error("only faces of a STEP file can be converted", name());
 }
 
-Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::string name, const OpenOptions& options) {
+Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::string name,
+                                                    const OpenOptions& options) {
   if (compression_of(bytes) != Compression::none) {
     return detail::open_compressed(std::move(bytes), std::move(name), options);
   }
@@ -105,23 +109,26 @@ Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::stri
     if (chosen == nullptr && format.recognises(bytes)) chosen = &format;
   }
   for (const Format& format : formats()) {
-    if (chosen == nullptr && format.open != nullptr && has_ending(format, uncompressed_name(name))) chosen = &format;
+    if (chosen == nullptr && format.open != nullptr && has_ending(format, uncompressed_name(name)))
+      chosen = &format;
   }
   if (chosen != nullptr) return chosen->open(std::move(bytes), std::move(name));
-  Error error = detail::foreign_format(bytes).value_or(
-      Error{ErrorKind::input, "the format of this file is not known", {}, "open " + alternatives(known)});
+  Error error = detail::foreign_format(bytes).value_or(Error{
+      ErrorKind::input, "the format of this file is not known", {}, "open " + alternatives(known)});
   error.file = std::move(name);
   return std::unexpected(std::move(error));
 }
 
 std::string format_table() {
-  std::string text = "| format | endings | opened | written | a file holds |\n|---|---|---|---|---|\n";
+  std::string text =
+      "| format | endings | opened | written | a file holds |\n|---|---|---|---|---|\n";
   for (const Format& format : formats()) {
     std::string endings;
     for (const std::string_view ending : format.endings)
       endings += (endings.empty() ? "`" : ", `") + std::string(ending) + "`";
-    text += fmt::format("| {} | {} | {} | {} | {} |\n", format.name, endings, format.open != nullptr ? "yes" : "no",
-                        format.save != nullptr || format.save_meshes != nullptr ? "yes" : "no", format.holds);
+    text += fmt::format(
+        "| {} | {} | {} | {} | {} |\n", format.name, endings, format.open != nullptr ? "yes" : "no",
+        format.save != nullptr || format.save_meshes != nullptr ? "yes" : "no", format.holds);
   }
   return text;
 }
@@ -129,13 +136,14 @@ std::string format_table() {
 std::string format_json() {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Format& format : formats()) {
-    list.push_back({{"id", format.id},
-                    {"name", format.name},
-                    {"endings", std::vector<std::string>(format.endings.begin(), format.endings.end())},
-                    {"media_type", format.media_type},
-                    {"content", format.content == FormatContent::surfaces ? "surfaces" : "triangles"},
-                    {"holds", format.holds},
-                    {"opens", format.open != nullptr}});
+    list.push_back(
+        {{"id", format.id},
+         {"name", format.name},
+         {"endings", std::vector<std::string>(format.endings.begin(), format.endings.end())},
+         {"media_type", format.media_type},
+         {"content", format.content == FormatContent::surfaces ? "surfaces" : "triangles"},
+         {"holds", format.holds},
+         {"opens", format.open != nullptr}});
   }
   return list.dump();
 }
@@ -151,7 +159,8 @@ Expected<std::string> save_surfaces(std::span<const NamedSurface> surfaces, cons
   return save_meshes(*meshes, format, options);
 }
 
-Expected<std::string> save_meshes(std::span<const NamedMesh> meshes, const Format& format, const SaveOptions& options) {
+Expected<std::string> save_meshes(std::span<const NamedMesh> meshes, const Format& format,
+                                  const SaveOptions& options) {
   if (format.save_meshes == nullptr) {
     return input_error(fmt::format("{} does not hold triangles", format.name), {},
                        "use " + list_of_endings(FormatContent::triangles));

@@ -21,8 +21,8 @@ namespace knead::detail {
 /// The error of writing no surface and no curve.
 [[nodiscard]] std::unexpected<Error> nothing_to_write();
 
-inline constexpr Format (*format_list[])() = {step_format,  iges_format,    brep_format, g2_format,
-                                              gismo_format, geopdes_format, net_format,  json_net_format,
-                                              stl_format,   obj_format,     ply_format,  gltf_format};
+inline constexpr Format (*format_list[])() = {
+    step_format, iges_format,     brep_format, g2_format,  gismo_format, geopdes_format,
+    net_format,  json_net_format, stl_format,  obj_format, ply_format,   gltf_format};
 
 }  // namespace knead::detail

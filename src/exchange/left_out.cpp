@@ -25,7 +25,8 @@ void append(std::vector<LeftOut>& to, std::vector<LeftOut> more) {
 
 void add_unreadable(const Source& source, LeftOutList& list) {
   for (const brep::UnreadableSurface& s : source.unreadable()) {
-    list.add({"surface that cannot be sculpted", "surfaces that cannot be sculpted", s.reason.what, s.reason.remedy},
+    list.add({"surface that cannot be sculpted", "surfaces that cannot be sculpted", s.reason.what,
+              s.reason.remedy},
              s.id, 1, s.reason.line);
   }
 }
@@ -40,12 +41,14 @@ std::vector<SkippedFace> illegible_faces(const brep::Model& model) {
   brep::FaceTessellator coarse(model, {rough});
   std::vector<SkippedFace> result = model.tessellated.skipped;
   for (const brep::Face& face : model.faces) {
-    if (auto read = coarse.legible(face); !read) result.push_back({face.id, std::move(read.error())});
+    if (auto read = coarse.legible(face); !read)
+      result.push_back({face.id, std::move(read.error())});
   }
   return result;
 }
 
-/// Narrow faces have edges that cross where chords are long: what fails is tried once more with short ones.
+/// Narrow faces have edges that cross where chords are long: what fails is tried once more with
+/// short ones.
 std::vector<SkippedFace> failing_faces(const brep::Model& model) {
   brep::FaceTessellator coarse(model, {rough});
   std::vector<const brep::Face*> failed;
@@ -56,7 +59,8 @@ std::vector<SkippedFace> failing_faces(const brep::Model& model) {
   if (failed.empty()) return result;
   brep::FaceTessellator close(model, {fine});
   for (const brep::Face* face : failed) {
-    if (auto done = draw(close, *face); !done) result.push_back({face->id, std::move(done.error())});
+    if (auto done = draw(close, *face); !done)
+      result.push_back({face->id, std::move(done.error())});
   }
   return result;
 }
@@ -73,7 +77,8 @@ class FailedFaces {
   }
 
   void add(const std::string& id, const Error& reason) {
-    constexpr std::string_view one = "face that cannot be drawn", many = "faces that cannot be drawn";
+    constexpr std::string_view one = "face that cannot be drawn",
+                               many = "faces that cannot be drawn";
     if (unreadable_.contains(id)) return;
     if (on_unreadable_.contains(id))
       list_.add({one, many, "its surface cannot be read"}, id);
@@ -92,8 +97,9 @@ void add_places(const brep::Model& model, LeftOutList& list) {
     if (part.surfaces.empty() && part.curves.empty()) continue;
     const bool moved = part.places.size() != 1 || !part.places[0].to_model.matrix().isIdentity(0);
     if (moved)
-      list.add({"place of a part", "places of parts", "every part is written once, in its own coordinates"}, {},
-               part.places.size());
+      list.add({"place of a part", "places of parts",
+                "every part is written once, in its own coordinates"},
+               {}, part.places.size());
   }
 }
 
@@ -107,9 +113,10 @@ std::string sentence(const LeftOut& left) {
   std::string ids;
   for (const std::string& id : left.ids) ids += (ids.empty() ? "" : ", ") + id;
   if (!ids.empty() && left.count > left.ids.size()) ids += ", …";
-  if (!ids.empty() && left.line > 0) ids += fmt::format("; {} {}", left.count == 1 ? "line" : "from line", left.line);
-  std::string text =
-      fmt::format("{} {}{}: {}", left.count, left.what(), ids.empty() ? "" : " (" + ids + ")", left.reason);
+  if (!ids.empty() && left.line > 0)
+    ids += fmt::format("; {} {}", left.count == 1 ? "line" : "from line", left.line);
+  std::string text = fmt::format("{} {}{}: {}", left.count, left.what(),
+                                 ids.empty() ? "" : " (" + ids + ")", left.reason);
   if (!left.remedy.empty()) text += "; " + left.remedy;
   return printable(text, 2000);
 }
@@ -124,7 +131,8 @@ std::vector<LeftOut> left_out_of_faces(const Source& source) {
   return left_out_of_picture(source, model ? failing_faces(*model) : std::vector<SkippedFace>());
 }
 
-std::vector<LeftOut> left_out_of_picture(const Source& source, std::span<const SkippedFace> skipped) {
+std::vector<LeftOut> left_out_of_picture(const Source& source,
+                                         std::span<const SkippedFace> skipped) {
   LeftOutList list;
   add_unreadable(source, list);
   if (const auto model = source.model()) {
@@ -150,16 +158,20 @@ std::vector<LeftOut> left_out_of_surfaces(const Source& source, const Format& fo
   if (const auto model = source.model()) {
     if (format.content == FormatContent::surfaces) {
       for (const brep::SplineSurface& s : model->surfaces) {
-        if (s.trimmed) list.add({"surface's trims", "surfaces' trims", "surfaces are written whole"}, s.id);
+        if (s.trimmed)
+          list.add({"surface's trims", "surfaces' trims", "surfaces are written whole"}, s.id);
       }
     }
     for (const brep::OtherSurface& s : brep::other_surfaces(*model)) {
-      list.add({"surface of another form", "surfaces of other forms", "only B-spline surfaces are written",
+      list.add({"surface of another form", "surfaces of other forms",
+                "only B-spline surfaces are written",
                 source.format() == "STEP" ? "make them B-splines with the command `convert`" : ""},
                s.id);
     }
-    constexpr LeftOutKind tessellated = {"tessellated item", "tessellated items", "only B-spline surfaces are written"};
-    for (const brep::TessellatedItem& item : model->tessellated.items) list.add(tessellated, item.mesh.id);
+    constexpr LeftOutKind tessellated = {"tessellated item", "tessellated items",
+                                         "only B-spline surfaces are written"};
+    for (const brep::TessellatedItem& item : model->tessellated.items)
+      list.add(tessellated, item.mesh.id);
     for (const SkippedFace& item : model->tessellated.skipped) list.add(tessellated, item.id);
     add_places(*model, list);
   }

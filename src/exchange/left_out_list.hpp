@@ -19,7 +19,8 @@ struct LeftOutKind {
 class LeftOutList {
  public:
   void add(const LeftOutKind& kind, std::string id = {}, std::size_t count = 1, int line = 0) {
-    const auto [at, fresh] = places_.try_emplace({std::string(kind.many), std::string(kind.reason)}, list_.size());
+    const auto [at, fresh] =
+        places_.try_emplace({std::string(kind.many), std::string(kind.reason)}, list_.size());
     if (fresh) {
       list_.push_back({std::string(kind.one),
                        std::string(kind.many),

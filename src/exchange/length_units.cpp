@@ -9,19 +9,21 @@
 namespace knead {
 namespace {
 
-// Prefixes: ISO 10303-41, si_prefix. Flags and names: IGES 5.3, section 2.2.4.3, parameters 14 and 15.
-constexpr std::array<KnownLengthUnit, 12> units = {{{"mm", 1, ".MILLI.", {}, "MM", 2},
-                                                    {"um", 1e-3, ".MICRO.", {}, "UM", 9},
-                                                    {"cm", 10, ".CENTI.", {}, "CM", 10},
-                                                    {"dm", 100, ".DECI."},
-                                                    {"m", 1000, "$", {}, "M", 6},
-                                                    {"km", 1e6, ".KILO.", {}, "KM", 7},
-                                                    {"inch", 25.4, {}, "INCH", "IN", 1},
-                                                    {"foot", 304.8, {}, "FOOT", "FT", 4},
-                                                    {"yard", 914.4, {}, "YARD"},
-                                                    {"mile", 1609344, {}, "MILE", "MI", 5},
-                                                    {"mil", 0.0254, {}, "MIL", "MIL", 8},
-                                                    {"microinch", 2.54e-5, {}, "MICROINCH", "UIN", 11}}};
+// Prefixes: ISO 10303-41, si_prefix. Flags and names: IGES 5.3, section 2.2.4.3, parameters 14
+// and 15.
+constexpr std::array<KnownLengthUnit, 12> units = {
+    {{"mm", 1, ".MILLI.", {}, "MM", 2},
+     {"um", 1e-3, ".MICRO.", {}, "UM", 9},
+     {"cm", 10, ".CENTI.", {}, "CM", 10},
+     {"dm", 100, ".DECI."},
+     {"m", 1000, "$", {}, "M", 6},
+     {"km", 1e6, ".KILO.", {}, "KM", 7},
+     {"inch", 25.4, {}, "INCH", "IN", 1},
+     {"foot", 304.8, {}, "FOOT", "FT", 4},
+     {"yard", 914.4, {}, "YARD"},
+     {"mile", 1609344, {}, "MILE", "MI", 5},
+     {"mil", 0.0254, {}, "MIL", "MIL", 8},
+     {"microinch", 2.54e-5, {}, "MICROINCH", "UIN", 11}}};
 
 }  // namespace
 

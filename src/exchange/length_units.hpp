@@ -10,7 +10,8 @@ namespace knead {
 struct KnownLengthUnit {
   std::string_view name;  ///< in all reports and options: "mm", "inch", …
   double millimetres = 0;
-  std::string_view si_prefix = {};  ///< of the metre in STEP; empty: a CONVERSION_BASED_UNIT of so many millimetres
+  /// Of the metre in STEP; empty: a CONVERSION_BASED_UNIT of so many millimetres.
+  std::string_view si_prefix = {};
   std::string_view step_name = {};  ///< of that
   std::string_view iges_name = {};  ///< of the global section; empty: IGES does not know the unit
   int iges_flag = 0;
@@ -22,8 +23,8 @@ struct KnownLengthUnit {
 /// The unit of this name; null: there is none.
 [[nodiscard]] const KnownLengthUnit* length_unit_named(std::string_view name);
 
-/// The unit of this length, to 1e-9 of it, which tells the foot (0.3048 m) from the survey foot (1200/3937 m); null:
-/// there is none.
+/// The unit of this length, to 1e-9 of it, which tells the foot (0.3048 m) from the survey foot
+/// (1200/3937 m); null: there is none.
 [[nodiscard]] const KnownLengthUnit* length_unit_of(double millimetres);
 
 /// "um, mm, …, inch or foot": those that `usable` accepts, for remedies.

@@ -12,11 +12,15 @@
 namespace knead {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written as they lie in memory");
 
-/// A header whose length with the ten bytes before it is a multiple of 64 (NumPy's NEP 1), and the numbers.
-std::string npy_of(std::string_view type, const std::string& shape, const void* data, std::size_t bytes) {
-  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, shape);
+/// A header whose length with the ten bytes before it is a multiple of 64 (NumPy's NEP 1), and the
+/// numbers.
+std::string npy_of(std::string_view type, const std::string& shape, const void* data,
+                   std::size_t bytes) {
+  std::string header =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, shape);
   header.append(63 - (10 + header.size()) % 64, ' ').push_back('\n');
   std::string result("\x93NUMPY\x01\x00", 8);
   result.push_back(static_cast<char>(header.size() & 0xFF));
@@ -37,13 +41,15 @@ std::uint32_t crc_32(std::string_view bytes) {
     std::array<std::uint32_t, 256> made{};
     for (std::uint32_t k = 0; k < 256; ++k) {
       std::uint32_t value = k;
-      for (int bit = 0; bit < 8; ++bit) value = (value >> 1) ^ ((value & 1U) != 0 ? 0xEDB88320U : 0U);
+      for (int bit = 0; bit < 8; ++bit)
+        value = (value >> 1) ^ ((value & 1U) != 0 ? 0xEDB88320U : 0U);
       made[k] = value;
     }
     return made;
   }();
   std::uint32_t crc = 0xFFFFFFFFU;
-  for (const char c : bytes) crc = table[(crc ^ static_cast<unsigned char>(c)) & 0xFFU] ^ (crc >> 8);
+  for (const char c : bytes)
+    crc = table[(crc ^ static_cast<unsigned char>(c)) & 0xFFU] ^ (crc >> 8);
   return ~crc;
 }
 
@@ -104,17 +110,19 @@ std::string matrix_market(const Eigen::SparseMatrix<double>& matrix, bool symmet
   for (int column = 0; column < matrix.outerSize(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator at(matrix, column); at; ++at) {
       if (symmetric && at.row() < column) continue;
-      fmt::format_to(std::back_inserter(entries), "{} {} {:.17g}\n", at.row() + 1, column + 1, at.value());
+      fmt::format_to(std::back_inserter(entries), "{} {} {:.17g}\n", at.row() + 1, column + 1,
+                     at.value());
       ++count;
     }
   }
-  return fmt::format("%%MatrixMarket matrix coordinate real {}\n{} {} {}\n", symmetric ? "symmetric" : "general",
-                     matrix.rows(), matrix.cols(), count) +
+  return fmt::format("%%MatrixMarket matrix coordinate real {}\n{} {} {}\n",
+                     symmetric ? "symmetric" : "general", matrix.rows(), matrix.cols(), count) +
          entries;
 }
 
 std::string npy(
-    const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>& matrix) {
+    const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>&
+        matrix) {
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> whole = matrix;
   return npy_of("<f8", fmt::format("({}, {})", whole.rows(), whole.cols()), whole.data(),
                 static_cast<std::size_t>(whole.size()) * sizeof(double));
@@ -127,12 +135,14 @@ Expected<std::string> npz(const Eigen::SparseMatrix<double>& matrix) {
   own.makeCompressed();
   const auto entries = static_cast<std::size_t>(own.nonZeros());
   if (12.0 * static_cast<double>(entries) + 4.0 * static_cast<double>(own.cols()) > 4e9) {
-    return input_error("the matrix has more entries than an archive of 4 GB holds", {}, "write Matrix Market alone");
+    return input_error("the matrix has more entries than an archive of 4 GB holds", {},
+                       "write Matrix Market alone");
   }
   const std::array<std::int64_t, 2> shape = {own.rows(), own.cols()};
   StoredZip zip;
   zip.add("indices.npy", npy_list<int>("<i4", {own.innerIndexPtr(), entries}));
-  zip.add("indptr.npy", npy_list<int>("<i4", {own.outerIndexPtr(), static_cast<std::size_t>(own.cols()) + 1}));
+  zip.add("indptr.npy",
+          npy_list<int>("<i4", {own.outerIndexPtr(), static_cast<std::size_t>(own.cols()) + 1}));
   zip.add("format.npy", npy_of("|S3", "()", "csc", 3));
   zip.add("shape.npy", npy_list<std::int64_t>("<i8", shape));
   zip.add("data.npy", npy_list<double>("<f8", {own.valuePtr(), entries}));

@@ -33,9 +33,11 @@ int along(const Curve& a, const Curve& b, double tolerance) {
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t j = back ? n - 1 - k : k;
       const auto p = a.control_points().row(static_cast<Eigen::Index>(k));
-      if ((p - b.control_points().row(static_cast<Eigen::Index>(j))).norm() > tolerance) return false;
+      if ((p - b.control_points().row(static_cast<Eigen::Index>(j))).norm() > tolerance)
+        return false;
       if (!a.rational()) continue;
-      const double w = a.weights()[k] / a.weights()[0], other = b.weights()[j] / b.weights()[back ? n - 1 : 0];
+      const double w = a.weights()[k] / a.weights()[0],
+                   other = b.weights()[j] / b.weights()[back ? n - 1 : 0];
       if (std::abs(w - other) > same_ratio * std::abs(w)) return false;
     }
     return true;
@@ -62,7 +64,8 @@ class Builder {
   Expected<void> add(const Surface& surface) {
     NaturalFace face;
     // Counterclockwise: v at its start along u, u at its end along v, and back.
-    for (const auto& [direction, end, forward] : {std::tuple(1, 0, true), {0, 1, true}, {1, 1, false}, {0, 0, false}}) {
+    for (const auto& [direction, end, forward] :
+         {std::tuple(1, 0, true), {0, 1, true}, {1, 1, false}, {0, 0, false}}) {
       auto side = brep::boundary_curve(surface, direction, end);
       if (!side) return std::unexpected(std::move(side.error()));
       if (is_point(*side, tolerance_)) continue;
@@ -74,7 +77,8 @@ class Builder {
     if (face.loop.empty())
       return input_error("all its sides are points: it has no face", {},
                          "leave it out, or write surfaces without faces");
-    for (const auto& use : face.loop) users_[use.edge].push_back(static_cast<int>(result_.faces.size()));
+    for (const auto& use : face.loop)
+      users_[use.edge].push_back(static_cast<int>(result_.faces.size()));
     result_.faces.push_back(std::move(face));
     return {};
   }
@@ -113,7 +117,8 @@ class Builder {
           if (other == own) continue;
           if (!known[static_cast<std::size_t>(other)]) {
             known[static_cast<std::size_t>(other)] = true;
-            result_.faces[static_cast<std::size_t>(other)].flipped = forward(other, use.edge) == forward(own, use.edge);
+            result_.faces[static_cast<std::size_t>(other)].flipped =
+                forward(other, use.edge) == forward(own, use.edge);
             next.push(other);
           }
           closed = closed && forward(other, use.edge) != forward(own, use.edge);
@@ -132,7 +137,8 @@ class Builder {
       cell[c] = static_cast<long long>(std::clamp(place, -9e17, 9e17));
     }
     for (long long k = 0; k < 27; ++k) {
-      const auto near = cells_.find({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
+      const auto near =
+          cells_.find({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
       if (near == cells_.end()) continue;
       for (const int v : near->second) {
         if ((result_.vertices[static_cast<std::size_t>(v)] - p).norm() <= tolerance_) return v;
@@ -145,7 +151,8 @@ class Builder {
 
   Expected<NaturalFace::Use> edge_of(Curve side) {
     const Interval domain = side.knots(0).domain();
-    const auto from = evaluate_point<1>(side, {domain.lower}), to = evaluate_point<1>(side, {domain.upper});
+    const auto from = evaluate_point<1>(side, {domain.lower}),
+               to = evaluate_point<1>(side, {domain.upper});
     if (!from || !to) return std::unexpected(!from ? from.error() : to.error());
     const int first = vertex_of(*from), last = vertex_of(*to);
     auto& alike = by_ends_[{std::min(first, last), std::max(first, last)}];
@@ -167,7 +174,7 @@ class Builder {
   std::vector<int> uses_;                                       // of each edge
   std::map<std::array<long long, 3>, std::vector<int>> cells_;  // vertices
   std::map<std::array<int, 2>, std::vector<int>> by_ends_;      // edges by their vertices
-  std::map<int, std::vector<int>> users_;                       // faces of each edge; twice where it is a seam
+  std::map<int, std::vector<int>> users_;  // faces of each edge; twice where it is a seam
 };
 
 }  // namespace

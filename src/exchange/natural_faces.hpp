@@ -33,11 +33,12 @@ struct NaturalFaces {
   [[nodiscard]] int shells() const { return static_cast<int>(closed.size()); }
 };
 
-/// Faces that cover whole surfaces, and share an edge where sides are the same curve: the same degree, number of
-/// control points, knots but for scale and offset, control points to 1e-9 of the largest surface's size, weights but
-/// for a factor, in either direction. An edge has two uses at most; sides that meet become a shell whose faces are
-/// turned the same way where that is possible. A side that is a point, a pole, has no edge. Cost: n log n, but
-/// for sides between the same two vertices. Errors: those of evaluating a side.
+/// Faces that cover whole surfaces, and share an edge where sides are the same curve: the same
+/// degree, number of control points, knots but for scale and offset, control points to 1e-9 of the
+/// largest surface's size, weights but for a factor, in either direction. An edge has two uses at
+/// most; sides that meet become a shell whose faces are turned the same way where that is possible.
+/// A side that is a point, a pole, has no edge. Cost: n log n, but for sides between the same two
+/// vertices. Errors: those of evaluating a side.
 [[nodiscard]] Expected<NaturalFaces> natural_faces(std::span<const Surface* const> surfaces);
 
 }  // namespace knead::detail

@@ -15,8 +15,8 @@ class Analytic {
  public:
   explicit Analytic(const KnotVector& knots)
       : knots_(knots), p_(knots.degree()), extended_(knots.knots().begin(), knots.knots().end()) {
-    // Thesis Thm 5.2 needs knots extended at the end; any will do, and repetitions of the last keep differences
-    // small.
+    // Thesis Thm 5.2 needs knots extended at the end; any will do, and repetitions of the last keep
+    // differences small.
     extended_.insert(extended_.end(), static_cast<std::size_t>(p_ + 2), extended_.back());
   }
 
@@ -34,7 +34,8 @@ class Analytic {
       const double u = knots_[span + 1];
       tabulate_values(span, u);
       jump(span, next);
-      // A knot of multiplicity m leaves derivatives below p − m + 1 continuous: their computed jumps would be noise.
+      // A knot of multiplicity m leaves derivatives below p − m + 1 continuous: their computed
+      // jumps would be noise.
       contribute(span, a, b, next < 0 ? 0 : std::max(0, p_ - knots_.multiplicity(u) + 1), add);
     }
   }
@@ -49,7 +50,8 @@ class Analytic {
         // Functions that begin left of the first one on the span are never needed.
         const int first = span + 1 - q + r;
         if (first < 0) continue;
-        const Real upper = x(span + 1 + r), lower = x(first), quotient = values_[q - 1][r] / (upper - lower);
+        const Real upper = x(span + 1 + r), lower = x(first),
+                   quotient = values_[q - 1][r] / (upper - lower);
         values_[q][r] = saved + (upper - Real(u)) * quotient;
         saved = (Real(u) - lower) * quotient;
       }
@@ -57,8 +59,8 @@ class Analytic {
     }
   }
 
-  /// jump_[r][c] = [N_{first-p+c}^(r)] at the knot between spans `left` and `right` (-1: outside the domain), for
-  /// the functions of the left span, or of the right one where there is no left.
+  /// jump_[r][c] = [N_{first-p+c}^(r)] at the knot between spans `left` and `right` (-1: outside
+  /// the domain), for the functions of the left span, or of the right one where there is no left.
   void jump(int left, int right) {
     SpanValues<Real> side[order_limit];
     int orders[order_limit] = {};
@@ -81,10 +83,11 @@ class Analytic {
     }
   }
 
-  /// integral_[m] = (I^m N_j^(b))(u), m = 1 … highest, u being the point of `tabulate_values(span, u)`.
+  /// integral_[m] = (I^m N_j^(b))(u), m = 1 … highest, u being the point of `tabulate_values(span,
+  /// u)`.
   void integrate(int j, int b, int span, int highest) {
-    // N_j^(b), span by span, as B-splines of degree q = p − b: the usual differences, where a function without support
-    // (which stands for a Dirac) is dropped.
+    // N_j^(b), span by span, as B-splines of degree q = p − b: the usual differences, where a
+    // function without support (which stands for a Dirac) is dropped.
     Real c[2 * order_limit] = {1};
     int q = p_;
     for (int d = 1; d <= b; ++d, --q) {
@@ -93,15 +96,16 @@ class Analytic {
         c[k] = length > Real(0) ? Real(q) * (k > 0 ? c[k] - c[k - 1] : c[k]) / length : Real(0);
       }
     }
-    // Thm 5.2 once per integration: ∫ Σ c_k N_{k,q} = Σ_k (Σ_{i<=k} c_i d(i,q+1)/(q+1)) N_{k,q+1}. Only k <= span
-    // counts at u.
+    // Thm 5.2 once per integration: ∫ Σ c_k N_{k,q} = Σ_k (Σ_{i<=k} c_i d(i,q+1)/(q+1)) N_{k,q+1}.
+    // Only k <= span counts at u.
     for (int m = 1; m <= highest; ++m) {
       ++q;
       Real sum = 0, result = 0;
       for (int k = 0; j + k <= span; ++k) {
         sum += c[k] * (Real(x(j + k + q)) - Real(x(j + k))) / Real(q);
         c[k] = sum;
-        // Functions that end left of the span, such as the first ones of a lowered degree, are zero at u.
+        // Functions that end left of the span, such as the first ones of a lowered degree, are zero
+        // at u.
         if (const int at = q - (span - j - k); at >= 0) result += sum * values_[q][at];
       }
       integral_[m] = result;

@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::size_t cache_line = 8;  // doubles in a cache line
 
-/// Whole lines, one of them to spare, and an odd number of them, so that it is never a power of two above a line.
+/// Whole lines, one of them to spare, and an odd number of them, so that it is never a power of two
+/// above a line.
 std::size_t padded(int size) {
   const std::size_t lines = (static_cast<std::size_t>(size) + cache_line - 1) / cache_line + 1;
   return (lines | 1) * cache_line;
@@ -18,12 +19,14 @@ std::size_t padded(int size) {
 BandMatrix::BandMatrix(int size, int half_bandwidth, BandSymmetry symmetry)
     : size_(size), half_bandwidth_(half_bandwidth), symmetry_(symmetry), stride_(padded(size)) {
   assert(size >= 0 && half_bandwidth >= 0);
-  const int stored = symmetry == BandSymmetry::symmetric ? half_bandwidth + 1 : 2 * half_bandwidth + 1;
+  const int stored =
+      symmetry == BandSymmetry::symmetric ? half_bandwidth + 1 : 2 * half_bandwidth + 1;
   data_.assign(static_cast<std::size_t>(stored) * stride_, 0.0);
 }
 
 bool BandMatrix::all_finite() const {
-  for (int s = symmetry_ == BandSymmetry::symmetric ? 0 : -half_bandwidth_; s <= half_bandwidth_; ++s) {
+  for (int s = symmetry_ == BandSymmetry::symmetric ? 0 : -half_bandwidth_; s <= half_bandwidth_;
+       ++s) {
     if (!std::ranges::all_of(diagonal(s), [](double x) { return std::isfinite(x); })) return false;
   }
   return true;
@@ -48,7 +51,8 @@ Eigen::MatrixXd BandMatrix::multiply(const Eigen::Ref<const Eigen::MatrixXd>& x)
     const Eigen::Map<const Eigen::ArrayXd> weights(entries.data(), length);
     const Eigen::Index row = std::max(0, -s), column = std::max(0, s);
     for (Eigen::Index c = 0; c < x.cols() && length > 0; ++c) {
-      result.col(c).segment(row, length).array() += weights * x.col(c).segment(column, length).array();
+      result.col(c).segment(row, length).array() +=
+          weights * x.col(c).segment(column, length).array();
     }
   }
   return result;
@@ -68,7 +72,8 @@ Eigen::SparseMatrix<double> BandMatrix::sparse() const {
   result.reserve(Eigen::VectorXi::Constant(size_, 2 * half_bandwidth_ + 1));
   for (int j = 0; j < size_; ++j) {
     const int last = std::min(size_ - 1, j + half_bandwidth_);
-    for (int i = std::max(0, j - half_bandwidth_); i <= last; ++i) result.insert(i, j) = (*this)(i, j);
+    for (int i = std::max(0, j - half_bandwidth_); i <= last; ++i)
+      result.insert(i, j) = (*this)(i, j);
   }
   result.makeCompressed();
   return result;

@@ -59,7 +59,8 @@ Polynomial<Real> divide(Polynomial<Real>& rest, const Polynomial<Real>& b) {
 
 /// The coefficients 0 … count − 1 of a polynomial about z.
 template <class Real>
-std::vector<std::complex<Real>> taylor(const Polynomial<Real>& a, std::complex<Real> z, std::size_t count) {
+std::vector<std::complex<Real>> taylor(const Polynomial<Real>& a, std::complex<Real> z,
+                                       std::size_t count) {
   std::vector<std::complex<Real>> work(a.begin(), a.end());
   work.resize(std::max(work.size(), count), Real(0));
   for (std::size_t k = 0; k < count; ++k) {
@@ -98,7 +99,8 @@ std::vector<std::complex<Real>> roots_of(const Polynomial<Real>& a) {
   return z;
 }
 
-/// The polynomials of one span over x in [−1, 1]: numerators of the functions' derivatives and the denominator.
+/// The polynomials of one span over x in [−1, 1]: numerators of the functions' derivatives and the
+/// denominator.
 template <class Real>
 class SpanFractions {
  public:
@@ -118,7 +120,8 @@ class SpanFractions {
       }
     }
     // A leading coefficient that is nothing but rounding would be a root far away.
-    while (w_.size() > 1 && std::abs(w_.back()) <= 64 * std::numeric_limits<Real>::epsilon() * size[w_.size() - 1]) {
+    while (w_.size() > 1 &&
+           std::abs(w_.back()) <= 64 * std::numeric_limits<Real>::epsilon() * size[w_.size() - 1]) {
       w_.pop_back();
     }
     right_ = left_;
@@ -139,7 +142,8 @@ class SpanFractions {
       for (std::size_t j = 0; j < count; ++j) {
         Polynomial<Real> rest = product(left_[i], right_[j]);
         const Polynomial<Real> whole = divide(rest, all);
-        for (std::size_t k = 0; k < whole.size(); k += 2) result[i * count + j] += 2 * whole[k] / Real(k + 1);
+        for (std::size_t k = 0; k < whole.size(); k += 2)
+          result[i * count + j] += 2 * whole[k] / Real(k + 1);
       }
     }
     if (w_.size() > 1) add_fractions(result);
@@ -171,7 +175,8 @@ class SpanFractions {
     for (std::size_t m = 0; m < width; ++m) {
       const Real angle = std::numbers::pi_v<Real> * (Real(m) + Real(0.5)) / Real(width);
       const Real c = std::cos(angle / 2), s = std::sin(angle / 2);
-      detail::span_basis<Real>(*axis.knots, axis.span, axis.lower, axis.upper, c * c, s * s, none, 1, n);
+      detail::span_basis<Real>(*axis.knots, axis.span, axis.lower, axis.upper, c * c, s * s, none,
+                               1, n);
       for (std::size_t k = 0; k < width; ++k) {
         const Real factor = Real(k == 0 ? 1 : 2) / Real(width) * std::cos(Real(k) * angle);
         for (std::size_t r = 0; r < width; ++r) {
@@ -186,7 +191,8 @@ class SpanFractions {
     for (Polynomial<Real>& n : numerators) n = quotient_numerator(n, w_, k);
   }
 
-  /// The terms c/(x − z)^l, l = 1 … m, of every root: c_{m−s} is coefficient s of P(z + y) (W(z + y)/y)^−m.
+  /// The terms c/(x − z)^l, l = 1 … m, of every root: c_{m−s} is coefficient s of P(z + y) (W(z +
+  /// y)/y)^−m.
   void add_fractions(std::vector<Real>& result) const {
     const auto m = static_cast<std::size_t>(power_);
     const std::size_t count = left_.size();
@@ -209,7 +215,8 @@ class SpanFractions {
     }
   }
 
-  static std::vector<Complex> truncated(const std::vector<Complex>& a, const std::vector<Complex>& b) {
+  static std::vector<Complex> truncated(const std::vector<Complex>& a,
+                                        const std::vector<Complex>& b) {
     std::vector<Complex> result(a.size(), Complex(0));
     for (std::size_t i = 0; i < a.size(); ++i) {
       for (std::size_t j = 0; i + j < a.size(); ++j) result[i + j] += a[i] * b[j];
@@ -233,7 +240,8 @@ class SpanFractions {
     return f;
   }
 
-  /// ∫ (x − z)^−l dx over [−1, 1] at [l]: a logarithm, whose imaginary part is an arctangent, and powers.
+  /// ∫ (x − z)^−l dx over [−1, 1] at [l]: a logarithm, whose imaginary part is an arctangent, and
+  /// powers.
   static std::vector<Complex> antiderivatives(Complex z, std::size_t m) {
     const Complex upper = Real(1) / (Real(1) - z), lower = Real(1) / (Real(-1) - z);
     std::vector<Complex> result(m + 1, Complex(0));
@@ -255,9 +263,11 @@ class SpanFractions {
 
 }  // namespace
 
-Expected<ClosedFormGramian> closed_form_rational_gramian(const KnotVector& knots, std::span<const double> weights,
-                                                         int a, int b, double tolerance) {
-  if (const auto good = detail::check_rational(weights, knots.count(), {a, 0}, {b, 0}, tolerance); !good) {
+Expected<ClosedFormGramian> closed_form_rational_gramian(const KnotVector& knots,
+                                                         std::span<const double> weights, int a,
+                                                         int b, double tolerance) {
+  if (const auto good = detail::check_rational(weights, knots.count(), {a, 0}, {b, 0}, tolerance);
+      !good) {
     return std::unexpected(good.error());
   }
   ClosedFormGramian result{BandMatrix(knots.count(), knots.degree(), detail::symmetry_of(a, b))};
@@ -277,12 +287,15 @@ Expected<ClosedFormGramian> closed_form_rational_gramian(const KnotVector& knots
     const bool closed = lost <= allowed;  // false for what is not a number
     ++(closed ? result.closed : result.integrated);
     if (!closed && !rule.integrate(piece, allowed)) return false;
-    if (closed) result.estimated_error = std::max(result.estimated_error, lost * static_cast<double>(functions));
+    if (closed)
+      result.estimated_error =
+          std::max(result.estimated_error, lost * static_cast<double>(functions));
     for (std::size_t i = 0; i < functions; ++i) {
       for (std::size_t j = 0; j < functions; ++j) {
         const int row = elements.rows()[i], column = elements.rows()[j];
         if (a == b && row > column) continue;
-        result.matrix.at(row, column) += closed ? static_cast<double>(fine[i * functions + j]) : rule.sums()(i, j);
+        result.matrix.at(row, column) +=
+            closed ? static_cast<double>(fine[i * functions + j]) : rule.sums()(i, j);
       }
     }
     return true;

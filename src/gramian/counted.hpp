@@ -6,8 +6,8 @@
 
 namespace knead {
 
-/// A double that counts the operations done with it, per thread: templates are run on it to measure their cost.
-/// Comparisons, copies and sign changes are not counted.
+/// A double that counts the operations done with it, per thread: templates are run on it to measure
+/// their cost. Comparisons, copies and sign changes are not counted.
 struct Counted {
   double value;
 
@@ -21,10 +21,18 @@ struct Counted {
     return operations;
   }
 
-  friend Counted operator+(Counted a, Counted b) { return ++count().additions, Counted(a.value + b.value); }
-  friend Counted operator-(Counted a, Counted b) { return ++count().additions, Counted(a.value - b.value); }
-  friend Counted operator*(Counted a, Counted b) { return ++count().multiplications, Counted(a.value * b.value); }
-  friend Counted operator/(Counted a, Counted b) { return ++count().divisions, Counted(a.value / b.value); }
+  friend Counted operator+(Counted a, Counted b) {
+    return ++count().additions, Counted(a.value + b.value);
+  }
+  friend Counted operator-(Counted a, Counted b) {
+    return ++count().additions, Counted(a.value - b.value);
+  }
+  friend Counted operator*(Counted a, Counted b) {
+    return ++count().multiplications, Counted(a.value * b.value);
+  }
+  friend Counted operator/(Counted a, Counted b) {
+    return ++count().divisions, Counted(a.value / b.value);
+  }
   friend Counted operator-(Counted a) { return -a.value; }
   friend Counted root(Counted a) { return ++count().divisions, Counted(std::sqrt(a.value)); }
   Counted& operator+=(Counted b) { return *this = *this + b; }

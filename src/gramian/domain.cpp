@@ -11,13 +11,15 @@ namespace {
 
 using Values = SpanValues<double>[3];
 
-/// The functions on span s and their first two derivatives at t, of which the smaller of t and 1 − t is given.
+/// The functions on span s and their first two derivatives at t, of which the smaller of t and 1 −
+/// t is given.
 ///
-/// In twice the precision: near the end of a support the two terms of a derivative nearly cancel, and their rounding
-/// errors would matter relative to the small remaining integral.
+/// In twice the precision: near the end of a support the two terms of a derivative nearly cancel,
+/// and their rounding errors would matter relative to the small remaining integral.
 void exact_values(const KnotVector& knots, int s, double t, double complement, Values& out) {
   const DoubleDouble one = 1;
-  const DoubleDouble from_left = t < complement ? t : one - complement, from_right = one - from_left;
+  const DoubleDouble from_left = t < complement ? t : one - complement,
+                     from_right = one - from_left;
   const int p = knots.degree(), orders[3] = {0, 1, 2};
   SpanValues<DoubleDouble> values[3];
   span_basis(knots, s, from_left, from_right, orders, 3, values);
@@ -26,7 +28,8 @@ void exact_values(const KnotVector& knots, int s, double t, double complement, V
   }
 }
 
-/// Adds the contribution of span s to the terms of functions whose common support extends beyond the domain.
+/// Adds the contribution of span s to the terms of functions whose common support extends beyond
+/// the domain.
 template <class Cut>
 void add_span(const KnotVector& knots, int s, GramianSet& set, Cut cut) {
   const int p = knots.degree();
@@ -53,8 +56,8 @@ void add_span(const KnotVector& knots, int s, GramianSet& set, Cut cut) {
 
 bool within_kernel_range(const KnotVector& knots) {
   if (knots.degree() > max_kernel_degree) return false;
-  // Repeated knots are split by 2^-300; spans must stay clear of that, and of overflow. Distinct knots differ by at
-  // least their last bit, so only knots next to zero can be too close.
+  // Repeated knots are split by 2^-300; spans must stay clear of that, and of overflow. Distinct
+  // knots differ by at least their last bit, so only knots next to zero can be too close.
   constexpr double smallest = 0x1p-240, largest = 0x1p240, far_from_zero = 0x1p-180;
   const std::span<const double> x = knots.knots();
   if (x.back() - x.front() > largest) return false;
@@ -71,7 +74,9 @@ void cut_to_domain(const KnotVector& knots, GramianSet& set) {
   const Interval domain = knots.domain();
   if (knots.clamped()) return;
   // i <= j share [x_j, x_{i+p+1}].
-  const auto cut = [&](int i, int j) { return knots[j] < domain.lower || knots[i + p + 1] > domain.upper; };
+  const auto cut = [&](int i, int j) {
+    return knots[j] < domain.lower || knots[i + p + 1] > domain.upper;
+  };
   for (int j = 0; j < n; j = j == p - 1 ? std::max(p, n - p) : j + 1) {
     for (int i = std::max(0, j - p); i <= j; ++i) {
       if (!cut(i, j)) continue;

@@ -2,18 +2,21 @@
 
 namespace knead::detail {
 
-/// A number of about 106 bits: the sum of two doubles, the second at most half an ulp of the first. Made of additions,
-/// multiplications and divisions of doubles, none of them fused, so it has the same bits on every machine.
+/// A number of about 106 bits: the sum of two doubles, the second at most half an ulp of the first.
+/// Made of additions, multiplications and divisions of doubles, none of them fused, so it has the
+/// same bits on every machine.
 ///
-/// Sums, products and quotients are right to 2^-100 relative to the result, as long as no intermediate result leaves
-/// the range of doubles: factors below 2^996, products above 2^-960 (below, they lose digits down to those of a
-/// double). Sources: T. J. Dekker (1971) for products; M. Joldes, J.-M. Muller, V. Popescu, Tight and rigorous error
-/// bounds for basic building blocks of double-word arithmetic (2017), for the rest.
+/// Sums, products and quotients are right to 2^-100 relative to the result, as long as no
+/// intermediate result leaves the range of doubles: factors below 2^996, products above 2^-960
+/// (below, they lose digits down to those of a double). Sources: T. J. Dekker (1971) for products;
+/// M. Joldes, J.-M. Muller, V. Popescu, Tight and rigorous error bounds for basic building blocks
+/// of double-word arithmetic (2017), for the rest.
 struct DoubleDouble {
   double high, low;
 
   DoubleDouble() = default;
-  constexpr DoubleDouble(double x) : high(x), low(0) {}  // NOLINT(google-explicit-constructor): every double is one
+  constexpr DoubleDouble(double x)
+      : high(x), low(0) {}  // NOLINT(google-explicit-constructor): every double is one
   constexpr DoubleDouble(double first, double second) : high(first), low(second) {}
   explicit constexpr operator double() const { return high; }
 

@@ -11,7 +11,8 @@ namespace knead::detail {
 
 BandMatrix gauss_gramian(const KnotVector& knots, int a, int b, int points) {
   BandMatrix result(knots.count(), knots.degree(), symmetry_of(a, b));
-  accumulate_gauss<double>(knots, a, b, points, [&](int i, int j, double value) { result.at(i, j) += value; });
+  accumulate_gauss<double>(knots, a, b, points,
+                           [&](int i, int j, double value) { result.at(i, j) += value; });
   return result;
 }
 
@@ -52,13 +53,16 @@ void gauss_gramians(const KnotVector& knots, InstructionSet instructions, Gramia
 void reduced_gauss_gramians(const KnotVector& knots, InstructionSet instructions, GramianSet& set) {
   const int p = knots.degree();
   if (!has_gauss_kernels(knots)) {
-    const auto term = [&](int a, int b) { return gauss_gramian(knots, a, b, sufficient_points(p, a, b)); };
+    const auto term = [&](int a, int b) {
+      return gauss_gramian(knots, a, b, sufficient_points(p, a, b));
+    };
     set = {term(0, 0), term(1, 1), term(2, 2), term(1, 0)};
     return;
   }
   resize(set, knots);
   const KernelCall call(knots, set);
-  kernels_of(instructions).gauss_reduced(call.knots(), p, reduced_gauss_points(p).data(), call.output());
+  kernels_of(instructions)
+      .gauss_reduced(call.knots(), p, reduced_gauss_points(p).data(), call.output());
   cut_to_domain(knots, set);
 }
 

@@ -5,8 +5,8 @@
 
 namespace knead::detail {
 
-/// add(i, j, share) for every span, every point and every pair of functions on the span: the contributions to G^ab_ij
-/// by `points` Gauss points. For a = b only the upper half, i <= j.
+/// add(i, j, share) for every span, every point and every pair of functions on the span: the
+/// contributions to G^ab_ij by `points` Gauss points. For a = b only the upper half, i <= j.
 template <class Real, class Add>
 void accumulate_gauss(const KnotVector& knots, int a, int b, int points, Add add) {
   const int p = knots.degree();

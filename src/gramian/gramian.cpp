@@ -11,8 +11,8 @@
 namespace knead {
 namespace {
 
-constexpr GramianMethod methods[] = {GramianMethod::gauss, GramianMethod::gauss_reduced, GramianMethod::analytic,
-                                     GramianMethod::recurrence};
+constexpr GramianMethod methods[] = {GramianMethod::gauss, GramianMethod::gauss_reduced,
+                                     GramianMethod::analytic, GramianMethod::recurrence};
 
 /// One of 00, 11, 22, 10 and 01.
 bool is_kernel_term(int a, int b) { return (a == b && a <= 2) || a + b == 1; }
@@ -50,8 +50,8 @@ std::string_view name(GramianMethod method) {
 }
 
 GramianMethod used_gramian_method(const KnotVector& knots, int a, int b, GramianMethod wanted) {
-  const bool other =
-      wanted == GramianMethod::recurrence && !(is_kernel_term(a, b) && detail::within_kernel_range(knots));
+  const bool other = wanted == GramianMethod::recurrence &&
+                     !(is_kernel_term(a, b) && detail::within_kernel_range(knots));
   return other ? GramianMethod::gauss : wanted;
 }
 
@@ -67,9 +67,11 @@ Expected<BandMatrix> gramian(const KnotVector& knots, int a, int b, GramianMetho
     case GramianMethod::gauss_reduced:
       return is_kernel_term(a, b) && detail::has_gauss_kernels(knots)
                  ? by_kernel(knots, a, b, method)
-                 : detail::gauss_gramian(knots, a, b, detail::sufficient_points(knots.degree(), a, b));
+                 : detail::gauss_gramian(knots, a, b,
+                                         detail::sufficient_points(knots.degree(), a, b));
     case GramianMethod::gauss:
-      return is_kernel_term(a, b) ? by_kernel(knots, a, b, method) : detail::gauss_gramian(knots, a, b, full);
+      return is_kernel_term(a, b) ? by_kernel(knots, a, b, method)
+                                  : detail::gauss_gramian(knots, a, b, full);
     case GramianMethod::recurrence:
       return by_kernel(knots, a, b, method);
   }
@@ -96,7 +98,8 @@ Expected<GramianSet> gramians(const KnotVector& knots, GramianMethod method) {
   return set;
 }
 
-void recompute_gramians(const KnotVector& knots, GramianMethod method, GramianSet& set, InstructionSet instructions) {
+void recompute_gramians(const KnotVector& knots, GramianMethod method, GramianSet& set,
+                        InstructionSet instructions) {
   switch (method) {
     case GramianMethod::gauss:
       return detail::gauss_gramians(knots, instructions, set);

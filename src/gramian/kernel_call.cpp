@@ -7,7 +7,8 @@ namespace knead::detail {
 KernelCall::KernelCall(const KnotVector& knots, GramianSet& set) {
   const std::span<const double> all = knots.knots();
   const int size = static_cast<int>(all.size());
-  // The tail begins early enough to contain the knots of rows past the last, which kernels sweep too.
+  // The tail begins early enough to contain the knots of rows past the last, which kernels sweep
+  // too.
   knots_.body = all.data();
   knots_.size = size;
   knots_.tail_begin = std::max(0, size - KernelKnots::readable);
@@ -25,7 +26,8 @@ KernelCall::KernelCall(const KnotVector& knots, GramianSet& set) {
 
 void resize(GramianSet& set, const KnotVector& knots) {
   const auto fit = [&](BandMatrix& matrix, BandSymmetry symmetry) {
-    if (matrix.size() != knots.count() || matrix.half_bandwidth() != knots.degree() || matrix.symmetry() != symmetry) {
+    if (matrix.size() != knots.count() || matrix.half_bandwidth() != knots.degree() ||
+        matrix.symmetry() != symmetry) {
       matrix = BandMatrix(knots.count(), knots.degree(), symmetry);
     }
   };

@@ -7,7 +7,8 @@
 
 namespace knead::detail {
 
-/// The knots and the four band matrices as the kernels need them. Valid as long as both arguments exist.
+/// The knots and the four band matrices as the kernels need them. Valid as long as both arguments
+/// exist.
 class KernelCall {
  public:
   KernelCall(const KnotVector& knots, GramianSet& set);
@@ -26,7 +27,8 @@ class KernelCall {
 /// The rules of the reduced Gauss kernels.
 [[nodiscard]] std::array<GaussPoints, 3> reduced_gauss_points(int degree);
 
-/// Matrices of the right size for the four terms; those that already fit are kept, whatever their content.
+/// Matrices of the right size for the four terms; those that already fit are kept, whatever their
+/// content.
 void resize(GramianSet& set, const KnotVector& knots);
 
 }  // namespace knead::detail

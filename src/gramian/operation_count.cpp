@@ -25,7 +25,8 @@ OperationCount count_operations(const KnotVector& knots, GramianMethod method) {
   } else if (method == GramianMethod::gauss_reduced && !detail::has_gauss_kernels(knots)) {
     Counted sum = 0;
     for (const auto& [a, b] : {std::pair{0, 0}, {1, 1}, {2, 2}, {1, 0}}) {
-      detail::accumulate_gauss<Counted>(knots, a, b, detail::sufficient_points(knots.degree(), a, b),
+      detail::accumulate_gauss<Counted>(knots, a, b,
+                                        detail::sufficient_points(knots.degree(), a, b),
                                         [&](int, int, Counted share) { sum += share; });
     }
   } else if (detail::within_kernel_range(knots)) {
@@ -35,11 +36,12 @@ OperationCount count_operations(const KnotVector& knots, GramianMethod method) {
     if (method == GramianMethod::recurrence) {
       detail::isa_counting::kernels.recurrence(call.knots(), knots.degree(), call.output());
     } else if (method == GramianMethod::gauss) {
-      detail::isa_counting::kernels.gauss(call.knots(), knots.degree(), detail::gauss_points(knots.degree() + 1),
-                                          call.output());
+      detail::isa_counting::kernels.gauss(call.knots(), knots.degree(),
+                                          detail::gauss_points(knots.degree() + 1), call.output());
     } else {
-      detail::isa_counting::kernels.gauss_reduced(call.knots(), knots.degree(),
-                                                  detail::reduced_gauss_points(knots.degree()).data(), call.output());
+      detail::isa_counting::kernels.gauss_reduced(
+          call.knots(), knots.degree(), detail::reduced_gauss_points(knots.degree()).data(),
+          call.output());
     }
   }
   return Counted::count();

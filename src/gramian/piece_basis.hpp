@@ -14,7 +14,8 @@ static_assert(max_piece_degree == max_degree);
   return (n + PieceKernels::step - 1) / PieceKernels::step * PieceKernels::step;
 }
 
-/// The Gauss points of a piece, as many as the kernels want: the last ones are repetitions, which nothing reads.
+/// The Gauss points of a piece, as many as the kernels want: the last ones are repetitions, which
+/// nothing reads.
 struct PiecePoints {
   std::vector<double> t, complement, weights;
   std::ptrdiff_t count;  ///< without repetitions
@@ -32,13 +33,18 @@ struct PiecePoints {
   [[nodiscard]] std::ptrdiff_t padded() const { return static_cast<std::ptrdiff_t>(t.size()); }
 };
 
-/// One derivative of the functions of a knot vector at the Gauss points of one piece after the other. Like
-/// `span_basis`, with reciprocals of distances that are made once for all pieces.
+/// One derivative of the functions of a knot vector at the Gauss points of one piece after the
+/// other. Like `span_basis`, with reciprocals of distances that are made once for all pieces.
 class PieceBasis {
  public:
   /// Knots, points and kernels must outlive it.
-  PieceBasis(const KnotVector& knots, int order, const PiecePoints& points, const PieceKernels& kernels)
-      : knots_(knots), points_(points), kernels_(kernels), order_(order), width_(padded_for_pieces(functions())) {
+  PieceBasis(const KnotVector& knots, int order, const PiecePoints& points,
+             const PieceKernels& kernels)
+      : knots_(knots),
+        points_(points),
+        kernels_(kernels),
+        order_(order),
+        width_(padded_for_pieces(functions())) {
     const auto p = static_cast<std::size_t>(knots.degree());
     const std::span<const double> x = knots.knots();
     left_.resize(p + 1);
@@ -64,10 +70,12 @@ class PieceBasis {
       left_[static_cast<std::size_t>(q)] = lower - knots_[span + 1 - q];
       right_[static_cast<std::size_t>(q)] = knots_[span + q] - upper;
     }
-    // Function r of degree q − 1 on the span begins at knot span + 1 − q + r: one less in every row.
+    // Function r of degree q − 1 on the span begins at knot span + 1 − q + r: one less in every
+    // row.
     const auto knots = static_cast<std::ptrdiff_t>(knots_.knots().size());
-    kernels_.basis({left_.data(), right_.data(), reciprocal_.data() + span, knots - 1, upper - lower}, p, order_,
-                   points_.t.data(), points_.complement.data(), points_.padded(), values_.data());
+    kernels_.basis(
+        {left_.data(), right_.data(), reciprocal_.data() + span, knots - 1, upper - lower}, p,
+        order_, points_.t.data(), points_.complement.data(), points_.padded(), values_.data());
   }
 
   [[nodiscard]] int functions() const { return knots_.degree() + 1; }
@@ -77,7 +85,8 @@ class PieceBasis {
   [[nodiscard]] const double* by_points() {
     for (std::ptrdiff_t r = 0; r < functions(); ++r) {
       const double* from = values_.data() + r * points_.padded();
-      for (std::ptrdiff_t g = 0; g < points_.count; ++g) by_points_[static_cast<std::size_t>(g * width_ + r)] = from[g];
+      for (std::ptrdiff_t g = 0; g < points_.count; ++g)
+        by_points_[static_cast<std::size_t>(g * width_ + r)] = from[g];
     }
     return by_points_.data();
   }
@@ -89,7 +98,8 @@ class PieceBasis {
   const PieceKernels& kernels_;
   int order_;
   std::ptrdiff_t width_;
-  std::vector<double> reciprocal_;  ///< of the support of function i of degree q − 1 at [(q − 1) knots + i]
+  std::vector<double>
+      reciprocal_;  ///< of the support of function i of degree q − 1 at [(q − 1) knots + i]
   std::vector<double> left_, right_, values_, by_points_;
 };
 

@@ -9,7 +9,8 @@
 
 namespace knead::detail {
 
-/// The elements of a rational net one after the other: products of spans, cut where breaks lie inside.
+/// The elements of a rational net one after the other: products of spans, cut where breaks lie
+/// inside.
 template <int D>
 class RationalElements {
  public:
@@ -51,8 +52,8 @@ class RationalElements {
     }
   }
 
-  /// Of the element visited: the functions by their place in the net, last direction fastest, by their indices, and
-  /// their weights.
+  /// Of the element visited: the functions by their place in the net, last direction fastest, by
+  /// their indices, and their weights.
   [[nodiscard]] const std::vector<int>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<std::array<int, D>>& indices() const { return indices_; }
   [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
@@ -67,13 +68,15 @@ class RationalElements {
   }
 
  private:
-  static std::vector<RationalAxis> axes_between(const KnotVector& knots, std::vector<double> breaks) {
+  static std::vector<RationalAxis> axes_between(const KnotVector& knots,
+                                                std::vector<double> breaks) {
     std::ranges::sort(breaks);
     std::vector<RationalAxis> result;
     for (const int span : knots.spans()) {
       double lower = knots[span];
       for (auto next = std::ranges::upper_bound(breaks, lower); lower < knots[span + 1]; ++next) {
-        const double upper = next == breaks.end() ? knots[span + 1] : std::min(*next, knots[span + 1]);
+        const double upper =
+            next == breaks.end() ? knots[span + 1] : std::min(*next, knots[span + 1]);
         if (upper > lower) result.emplace_back(knots, span, lower, upper);  // else a repeated break
         lower = upper;
         if (next == breaks.end()) break;

@@ -26,7 +26,8 @@ const std::vector<MultiIndex<D>>& all_orders() {
 constexpr std::size_t longest_line = max_unit_gauss_points;
 static_assert(longest_line % RationalKernels::line_step == 0);
 
-/// The functions of a piece one after the other, last direction fastest: which one it is in every direction.
+/// The functions of a piece one after the other, last direction fastest: which one it is in every
+/// direction.
 template <int D>
 class FunctionCounter {
  public:
@@ -79,8 +80,9 @@ void RationalAxis::values(double t, double complement, SpanValues<double>* out) 
 }
 
 const RationalKernels& rational_kernels(InstructionSet set) {
-  return avx2_rational_kernels != nullptr && set >= InstructionSet::avx2 ? *avx2_rational_kernels
-                                                                         : *vector128_rational_kernels;
+  return avx2_rational_kernels != nullptr && set >= InstructionSet::avx2
+             ? *avx2_rational_kernels
+             : *vector128_rational_kernels;
 }
 
 void RationalPoints::tabulate(const RationalAxis& axis, int n, bool line) {
@@ -110,10 +112,12 @@ RationalAxis RationalAxis::half(int which) const {
 template <int D>
 void RationalPiece<D>::transform(std::size_t d, int order, const double* from, double* to) const {
   std::size_t outer = 1, inner = 1;
-  for (std::size_t e = 0; e < D; ++e) (e < d ? outer : inner) *= static_cast<std::size_t>(axes_[e]->degree() + 1);
+  for (std::size_t e = 0; e < D; ++e)
+    (e < d ? outer : inner) *= static_cast<std::size_t>(axes_[e]->degree() + 1);
   const auto width = static_cast<std::size_t>(axes_[d]->degree() + 1);
   inner /= width;
-  const double* table = axes_[d]->chebyshev.data() + static_cast<std::size_t>(order) * width * width;
+  const double* table =
+      axes_[d]->chebyshev.data() + static_cast<std::size_t>(order) * width * width;
   std::fill_n(to, functions_, 0.0);
   for (std::size_t i = 0; i < outer; ++i) {
     for (std::size_t r = 0; r < width; ++r) {
@@ -155,7 +159,8 @@ double RationalPiece<D>::measure() const {
 
 /// out[(a functions + r) n + g] = w_r Π N^(a_d)_{r_d}, and the sums over r.
 template <int D>
-void RationalPiece<D>::numerators(const RationalLine<D>& line, std::size_t count, double* out, double* sums) const {
+void RationalPiece<D>::numerators(const RationalLine<D>& line, std::size_t count, double* out,
+                                  double* sums) const {
   const auto width = static_cast<std::size_t>(axes_[D - 1]->degree() + 1), n = line.size();
   const RationalKernels& kernels = rational_kernels();
   std::vector<double> factors(functions_);
@@ -167,12 +172,14 @@ void RationalPiece<D>::numerators(const RationalLine<D>& line, std::size_t count
       for (std::size_t d = D - 1; d-- > 0;) {
         const auto m = static_cast<std::size_t>(axes_[d]->degree() + 1);
         const RationalPoints& points = *line.points[d];
-        factor *= points.values[(static_cast<std::size_t>(a[d]) * m + rest % m) * points.size() + line.at[d]];
+        factor *= points.values[(static_cast<std::size_t>(a[d]) * m + rest % m) * points.size() +
+                                line.at[d]];
         rest /= m;
       }
       for (std::size_t s = row; s < row + width; ++s) factors[s] = weights_[s] * factor;
     }
-    const double* last = line.points[D - 1]->values.data() + static_cast<std::size_t>(a[D - 1]) * width * n;
+    const double* last =
+        line.points[D - 1]->values.data() + static_cast<std::size_t>(a[D - 1]) * width * n;
     kernels.numerators(last, factors.data(), to_signed(width), to_signed(functions_), to_signed(n),
                        out + o * functions_ * n, sums + o * n);
   }
@@ -193,7 +200,8 @@ bool RationalPiece<D>::evaluate(const RationalLine<D>& line, std::size_t count, 
     double* to = out + o * functions_ * n;
     for (const auto& term : rule.terms(o)) {
       for (std::size_t g = 0; g < n; ++g) factor[g] = term.factor * w[term.denominator * n + g];
-      kernels.subtract(factor, out + term.rest * functions_ * n, to_signed(functions_), to_signed(n), to);
+      kernels.subtract(factor, out + term.rest * functions_ * n, to_signed(functions_),
+                       to_signed(n), to);
     }
     kernels.scale(inverse, to, to_signed(functions_), to_signed(n), to_signed(n), to);
   }
@@ -201,8 +209,8 @@ bool RationalPiece<D>::evaluate(const RationalLine<D>& line, std::size_t count, 
 }
 
 template <int D>
-void RationalPiece<D>::evaluate_polynomial(const RationalLine<D>& line, double denominator, std::size_t count,
-                                           double* out) const {
+void RationalPiece<D>::evaluate_polynomial(const RationalLine<D>& line, double denominator,
+                                           std::size_t count, double* out) const {
   double w[orders * longest_line];
   numerators(line, count, out, w);
   for (std::size_t k = 0; k < count * functions_ * line.size(); ++k) out[k] /= denominator;
@@ -228,20 +236,24 @@ double RationalPiece<D>::middle_denominator() const {
 
 /// Upper bounds of |∂^a W| and a lower one of |W|.
 ///
-/// By Chebyshev coefficients in all directions; and, of W and its derivatives in the direction of the ellipse, by those
-/// in that direction alone: functions of the others are not negative and sum to one, so that W lies in the convex hull
-/// of what stands with them. The first is sharp on small pieces, the second on whole spans.
+/// By Chebyshev coefficients in all directions; and, of W and its derivatives in the direction of
+/// the ellipse, by those in that direction alone: functions of the others are not negative and sum
+/// to one, so that W lies in the convex hull of what stands with them. The first is sharp on small
+/// pieces, the second on whole spans.
 template <int D>
 std::array<double, RationalPiece<D>::orders> RationalPiece<D>::denominator_bounds(
-    std::size_t direction, std::size_t count, const std::array<SpanValues<double>, D>& growth, double& lowest) const {
+    std::size_t direction, std::size_t count, const std::array<SpanValues<double>, D>& growth,
+    double& lowest) const {
   std::array<double, orders> w{};
   std::size_t inner = 1;
-  for (std::size_t d = direction + 1; d < D; ++d) inner *= static_cast<std::size_t>(axes_[d]->degree() + 1);
+  for (std::size_t d = direction + 1; d < D; ++d)
+    inner *= static_cast<std::size_t>(axes_[d]->degree() + 1);
   FunctionCounter<D> at(axes_);
   for (std::size_t row = 0; row < functions_; ++row, at.next()) {
     double product = 1;
     for (std::size_t d = D; d-- > 0;) product *= growth[d][at[d]];
-    for (std::size_t o = 0; o < count; ++o) w[o] += std::abs(denominator_[o * functions_ + row]) * product;
+    for (std::size_t o = 0; o < count; ++o)
+      w[o] += std::abs(denominator_[o * functions_ + row]) * product;
   }
   // |W| >= the mean coefficient minus all others.
   lowest = 2 * denominator_[0] - w[0];
@@ -249,7 +261,8 @@ std::array<double, RationalPiece<D>::orders> RationalPiece<D>::denominator_bound
   for (int order = 0; order < 3; ++order) {
     double least = std::numeric_limits<double>::infinity(), most = 0;
     // The rows whose function in this direction is the first.
-    for (std::size_t row = 0; row < functions_; row += row % inner + 1 == inner ? (width - 1) * inner + 1 : 1) {
+    for (std::size_t row = 0; row < functions_;
+         row += row % inner + 1 == inner ? (width - 1) * inner + 1 : 1) {
       const double* c = along(direction, order) + row;
       double sum = 0;
       for (std::size_t k = 0; k < width; ++k) sum += std::abs(c[k * inner]) * growth[direction][k];
@@ -266,9 +279,11 @@ std::array<double, RationalPiece<D>::orders> RationalPiece<D>::denominator_bound
 }
 
 template <int D>
-bool RationalPiece<D>::bounds(std::size_t direction, double rho, std::size_t count, double* out) const {
+bool RationalPiece<D>::bounds(std::size_t direction, double rho, std::size_t count,
+                              double* out) const {
   std::array<SpanValues<double>, D> growth;
-  for (std::size_t d = 0; d < D; ++d) fill_growth(d == direction ? rho : 1, axes_[d]->degree(), growth[d]);
+  for (std::size_t d = 0; d < D; ++d)
+    fill_growth(d == direction ? rho : 1, axes_[d]->degree(), growth[d]);
   double lowest = 0;
   const std::array<double, orders> w = denominator_bounds(direction, count, growth, lowest);
   if (!(lowest > 0)) return false;
@@ -309,8 +324,10 @@ double RationalPiece<D>::variation(std::size_t direction) const {
   double sum = 0;
   for (std::size_t row = 0; row < functions_; ++row) {
     std::size_t rest = row;
-    for (std::size_t d = D; d-- > direction + 1;) rest /= static_cast<std::size_t>(axes_[d]->degree() + 1);
-    if (rest % static_cast<std::size_t>(axes_[direction]->degree() + 1) > 0) sum += std::abs(denominator_[row]);
+    for (std::size_t d = D; d-- > direction + 1;)
+      rest /= static_cast<std::size_t>(axes_[d]->degree() + 1);
+    if (rest % static_cast<std::size_t>(axes_[direction]->degree() + 1) > 0)
+      sum += std::abs(denominator_[row]);
   }
   return sum;
 }

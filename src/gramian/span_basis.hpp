@@ -12,13 +12,13 @@ using SpanValues = Real[max_degree + 1];
 
 /// N_{span-p+r}^(d) at u = lower + t (upper − lower), r = 0 … p, for each d of `orders[0 … count)`.
 ///
-/// [lower, upper] is a piece of the span or all of it. Like `basis_derivatives`, but u is given by t and 1 − t inside
-/// the piece and never formed, so that no digits are lost on spans that are short relative to the size of the knots.
-/// Values are sums of non-negative terms; a derivative is d differences of values of degree p − d. Orders above p give
-/// zero.
+/// [lower, upper] is a piece of the span or all of it. Like `basis_derivatives`, but u is given by
+/// t and 1 − t inside the piece and never formed, so that no digits are lost on spans that are
+/// short relative to the size of the knots. Values are sums of non-negative terms; a derivative is
+/// d differences of values of degree p − d. Orders above p give zero.
 template <class Real>
-void span_basis(const KnotVector& knots, int span, double lower, double upper, Real t, Real complement,
-                const int* orders, int count, SpanValues<Real>* out) {
+void span_basis(const KnotVector& knots, int span, double lower, double upper, Real t,
+                Real complement, const int* orders, int count, SpanValues<Real>* out) {
   const int p = knots.degree();
   const Real a = lower, b = upper, h = b - a;
   Real left[max_degree + 2], right[max_degree + 2];
@@ -30,7 +30,8 @@ void span_basis(const KnotVector& knots, int span, double lower, double upper, R
     right[q] = (Real(knots[span + q]) - b) + h * complement;
     Real saved = 0;
     for (int r = 0; r < q; ++r) {
-      const Real quotient = values[q - 1][r] / (Real(knots[span + 1 + r]) - Real(knots[span + 1 - q + r]));
+      const Real quotient =
+          values[q - 1][r] / (Real(knots[span + 1 + r]) - Real(knots[span + 1 - q + r]));
       values[q][r] = saved + right[r + 1] * quotient;
       saved = left[q - r] * quotient;
     }
@@ -44,7 +45,8 @@ void span_basis(const KnotVector& knots, int span, double lower, double upper, R
     for (int q = p - orders[k] + 1; q <= p; ++q) {
       Real before = 0;
       for (int r = 0; r < q; ++r) {
-        const Real quotient = Real(q) * result[r] / (Real(knots[span + 1 + r]) - Real(knots[span + 1 - q + r]));
+        const Real quotient =
+            Real(q) * result[r] / (Real(knots[span + 1 + r]) - Real(knots[span + 1 - q + r]));
         result[r] = before - quotient;
         before = quotient;
       }
@@ -55,8 +57,8 @@ void span_basis(const KnotVector& knots, int span, double lower, double upper, R
 
 /// The same with the whole span as the piece.
 template <class Real>
-void span_basis(const KnotVector& knots, int span, Real t, Real complement, const int* orders, int count,
-                SpanValues<Real>* out) {
+void span_basis(const KnotVector& knots, int span, Real t, Real complement, const int* orders,
+                int count, SpanValues<Real>* out) {
   span_basis(knots, span, knots[span], knots[span + 1], t, complement, orders, count, out);
 }
 

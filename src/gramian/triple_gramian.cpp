@@ -14,14 +14,16 @@ namespace detail {
 Expected<std::vector<Piece>> common_pieces(const KnotVector& first, const KnotVector& second) {
   const Interval a = first.domain(), b = second.domain();
   if (a.lower != b.lower || a.upper != b.upper) {
-    return input_error(fmt::format("the domains [{}, {}] and [{}, {}] differ", a.lower, a.upper, b.lower, b.upper), {},
-                       "give two knot vectors of one domain");
+    return input_error(
+        fmt::format("the domains [{}, {}] and [{}, {}] differ", a.lower, a.upper, b.lower, b.upper),
+        {}, "give two knot vectors of one domain");
   }
   std::vector<Piece> pieces;
   const std::vector<int> first_spans = first.spans(), second_spans = second.spans();
   double lower = a.lower;
   for (std::size_t k = 0, l = 0; k < first_spans.size() && l < second_spans.size();) {
-    const double upper_first = first[first_spans[k] + 1], upper_second = second[second_spans[l] + 1];
+    const double upper_first = first[first_spans[k] + 1],
+                 upper_second = second[second_spans[l] + 1];
     const double upper = std::min(upper_first, upper_second);
     pieces.push_back({lower, upper, first_spans[k], second_spans[l]});
     if (upper_first == upper) ++k;
@@ -32,14 +34,16 @@ Expected<std::vector<Piece>> common_pieces(const KnotVector& first, const KnotVe
 }
 
 const PieceKernels& piece_kernels(InstructionSet set) {
-  return avx2_piece_kernels != nullptr && set >= InstructionSet::avx2 ? *avx2_piece_kernels : *vector128_piece_kernels;
+  return avx2_piece_kernels != nullptr && set >= InstructionSet::avx2 ? *avx2_piece_kernels
+                                                                      : *vector128_piece_kernels;
 }
 
 }  // namespace detail
 
 namespace {
 
-constexpr int max_order = 2 * max_degree;  // above this everything is zero anyway; keeps sums of orders in range
+// Above this everything is zero anyway; keeps sums of orders in range.
+constexpr int max_order = 2 * max_degree;
 
 Expected<int> points_for(int degree, int a, int b) {
   if (a < 0 || b < 0 || a > max_order || b > max_order) {
@@ -85,8 +89,8 @@ BandMatrix TripleGramian::contract(std::span<const double> coefficients) const {
 
 namespace {
 
-/// The content of a triple Gramian while it is made: for each entry of the band of N_i and N_j, row by row, the first
-/// coefficient function and where the values begin.
+/// The content of a triple Gramian while it is made: for each entry of the band of N_i and N_j, row
+/// by row, the first coefficient function and where the values begin.
 struct Runs {
   int size, degree;
   std::vector<int> first = {};
@@ -96,7 +100,8 @@ struct Runs {
   /// The coefficient functions that overlap each pair, with integrals of zero.
   Runs(const KnotVector& knots, int coefficient_degree, const std::vector<detail::Piece>& pieces)
       : size(knots.count()), degree(knots.degree()) {
-    const std::size_t entries = static_cast<std::size_t>(size) * static_cast<std::size_t>(2 * degree + 1);
+    const std::size_t entries =
+        static_cast<std::size_t>(size) * static_cast<std::size_t>(2 * degree + 1);
     std::vector<int> last(entries, -1);
     first.assign(entries, 0);
     for (const detail::Piece& piece : pieces) {
@@ -110,7 +115,8 @@ struct Runs {
     }
     offset.assign(entries + 1, 0);
     for (std::size_t at = 0; at < entries; ++at) {
-      offset[at + 1] = offset[at] + (last[at] < 0 ? 0 : static_cast<std::size_t>(last[at] - first[at] + 1));
+      offset[at + 1] =
+          offset[at] + (last[at] < 0 ? 0 : static_cast<std::size_t>(last[at] - first[at] + 1));
     }
     values.assign(offset.back(), 0.0);
   }
@@ -131,7 +137,8 @@ struct Runs {
     for (int i = 0; i < size; ++i) {
       for (int j = i + 1; j <= std::min(size - 1, i + degree); ++j) {
         const std::size_t at = entry(i, j);
-        std::copy_n(values.data() + offset[at], offset[at + 1] - offset[at], values.data() + offset[entry(j, i)]);
+        std::copy_n(values.data() + offset[at], offset[at + 1] - offset[at],
+                    values.data() + offset[entry(j, i)]);
       }
     }
   }
@@ -139,7 +146,8 @@ struct Runs {
 
 }  // namespace
 
-Expected<TripleGramian> triple_gramian(const KnotVector& coefficient_knots, const KnotVector& knots, int a, int b) {
+Expected<TripleGramian> triple_gramian(const KnotVector& coefficient_knots, const KnotVector& knots,
+                                       int a, int b) {
   const int p = knots.degree(), q = coefficient_knots.degree();
   const Expected<int> count = points_for(2 * p + q, a, b);
   if (!count) return std::unexpected(count.error());
@@ -160,15 +168,17 @@ Expected<TripleGramian> triple_gramian(const KnotVector& coefficient_knots, cons
     f.enter(piece.first_span, piece.lower, piece.upper);
     if (a != b) other.enter(piece.first_span, piece.lower, piece.upper);
     c.enter(piece.second_span, piece.lower, piece.upper);
-    kernels.weigh(piece.upper - piece.lower, points.weights.data(), f.values(), p + 1, n, weighted.data());
+    kernels.weigh(piece.upper - piece.lower, points.weights.data(), f.values(), p + 1, n,
+                  weighted.data());
     kernels.multiply(weighted.data(), g.values(), p + 1, a == b, n, products.data());
     const int first = piece.first_span - p;
     std::size_t pair = 0;
     for (int i = 0; i <= p; ++i) {
-      for (int j = a == b ? i : 0; j <= p; ++j) to[pair++] = runs.value(first + i, first + j, piece.second_span - q);
+      for (int j = a == b ? i : 0; j <= p; ++j)
+        to[pair++] = runs.value(first + i, first + j, piece.second_span - q);
     }
-    kernels.accumulate(products.data(), static_cast<std::ptrdiff_t>(pair), n, points.count, c.by_points(), q + 1,
-                       c.width(), to.data());
+    kernels.accumulate(products.data(), static_cast<std::ptrdiff_t>(pair), n, points.count,
+                       c.by_points(), q + 1, c.width(), to.data());
   }
   if (a == b) runs.mirror();
 
@@ -185,7 +195,8 @@ Expected<TripleGramian> triple_gramian(const KnotVector& coefficient_knots, cons
 
 namespace {
 
-/// A matrix of zeros: in column j the rows whose functions share a piece with it, which follow one another.
+/// A matrix of zeros: in column j the rows whose functions share a piece with it, which follow one
+/// another.
 Eigen::SparseMatrix<double> overlapping(const KnotVector& rows, const KnotVector& columns,
                                         const std::vector<detail::Piece>& pieces) {
   const int p = rows.degree(), q = columns.degree();
@@ -202,7 +213,8 @@ Eigen::SparseMatrix<double> overlapping(const KnotVector& rows, const KnotVector
   for (std::size_t j = 0; j < first.size(); ++j) outer[j + 1] = outer[j] + end[j] - first[j];
   result.resizeNonZeros(outer[first.size()]);
   for (std::size_t j = 0; j < first.size(); ++j) {
-    for (int k = outer[j]; k < outer[j + 1]; ++k) result.innerIndexPtr()[k] = first[j] + k - outer[j];
+    for (int k = outer[j]; k < outer[j + 1]; ++k)
+      result.innerIndexPtr()[k] = first[j] + k - outer[j];
   }
   std::fill_n(result.valuePtr(), result.nonZeros(), 0.0);
   return result;
@@ -210,7 +222,8 @@ Eigen::SparseMatrix<double> overlapping(const KnotVector& rows, const KnotVector
 
 }  // namespace
 
-Expected<Eigen::SparseMatrix<double>> mixed_gramian(const KnotVector& rows, int a, const KnotVector& columns, int b) {
+Expected<Eigen::SparseMatrix<double>> mixed_gramian(const KnotVector& rows, int a,
+                                                    const KnotVector& columns, int b) {
   const int p = rows.degree(), q = columns.degree();
   const Expected<int> count = points_for(p + q, a, b);
   if (!count) return std::unexpected(count.error());
@@ -226,13 +239,16 @@ Expected<Eigen::SparseMatrix<double>> mixed_gramian(const KnotVector& rows, int 
   for (const detail::Piece& piece : *pieces) {
     f.enter(piece.first_span, piece.lower, piece.upper);
     g.enter(piece.second_span, piece.lower, piece.upper);
-    kernels.weigh(piece.upper - piece.lower, points.weights.data(), g.values(), q + 1, n, weighted.data());
+    kernels.weigh(piece.upper - piece.lower, points.weights.data(), g.values(), q + 1, n,
+                  weighted.data());
     const int row = piece.first_span - p, column = piece.second_span - q;
     for (int j = 0; j <= q; ++j) {
       const int begin = result.outerIndexPtr()[column + j];
-      to[static_cast<std::size_t>(j)] = result.valuePtr() + begin + (row - result.innerIndexPtr()[begin]);
+      to[static_cast<std::size_t>(j)] =
+          result.valuePtr() + begin + (row - result.innerIndexPtr()[begin]);
     }
-    kernels.accumulate(weighted.data(), q + 1, n, points.count, f.by_points(), p + 1, f.width(), to.data());
+    kernels.accumulate(weighted.data(), q + 1, n, points.count, f.by_points(), p + 1, f.width(),
+                       to.data());
   }
   return result;
 }

@@ -15,19 +15,22 @@ static_assert(max_unit_gauss_points <= max_gauss_points);
 struct Tables {
   std::vector<double> t, complement, weights;
 
-  static std::size_t offset(int n) { return static_cast<std::size_t>(n) * static_cast<std::size_t>(n - 1) / 2; }
+  static std::size_t offset(int n) {
+    return static_cast<std::size_t>(n) * static_cast<std::size_t>(n - 1) / 2;
+  }
 
   Tables() : t(offset(max_unit_gauss_points + 1)), complement(t.size()), weights(t.size()) {
     for (int n = 1; n <= max_unit_gauss_points; ++n) {
       const std::size_t last = offset(n + 1) - 1;
       const std::span<const double> abscissae = gauss_legendre(n).abscissae;
       // The left half, whose mirror image the right one is.
-      for (std::size_t k = 0; 2 * k < abscissae.size(); ++k) set(offset(n) + k, last - k, n, abscissae[k]);
+      for (std::size_t k = 0; 2 * k < abscissae.size(); ++k)
+        set(offset(n) + k, last - k, n, abscissae[k]);
     }
   }
 
-  /// The points at `left` and `right` from the abscissa of the former: one Newton step in twice the precision squares
-  /// its error, and 1 ∓ x can be halved.
+  /// The points at `left` and `right` from the abscissa of the former: one Newton step in twice the
+  /// precision squares its error, and 1 ∓ x can be halved.
   void set(std::size_t left, std::size_t right, int n, DoubleDouble x) {
     DoubleDouble value = x, before = 1;  // P_n and P_(n−1)
     for (int m = 2; m <= n; ++m) {
@@ -43,7 +46,8 @@ struct Tables {
     x += step;
     t[left] = complement[right] = static_cast<double>(0.5 * (one + x));
     t[right] = complement[left] = static_cast<double>(0.5 * (one - x));
-    weights[left] = weights[right] = static_cast<double>(one / ((one - x * x) * derivative * derivative));
+    weights[left] = weights[right] =
+        static_cast<double>(one / ((one - x * x) * derivative * derivative));
   }
 };
 

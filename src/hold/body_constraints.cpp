@@ -15,7 +15,8 @@ namespace {
 using detail::append;
 using detail::Terms;
 
-/// One side of a curve at a parameter: R_i and R_i' there, and the curve's own point and derivative.
+/// One side of a curve at a parameter: R_i and R_i' there, and the curve's own point and
+/// derivative.
 struct CurveSide {
   Terms values, slopes;
   Point point = Point::Zero(), tangent = Point::Zero();
@@ -61,14 +62,15 @@ Terms difference(Terms a, const Terms& b, double factor) {
 }
 
 /// Couples two sides of a curve as it is at rest.
-SmoothKnot::State couple(const CurveSide& before, const CurveSide& after, bool torn_basis, int degree, double size,
-                         const SmoothOptions& options, const std::string& name, ConstraintList& to) {
+SmoothKnot::State couple(const CurveSide& before, const CurveSide& after, bool torn_basis,
+                         int degree, double size, const SmoothOptions& options,
+                         const std::string& name, ConstraintList& to) {
   if ((after.point - before.point).norm() > options.gap * size) return SmoothKnot::State::torn;
   if (torn_basis) append(to, name, difference(after.values, before.values, 1));
   const double there = after.tangent.norm(), here = before.tangent.norm();
   if (degree < 2 || !(there > 0 && here > 0)) return SmoothKnot::State::crease;
-  const double angle =
-      std::atan2(before.tangent.cross(after.tangent).norm() / there, before.tangent.dot(after.tangent) / there);
+  const double angle = std::atan2(before.tangent.cross(after.tangent).norm() / there,
+                                  before.tangent.dot(after.tangent) / there);
   if (!(angle <= options.angle)) return SmoothKnot::State::crease;
   append(to, name, difference(after.slopes, before.slopes, there / here));
   return SmoothKnot::State::coupled;
@@ -76,15 +78,19 @@ SmoothKnot::State couple(const CurveSide& before, const CurveSide& after, bool t
 
 }  // namespace
 
-std::string side_name(DomainSide side) { return fmt::format("{}{}", "uvw"[side.direction], side.upper ? 1 : 0); }
+std::string side_name(DomainSide side) {
+  return fmt::format("{}{}", "uvw"[side.direction], side.upper ? 1 : 0);
+}
 
 template <int D>
 Expected<void> hold_side(const Spline<D>& rest, DomainSide side, int order, ConstraintList& to) {
   if (side.direction < 0 || side.direction >= D) {
-    return input_error(fmt::format("there is no side {}", side_name(side)), "which",
-                       D == 1 ? "a curve has the ends u0 and u1" : "a volume has the sides u0 to w1");
+    return input_error(
+        fmt::format("there is no side {}", side_name(side)), "which",
+        D == 1 ? "a curve has the ends u0 and u1" : "a volume has the sides u0 to w1");
   }
-  if (order < 0 || order > 2) return input_error(fmt::format("{} is not an order", order), "order", "use 0, 1 or 2");
+  if (order < 0 || order > 2)
+    return input_error(fmt::format("{} is not an order", order), "order", "use 0, 1 or 2");
   const KnotVector& knots = rest.knots(side.direction);
   const int p = knots.degree(), n = knots.count();
   const bool clamped = side.upper ? knots.clamped_end() : knots.clamped_start();
@@ -96,7 +102,8 @@ Expected<void> hold_side(const Spline<D>& rest, DomainSide side, int order, Cons
   for (int d = side.direction + 1; d < D; ++d) stride *= rest.knots(d).count();
   const std::string name = (D == 1 ? "end " : "side ") + side_name(side);
   for (int first = 0; first < rest.size(); ++first) {
-    if ((first / stride) % n != 0) continue;  // the beginning of a line of control points across the side
+    if ((first / stride) % n != 0)
+      continue;  // the beginning of a line of control points across the side
     for (int k = 0; k <= std::min(order, p); ++k) {
       if (clamped) {
         to.hold(first + stride * (side.upper ? n - 1 - k : k), name);
@@ -115,8 +122,8 @@ Expected<void> hold_side(const Spline<D>& rest, DomainSide side, int order, Cons
 }
 
 template <int D>
-Expected<void> pin_place(const Spline<D>& rest, const std::array<double, D>& u, const std::optional<Point>& place,
-                         ConstraintList& to) {
+Expected<void> pin_place(const Spline<D>& rest, const std::array<double, D>& u,
+                         const std::optional<Point>& place, ConstraintList& to) {
   std::string name = fmt::format("pin at ({})", fmt::join(u, ", "));
   Terms row = basis_terms<D>(rest, u);
   if (!std::ranges::all_of(row, [](const auto& term) { return std::isfinite(term.second); })) {
@@ -128,7 +135,8 @@ Expected<void> pin_place(const Spline<D>& rest, const std::array<double, D>& u, 
   }
   if (!place->allFinite()) return input_error("the place is not finite", name);
   name += fmt::format(" to ({}, {}, {})", place->x(), place->y(), place->z());
-  // Σ R (place − P), not place − Σ R P: exactly zero if the point is already there, and accurate far from 0.
+  // Σ R (place − P), not place − Σ R P: exactly zero if the point is already there, and accurate
+  // far from 0.
   Point way = Point::Zero();
   std::erase_if(row, [](const auto& term) { return term.second == 0; });
   for (const auto& [at, c] : row) way += c * (*place - rest.control_points().row(at).transpose());
@@ -153,11 +161,12 @@ Expected<std::vector<SmoothKnot>> keep_smooth_knots(const Curve& rest, const Smo
     const auto before = side_at(rest, knot, Side::left), after = side_at(rest, knot, Side::right);
     if (!before) return std::unexpected(before.error());
     if (!after) return std::unexpected(after.error());
-    const auto state =
-        couple(*before, *after, multiplicity > p, p, size, options, fmt::format("smooth at u = {}", knot), to);
+    const auto state = couple(*before, *after, multiplicity > p, p, size, options,
+                              fmt::format("smooth at u = {}", knot), to);
     found.push_back({knot, false, state});
   }
-  const auto end = side_at(rest, domain.upper, Side::left), start = side_at(rest, domain.lower, Side::right);
+  const auto end = side_at(rest, domain.upper, Side::left),
+             start = side_at(rest, domain.lower, Side::right);
   if (!end) return std::unexpected(end.error());
   if (!start) return std::unexpected(start.error());
   if ((start->point - end->point).norm() > options.gap * size) return found;
@@ -167,9 +176,9 @@ Expected<std::vector<SmoothKnot>> keep_smooth_knots(const Curve& rest, const Smo
 
 template Expected<void> hold_side<1>(const Curve&, DomainSide, int, ConstraintList&);
 template Expected<void> hold_side<3>(const Volume&, DomainSide, int, ConstraintList&);
-template Expected<void> pin_place<1>(const Curve&, const std::array<double, 1>&, const std::optional<Point>&,
-                                     ConstraintList&);
-template Expected<void> pin_place<3>(const Volume&, const std::array<double, 3>&, const std::optional<Point>&,
-                                     ConstraintList&);
+template Expected<void> pin_place<1>(const Curve&, const std::array<double, 1>&,
+                                     const std::optional<Point>&, ConstraintList&);
+template Expected<void> pin_place<3>(const Volume&, const std::array<double, 3>&,
+                                     const std::optional<Point>&, ConstraintList&);
 
 }  // namespace knead

@@ -20,11 +20,12 @@ LocalBasis::LocalBasis(const KnotVector& knots, int span, double u, int order)
 std::vector<int> spans_at(const KnotVector& knots, double c, int order) {
   const int left = knots.find_span(c, Side::left), right = knots.find_span(c, Side::right);
   if (left == right) return {right};
-  return knots.multiplicity(c) + order > knots.degree() ? std::vector<int>{left, right} : std::vector<int>{right};
+  return knots.multiplicity(c) + order > knots.degree() ? std::vector<int>{left, right}
+                                                        : std::vector<int>{right};
 }
 
-Expected<Terms> rational_row(const Surface& s, double u, double v, int span_u, int span_v, int along,
-                             double* denominator) {
+Expected<Terms> rational_row(const Surface& s, double u, double v, int span_u, int span_v,
+                             int along, double* denominator) {
   const LocalBasis a(s.knots(0), span_u, u, 1), b(s.knots(1), span_v, v, 1);
   const int n = s.net()[1], da = along == 0 ? 1 : 0, db = along == 1 ? 1 : 0;
   Terms value, derivative;
@@ -42,7 +43,8 @@ Expected<Terms> rational_row(const Surface& s, double u, double v, int span_u, i
   if (denominator != nullptr) *denominator = w;
   if (!s.rational()) return derivative;
   if (!(w > 0)) {
-    return numerical_error("the denominator of the surface is not positive", fmt::format("({}, {})", u, v));
+    return numerical_error("the denominator of the surface is not positive",
+                           fmt::format("({}, {})", u, v));
   }
   for (std::size_t k = 0; k < value.size(); ++k) {
     if (along >= 0) derivative[k].second -= value[k].second * (dw / w);
@@ -51,7 +53,8 @@ Expected<Terms> rational_row(const Surface& s, double u, double v, int span_u, i
   return derivative;
 }
 
-void append(ConstraintList& to, const std::string& name, Terms terms, const std::optional<Point>& normal) {
+void append(ConstraintList& to, const std::string& name, Terms terms,
+            const std::optional<Point>& normal) {
   std::erase_if(terms, [](const auto& term) { return term.second == 0; });
   if (terms.empty()) return;
   if (terms.size() == 1 && !normal) {
@@ -74,7 +77,8 @@ Expected<SelectedRows> select_rows(const std::vector<Terms>& rows, double tolera
   // The conditions are the columns of the matrix, from which the decomposition chooses.
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(next, static_cast<Eigen::Index>(rows.size()));
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    for (const auto& [unknown, c] : rows[k]) a(columns.at(unknown), static_cast<Eigen::Index>(k)) += c;
+    for (const auto& [unknown, c] : rows[k])
+      a(columns.at(unknown), static_cast<Eigen::Index>(k)) += c;
   }
   const auto qr = PivotedQr::create(a);
   if (!qr) return std::unexpected(qr.error());
@@ -82,7 +86,8 @@ Expected<SelectedRows> select_rows(const std::vector<Terms>& rows, double tolera
   const auto remainder_of = [&](Eigen::Index rank) {
     return rank == most ? 0.0 : qr->remainder(rank).cwiseAbs().colwise().sum().maxCoeff();
   };
-  // The diagonal of R decreases, and a remainder is at most √n times it; remainders of rounding are not independent.
+  // The diagonal of R decreases, and a remainder is at most √n times it; remainders of rounding are
+  // not independent.
   SelectedRows result;
   for (double threshold = tolerance;; threshold /= 4) {
     Eigen::Index rank = 0;
@@ -104,7 +109,8 @@ Expected<void> check_parameter(const KnotVector& knots, double u, const char* na
 
 Expected<void> check_tolerance(double tolerance, const char* name) {
   if (std::isfinite(tolerance) && tolerance >= 0) return {};
-  return input_error(fmt::format("{} is not a tolerance", tolerance), name, "use a finite number >= 0");
+  return input_error(fmt::format("{} is not a tolerance", tolerance), name,
+                     "use a finite number >= 0");
 }
 
 }  // namespace knead::detail

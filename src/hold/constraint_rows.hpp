@@ -8,7 +8,8 @@
 
 namespace knead::detail {
 
-inline constexpr double proportional = 1e-7;  // weights that are proportional up to the rounding of their decimals
+// Weights that are proportional up to the rounding of their decimals.
+inline constexpr double proportional = 1e-7;
 
 using Terms = std::vector<std::pair<int, double>>;
 
@@ -22,8 +23,12 @@ class NetAcross {
   [[nodiscard]] const KnotVector& knots_along() const { return surface_.knots(1 - direction_); }
   [[nodiscard]] int rows() const { return knots().count(); }
   [[nodiscard]] int columns() const { return knots_along().count(); }
-  [[nodiscard]] int index(int i, int j) const { return direction_ == 0 ? i * columns() + j : j * rows() + i; }
-  [[nodiscard]] Point point(int i, int j) const { return surface_.control_points().row(index(i, j)).transpose(); }
+  [[nodiscard]] int index(int i, int j) const {
+    return direction_ == 0 ? i * columns() + j : j * rows() + i;
+  }
+  [[nodiscard]] Point point(int i, int j) const {
+    return surface_.control_points().row(index(i, j)).transpose();
+  }
   [[nodiscard]] double weight(int i, int j) const {
     return surface_.rational() ? surface_.weights()[static_cast<std::size_t>(index(i, j))] : 1;
   }
@@ -52,24 +57,30 @@ struct LocalBasis {
   [[nodiscard]] int last() const { return first + degree; }
 };
 
-/// The spans at c: one, or the ones to its left and right where the derivative of the given order may jump at c.
+/// The spans at c: one, or the ones to its left and right where the derivative of the given order
+/// may jump at c.
 [[nodiscard]] std::vector<int> spans_at(const KnotVector& knots, double c, int order);
 
-/// R_ij at (u, v) in the given spans, or with `along` 0 or 1 its derivative in that direction. `denominator` (W) may be
-/// null. Errors: W is not positive (numerical).
-[[nodiscard]] Expected<Terms> rational_row(const Surface& s, double u, double v, int span_u, int span_v, int along = -1,
+/// R_ij at (u, v) in the given spans, or with `along` 0 or 1 its derivative in that direction.
+/// `denominator` (W) may be null. Errors: W is not positive (numerical).
+[[nodiscard]] Expected<Terms> rational_row(const Surface& s, double u, double v, int span_u,
+                                           int span_v, int along = -1,
                                            double* denominator = nullptr);
 
-/// Appends a condition with zero right side: zero coefficients are omitted, the others divided by the largest; a single
-/// control point without a normal becomes held. Appends nothing if all are zero.
-void append(ConstraintList& to, const std::string& name, Terms terms, const std::optional<Point>& normal = {});
+/// Appends a condition with zero right side: zero coefficients are omitted, the others divided by
+/// the largest; a single control point without a normal becomes held. Appends nothing if all are
+/// zero.
+void append(ConstraintList& to, const std::string& name, Terms terms,
+            const std::optional<Point>& normal = {});
 
-/// Rows of which all others are combinations, ascending, and the largest |r|_1 of the others' remainders.
+/// Rows of which all others are combinations, ascending, and the largest |r|_1 of the others'
+/// remainders.
 struct SelectedRows {
   std::vector<int> chosen;
   double remainder = 0;
 };
-/// None of no rows, nor of rows without unknowns. Errors (numerical): a coefficient is not a finite number.
+/// None of no rows, nor of rows without unknowns. Errors (numerical): a coefficient is not a finite
+/// number.
 [[nodiscard]] Expected<SelectedRows> select_rows(const std::vector<Terms>& rows, double tolerance);
 
 [[nodiscard]] Expected<void> check_parameter(const KnotVector& knots, double u, const char* name);

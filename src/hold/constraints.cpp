@@ -19,8 +19,8 @@ using detail::LocalBasis;
 using detail::NetAcross;
 using detail::Terms;
 
-/// The row of control points through which the line c of span `span` runs; −1 if there is none: if fewer than p knots
-/// of the span's functions lie at c.
+/// The row of control points through which the line c of span `span` runs; −1 if there is none: if
+/// fewer than p knots of the span's functions lie at c.
 int row_on_line(const KnotVector& knots, int span, double c) {
   const int p = knots.degree();
   if (c == knots[span] && knots[span - p + 1] == c) return span - p;
@@ -28,8 +28,10 @@ int row_on_line(const KnotVector& knots, int span, double c) {
   return -1;
 }
 
-Expected<void> hold_line(const NetAcross& net, double c, int order, const std::string& name, ConstraintList& to) {
-  if (order < 0 || order > 2) return input_error(fmt::format("{} is not an order", order), name, "use 0, 1 or 2");
+Expected<void> hold_line(const NetAcross& net, double c, int order, const std::string& name,
+                         ConstraintList& to) {
+  if (order < 0 || order > 2)
+    return input_error(fmt::format("{} is not an order", order), name, "use 0, 1 or 2");
   const KnotVector& knots = net.knots();
   const int p = knots.degree(), highest = std::min(order, p);
   for (const int span : detail::spans_at(knots, c, highest)) {
@@ -55,14 +57,18 @@ Expected<void> hold_line(const NetAcross& net, double c, int order, const std::s
   return {};
 }
 
-/// Spans from the one containing `interval.lower` to the one containing `interval.upper`, as first and last.
-Expected<std::pair<int, int>> covering_spans(const KnotVector& knots, Interval interval, const char* name) {
+/// Spans from the one containing `interval.lower` to the one containing `interval.upper`, as first
+/// and last.
+Expected<std::pair<int, int>> covering_spans(const KnotVector& knots, Interval interval,
+                                             const char* name) {
   for (double end : {interval.lower, interval.upper}) {
-    if (auto inside = detail::check_parameter(knots, end, name); !inside) return std::unexpected(inside.error());
+    if (auto inside = detail::check_parameter(knots, end, name); !inside)
+      return std::unexpected(inside.error());
   }
   if (interval.upper < interval.lower) {
-    return input_error(fmt::format("the region ends at {} before it starts at {}", interval.upper, interval.lower),
-                       name);
+    return input_error(
+        fmt::format("the region ends at {} before it starts at {}", interval.upper, interval.lower),
+        name);
   }
   const int first = knots.find_span(interval.lower, Side::right);
   return std::pair{first, std::max(first, knots.find_span(interval.upper, Side::left))};
@@ -84,13 +90,15 @@ void keep_present(ConstraintList& list, const Points& displacement, std::size_t 
   }
 }
 
-Expected<ConstraintSpace> constraint_space(const ConstraintList& list, const Points& displacement, double size) {
+Expected<ConstraintSpace> constraint_space(const ConstraintList& list, const Points& displacement,
+                                           double size) {
   assert(size > 0);
   std::vector<LinearConstraint> scaled = list.constraints;
   for (LinearConstraint& c : scaled) c.value /= size;
   auto space = ConstraintSpace::create(static_cast<int>(list.held.size()), scaled, list.held);
   if (!space) return space;
-  // The space skips conditions on held unknowns alone: whether they are met depends on the positions of those.
+  // The space skips conditions on held unknowns alone: whether they are met depends on the
+  // positions of those.
   const Points x = space->feasible(displacement / size);
   const double rounding = 1e-9 * std::max(1.0, x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0);
   for (const LinearConstraint& c : scaled) {
@@ -101,7 +109,8 @@ Expected<ConstraintSpace> constraint_space(const ConstraintList& list, const Poi
       const auto k = static_cast<std::size_t>(unknown);
       if (list.held[k]) holds.insert(list.held_by[k]);
     }
-    const double amount = c.normal ? std::abs(c.normal->normalized().dot(miss)) : miss.cwiseAbs().maxCoeff();
+    const double amount =
+        c.normal ? std::abs(c.normal->normalized().dot(miss)) : miss.cwiseAbs().maxCoeff();
     if (amount <= rounding) continue;
     std::string names;
     for (const std::string& hold : holds) names += (names.empty() ? "" : ", ") + hold;
@@ -112,7 +121,8 @@ Expected<ConstraintSpace> constraint_space(const ConstraintList& list, const Poi
   return space;
 }
 
-Expected<void> hold_isoline(const Surface& rest, int direction, double c, int order, ConstraintList& to) {
+Expected<void> hold_isoline(const Surface& rest, int direction, double c, int order,
+                            ConstraintList& to) {
   const char* name = direction == 0 ? "u" : "v";
   if (auto inside = detail::check_parameter(rest.knots(direction), c, name); !inside) return inside;
   return hold_line({rest, direction}, c, order, fmt::format("line {} = {}", name, c), to);
@@ -147,16 +157,19 @@ Expected<void> pin_point(const Surface& rest, double u, double v, const std::opt
       append(to, name, std::move(row));
       continue;
     }
-    // Σ R (P − place), not Σ R P − place: exactly zero if the point is already there, and accurate far from 0.
+    // Σ R (P − place), not Σ R P − place: exactly zero if the point is already there, and accurate
+    // far from 0.
     Point way = Point::Zero();
     std::erase_if(row, [](const auto& term) { return term.second == 0; });
-    for (const auto& [unknown, c] : row) way += c * (*place - rest.control_points().row(unknown).transpose());
+    for (const auto& [unknown, c] : row)
+      way += c * (*place - rest.control_points().row(unknown).transpose());
     to.constraints.push_back({name, std::move(row), way});
   }
   return {};
 }
 
-Expected<FrozenRegion> freeze_region(const Surface& rest, Interval u, Interval v, ConstraintList& to) {
+Expected<FrozenRegion> freeze_region(const Surface& rest, Interval u, Interval v,
+                                     ConstraintList& to) {
   const auto spans_u = covering_spans(rest.knots(0), u, "u");
   if (!spans_u) return std::unexpected(spans_u.error());
   const auto spans_v = covering_spans(rest.knots(1), v, "v");
@@ -165,9 +178,10 @@ Expected<FrozenRegion> freeze_region(const Surface& rest, Interval u, Interval v
     return Interval{knots[spans.first], knots[spans.second + 1]};
   };
   const FrozenRegion region{bounds(rest.knots(0), *spans_u), bounds(rest.knots(1), *spans_v)};
-  const std::string name =
-      fmt::format("frozen [{}, {}] x [{}, {}]", region.u.lower, region.u.upper, region.v.lower, region.v.upper);
-  // Functions between non-empty spans: those of empty spans inside are non-zero on a neighbour, or only there.
+  const std::string name = fmt::format("frozen [{}, {}] x [{}, {}]", region.u.lower, region.u.upper,
+                                       region.v.lower, region.v.upper);
+  // Functions between non-empty spans: those of empty spans inside are non-zero on a neighbour, or
+  // only there.
   for (int i = spans_u->first - rest.knots(0).degree(); i <= spans_u->second; ++i) {
     for (int j = spans_v->first - rest.knots(1).degree(); j <= spans_v->second; ++j) {
       to.hold(i * rest.net()[1] + j, name);

@@ -22,7 +22,8 @@ void add_crossings(const KnotVector& knots, double a, double b, std::vector<doub
   }
 }
 
-/// The spans that contain the open piece around the middle parameter: both sides if it runs along a tear.
+/// The spans that contain the open piece around the middle parameter: both sides if it runs along a
+/// tear.
 std::vector<int> spans_of_piece(const KnotVector& knots, double a, double b, double middle) {
   if (a == b) return detail::spans_at(knots, a, 0);
   return {knots.find_span(middle)};
@@ -33,8 +34,8 @@ struct PieceRows {
   double growth = 1;  // of the displacement between the points
 };
 
-Expected<void> add_piece(const Surface& s, const std::array<double, 2>& from, const std::array<double, 2>& to,
-                         int span_u, int span_v, PieceRows& out) {
+Expected<void> add_piece(const Surface& s, const std::array<double, 2>& from,
+                         const std::array<double, 2>& to, int span_u, int span_v, PieceRows& out) {
   const int degree = s.knots(0).degree() + s.knots(1).degree();
   const auto at = [&](double t, Terms* row) -> Expected<double> {
     double x[2];
@@ -50,7 +51,8 @@ Expected<void> add_piece(const Surface& s, const std::array<double, 2>& from, co
     return w;
   };
   double largest = 0, smallest = std::numeric_limits<double>::infinity();
-  for (int k = 0; k <= 2 * degree; ++k) {  // Chebyshev points 0, 2, 4 … carry conditions, those between sample W
+  for (int k = 0; k <= 2 * degree;
+       ++k) {  // Chebyshev points 0, 2, 4 … carry conditions, those between sample W
     Terms row;
     const auto w = at(0.5 - 0.5 * std::cos(std::numbers::pi * k / (2 * degree)), &row);
     if (!w) return std::unexpected(w.error());
@@ -64,30 +66,36 @@ Expected<void> add_piece(const Surface& s, const std::array<double, 2>& from, co
 
 }  // namespace
 
-Expected<CurveHold> keep_curve(const Surface& rest, const Parameters<2>& polyline, double tolerance, ConstraintList& to,
-                               const std::string& name) {
+Expected<CurveHold> keep_curve(const Surface& rest, const Parameters<2>& polyline, double tolerance,
+                               ConstraintList& to, const std::string& name) {
   if (polyline.rows() < 2) return input_error("the curve has less than two points", name);
   if (!(tolerance > 0 && tolerance <= 1)) {
-    return input_error(fmt::format("{} is not a tolerance", tolerance), name, "use a number above 0, up to 1");
+    return input_error(fmt::format("{} is not a tolerance", tolerance), name,
+                       "use a number above 0, up to 1");
   }
   for (Eigen::Index k = 0; k < polyline.rows(); ++k) {
     for (int d = 0; d < 2; ++d) {
-      if (auto inside = detail::check_parameter(rest.knots(d), polyline(k, d), d == 0 ? "u" : "v"); !inside) {
+      if (auto inside = detail::check_parameter(rest.knots(d), polyline(k, d), d == 0 ? "u" : "v");
+          !inside) {
         return std::unexpected(inside.error().within(fmt::format("{} point {}", name, k)));
       }
     }
   }
   PieceRows all;
   for (Eigen::Index k = 0; k + 1 < polyline.rows(); ++k) {
-    const std::array<double, 2> a = {polyline(k, 0), polyline(k, 1)}, b = {polyline(k + 1, 0), polyline(k + 1, 1)};
+    const std::array<double, 2> a = {polyline(k, 0), polyline(k, 1)},
+                                b = {polyline(k + 1, 0), polyline(k + 1, 1)};
     std::vector<double> cuts = {0, 1};
     for (std::size_t d = 0; d < 2; ++d) {
       if (a[d] != b[d]) add_crossings(rest.knots(static_cast<int>(d)), a[d], b[d], cuts);
     }
     std::ranges::sort(cuts);
     for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
-      const auto point = [&](double t) { return std::array{std::lerp(a[0], b[0], t), std::lerp(a[1], b[1], t)}; };
-      const auto from = point(cuts[c]), middle = point(0.5 * (cuts[c] + cuts[c + 1])), end = point(cuts[c + 1]);
+      const auto point = [&](double t) {
+        return std::array{std::lerp(a[0], b[0], t), std::lerp(a[1], b[1], t)};
+      };
+      const auto from = point(cuts[c]), middle = point(0.5 * (cuts[c] + cuts[c + 1])),
+                 end = point(cuts[c + 1]);
       if (!(cuts[c] < cuts[c + 1]) && a != b) continue;
       for (const int span_u : spans_of_piece(rest.knots(0), a[0], b[0], middle[0])) {
         for (const int span_v : spans_of_piece(rest.knots(1), a[1], b[1], middle[1])) {
@@ -98,9 +106,11 @@ Expected<CurveHold> keep_curve(const Surface& rest, const Parameters<2>& polylin
       }
     }
   }
-  for (Eigen::Index k = 0; k < polyline.rows(); ++k) {  // a vertex on a tear lies on both sides of it
+  for (Eigen::Index k = 0; k < polyline.rows();
+       ++k) {  // a vertex on a tear lies on both sides of it
     const double u = polyline(k, 0), v = polyline(k, 1);
-    const auto spans_u = detail::spans_at(rest.knots(0), u, 0), spans_v = detail::spans_at(rest.knots(1), v, 0);
+    const auto spans_u = detail::spans_at(rest.knots(0), u, 0),
+               spans_v = detail::spans_at(rest.knots(1), v, 0);
     if (spans_u.size() * spans_v.size() == 1) continue;
     for (const int span_u : spans_u) {
       for (const int span_v : spans_v) {
@@ -113,12 +123,15 @@ Expected<CurveHold> keep_curve(const Surface& rest, const Parameters<2>& polylin
   const double least = std::max(tolerance, least_tolerance) / all.growth;
   const auto selected = detail::select_rows(all.rows, least);
   if (!selected) return std::unexpected(selected.error().within(name));
-  for (const int k : selected->chosen) detail::append(to, name, std::move(all.rows[static_cast<std::size_t>(k)]));
+  for (const int k : selected->chosen)
+    detail::append(to, name, std::move(all.rows[static_cast<std::size_t>(k)]));
   return CurveHold{static_cast<int>(selected->chosen.size()), all.growth * selected->remainder};
 }
 
-Expected<Parameters<2>> parameter_polyline(const Surface& rest, const Curve& parameter_curve, double tolerance) {
-  if (auto valid = detail::check_tolerance(tolerance, "curve"); !valid) return std::unexpected(valid.error());
+Expected<Parameters<2>> parameter_polyline(const Surface& rest, const Curve& parameter_curve,
+                                           double tolerance) {
+  if (auto valid = detail::check_tolerance(tolerance, "curve"); !valid)
+    return std::unexpected(valid.error());
   const KnotVector& knots = parameter_curve.knots(0);
   for (int chords = 1; chords <= most_chords; chords *= 2) {
     std::vector<double> parameters;  // ends of chords and, between them, their midpoints
@@ -140,10 +153,12 @@ Expected<Parameters<2>> parameter_polyline(const Surface& rest, const Curve& par
     const auto curved = evaluate(rest, middles), straight = evaluate(rest, on_chords);
     if (!curved) return std::unexpected(curved.error().within("curve"));
     if (!straight) return std::unexpected(straight.error().within("curve"));
-    if ((curved->points() - straight->points()).rowwise().norm().maxCoeff() <= tolerance) return polyline;
+    if ((curved->points() - straight->points()).rowwise().norm().maxCoeff() <= tolerance)
+      return polyline;
   }
-  return numerical_error(fmt::format("the curve is not within {} of {} chords per span", tolerance, most_chords),
-                         "curve", "use a larger tolerance");
+  return numerical_error(
+      fmt::format("the curve is not within {} of {} chords per span", tolerance, most_chords),
+      "curve", "use a larger tolerance");
 }
 
 }  // namespace knead

@@ -8,7 +8,8 @@
 namespace knead {
 namespace {
 
-/// V_j = Σ_k a_jk V_{basis_k}: the coefficients of every column of `ring` (3 × n) over `rank` independent columns.
+/// V_j = Σ_k a_jk V_{basis_k}: the coefficients of every column of `ring` (3 × n) over `rank`
+/// independent columns.
 struct RingRelation {
   int rank = 0;
   std::vector<int> basis;
@@ -20,7 +21,8 @@ Expected<RingRelation> relation(const Eigen::Matrix3Xd& ring, double flatness) {
   const auto left = detail::left_singular(ring);
   if (!left) return std::unexpected(left.error());
   const auto& [vectors, singular] = *left;
-  while (result.rank < std::min<Eigen::Index>(3, ring.cols()) && singular[result.rank] > flatness * singular[0])
+  while (result.rank < std::min<Eigen::Index>(3, ring.cols()) &&
+         singular[result.rank] > flatness * singular[0])
     ++result.rank;
   if (result.rank == 0) return result;
   const Eigen::MatrixXd flat = vectors.leftCols(result.rank).transpose() * ring;
@@ -33,12 +35,16 @@ Expected<RingRelation> relation(const Eigen::Matrix3Xd& ring, double flatness) {
 
 }  // namespace
 
-Expected<std::vector<Pole>> keep_poles(const Surface& rest, double tolerance, double flatness, ConstraintList& to) {
-  for (const auto& [value, name] : {std::pair{tolerance, "pole"}, std::pair{flatness, "flatness"}}) {
-    if (auto valid = detail::check_tolerance(value, name); !valid) return std::unexpected(valid.error());
+Expected<std::vector<Pole>> keep_poles(const Surface& rest, double tolerance, double flatness,
+                                       ConstraintList& to) {
+  for (const auto& [value, name] :
+       {std::pair{tolerance, "pole"}, std::pair{flatness, "flatness"}}) {
+    if (auto valid = detail::check_tolerance(value, name); !valid)
+      return std::unexpected(valid.error());
   }
   std::vector<Pole> poles;
-  for (const SurfaceEdge edge : {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1}) {
+  for (const SurfaceEdge edge :
+       {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1}) {
     const detail::NetAcross net(rest, edge_across(edge));
     const KnotVector& knots = net.knots();
     const int p = knots.degree(), count = knots.count(), columns = net.columns();
@@ -63,7 +69,8 @@ Expected<std::vector<Pole>> keep_poles(const Surface& rest, double tolerance, do
       bool chosen = false;
       for (int k = 0; k < affine->rank; ++k) {
         chosen = chosen || affine->basis[static_cast<std::size_t>(k)] == j;
-        terms.emplace_back(net.index(next, affine->basis[static_cast<std::size_t>(k)]), -affine->coefficients(k, j));
+        terms.emplace_back(net.index(next, affine->basis[static_cast<std::size_t>(k)]),
+                           -affine->coefficients(k, j));
         sum += affine->coefficients(k, j);
       }
       terms.emplace_back(net.index(row, 0), sum - 1);

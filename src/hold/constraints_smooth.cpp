@@ -56,7 +56,8 @@ Expected<void> Line::measure() {
     at(static_cast<Eigen::Index>(k), direction) = knot;
     at(static_cast<Eigen::Index>(k), 1 - direction) = along[k];
   }
-  const auto l = evaluate(net.surface(), at, 1, Side::left), r = evaluate(net.surface(), at, 1, Side::right);
+  const auto l = evaluate(net.surface(), at, 1, Side::left),
+             r = evaluate(net.surface(), at, 1, Side::right);
   if (!l) return std::unexpected(l.error());
   if (!r) return std::unexpected(r.error());
   across_left = l->at(net.derivative(1, 0));
@@ -66,9 +67,11 @@ Expected<void> Line::measure() {
   gap = (l->points() - r->points()).rowwise().norm().maxCoeff();
   int normals = 0;
   for (Eigen::Index k = 0; k < at.rows(); ++k) {
-    const Point a = across_left.row(k), b = across_right.row(k), v = tangent.row(k), w = tangent_right.row(k);
+    const Point a = across_left.row(k), b = across_right.row(k), v = tangent.row(k),
+                w = tangent_right.row(k);
     const Point before = a.cross(v), after = b.cross(w);
-    if (before.norm() <= 1e-12 * a.norm() * v.norm() || after.norm() <= 1e-12 * b.norm() * w.norm()) continue;
+    if (before.norm() <= 1e-12 * a.norm() * v.norm() || after.norm() <= 1e-12 * b.norm() * w.norm())
+      continue;
     ++normals;
     angle = std::max(angle, std::atan2(before.cross(after).norm(), before.dot(after)));
   }
@@ -76,19 +79,21 @@ Expected<void> Line::measure() {
   const double square = across_left.squaredNorm();
   ratio = square > 0 ? across_left.cwiseProduct(across_right).sum() / square : 1;
   const double size = across_left.rowwise().norm().maxCoeff() * std::abs(ratio);
-  ratio_error = size > 0 ? (across_right - ratio * across_left).rowwise().norm().maxCoeff() / size : 0;
+  ratio_error =
+      size > 0 ? (across_right - ratio * across_left).rowwise().norm().maxCoeff() / size : 0;
   return {};
 }
 
 /// Σ_k a_k b_k / Σ_k a_k² fits b = f a; `error` becomes the largest |b − f a| in units of `scale`.
-double proportion(const std::vector<double>& a, const std::vector<double>& b, const std::vector<double>& scale,
-                  double& error) {
+double proportion(const std::vector<double>& a, const std::vector<double>& b,
+                  const std::vector<double>& scale, double& error) {
   double ab = 0, aa = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
     ab += a[k] * b[k] / (scale[k] * scale[k]), aa += a[k] * a[k] / (scale[k] * scale[k]);
   const double f = aa > 0 ? ab / aa : 0;
   error = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) error = std::max(error, std::abs(b[k] - f * a[k]) / scale[k]);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    error = std::max(error, std::abs(b[k] - f * a[k]) / scale[k]);
   return f;
 }
 
@@ -125,8 +130,10 @@ WeightRatios weight_ratios(const Line& line) {
   }
   for (int j = 0; j < net.columns(); ++j) {
     double total_left = 0, total_right = 0;
-    jump.push_back(sum(line.right, 1, j, total_right) / result.sigma - line.ratio * sum(line.left, 1, j, total_left));
-    size[static_cast<std::size_t>(j)] = total_right / std::abs(result.sigma) + std::abs(line.ratio) * total_left;
+    jump.push_back(sum(line.right, 1, j, total_right) / result.sigma -
+                   line.ratio * sum(line.left, 1, j, total_left));
+    size[static_cast<std::size_t>(j)] =
+        total_right / std::abs(result.sigma) + std::abs(line.ratio) * total_left;
   }
   result.kappa = proportion(before, jump, size, error);
   result.derivatives = error <= proportional;
@@ -159,15 +166,17 @@ Expected<std::array<Terms, 3>> rows_at(const Line& line, double v, int span_acro
   const int span_along = line.net.knots_along().find_span(v);
   const std::array kinds = {-1, line.direction, 1 - line.direction};
   for (std::size_t k = 0; k < 3; ++k) {
-    auto row = line.direction == 0 ? detail::rational_row(s, line.knot, v, span_across, span_along, kinds[k])
-                                   : detail::rational_row(s, v, line.knot, span_along, span_across, kinds[k]);
+    auto row = line.direction == 0
+                   ? detail::rational_row(s, line.knot, v, span_across, span_along, kinds[k])
+                   : detail::rational_row(s, v, line.knot, span_along, span_across, kinds[k]);
     if (!row) return std::unexpected(row.error());
     result[k] = std::move(*row);
   }
   return result;
 }
 
-Expected<void> append_selected(std::vector<Terms> rows, const std::string& name, double tolerance, ConstraintList& to) {
+Expected<void> append_selected(std::vector<Terms> rows, const std::string& name, double tolerance,
+                               ConstraintList& to) {
   for (Terms& row : rows) {
     row = united(std::move(row));
     double sum = 0;
@@ -176,13 +185,14 @@ Expected<void> append_selected(std::vector<Terms> rows, const std::string& name,
   }
   const auto selected = detail::select_rows(rows, tolerance);
   if (!selected) return std::unexpected(selected.error().within(name));
-  for (const int k : selected->chosen) detail::append(to, name, std::move(rows[static_cast<std::size_t>(k)]));
+  for (const int k : selected->chosen)
+    detail::append(to, name, std::move(rows[static_cast<std::size_t>(k)]));
   return {};
 }
 
 /// C0 at samples, or D_u⁺ = λ D_u⁻ + μ D_v with λ and μ of the rest shape at each sample.
-Expected<void> couple_samples(const Line& line, bool derivatives, const std::string& name, double tolerance,
-                              ConstraintList& to) {
+Expected<void> couple_samples(const Line& line, bool derivatives, const std::string& name,
+                              double tolerance, ConstraintList& to) {
   std::vector<Terms> rows;
   for (std::size_t k = 0; k < line.along.size(); ++k) {
     const auto left = rows_at(line, line.along[k], line.span_left),
@@ -194,7 +204,8 @@ Expected<void> couple_samples(const Line& line, bool derivatives, const std::str
       const auto at = static_cast<Eigen::Index>(k);
       Eigen::MatrixXd frame(3, 2);
       frame << line.across_left.row(at).transpose(), line.tangent.row(at).transpose();
-      const auto factors = detail::least_squares(frame, Eigen::VectorXd(line.across_right.row(at).transpose()));
+      const auto factors =
+          detail::least_squares(frame, Eigen::VectorXd(line.across_right.row(at).transpose()));
       if (!factors) return std::unexpected(factors.error().within(name));
       add(row, (*left)[1], -(*factors)[0]);
       add(row, (*left)[2], -(*factors)[1]);
@@ -206,34 +217,40 @@ Expected<void> couple_samples(const Line& line, bool derivatives, const std::str
   return append_selected(std::move(rows), name, tolerance, to);
 }
 
-Expected<void> couple_positions(const Line& line, const WeightRatios& weights, const std::string& name,
-                                const SmoothOptions& options, ConstraintList& to) {
+Expected<void> couple_positions(const Line& line, const WeightRatios& weights,
+                                const std::string& name, const SmoothOptions& options,
+                                ConstraintList& to) {
   if (!line.torn_basis()) return {};
   if (!weights.positions) return couple_samples(line, false, name, options.tolerance, to);
   for (int j = 0; j < line.net.columns(); ++j) {
-    detail::append(to, name, {{line.net.index(line.right.first, j), 1.0}, {line.net.index(line.left.last(), j), -1.0}});
+    detail::append(
+        to, name,
+        {{line.net.index(line.right.first, j), 1.0}, {line.net.index(line.left.last(), j), -1.0}});
   }
   return {};
 }
 
-void couple_derivatives(const Line& line, const WeightRatios& weights, const std::string& name, ConstraintList& to) {
+void couple_derivatives(const Line& line, const WeightRatios& weights, const std::string& name,
+                        ConstraintList& to) {
   for (int j = 0; j < line.net.columns(); ++j) {
     Terms terms;
     for (int i = line.left.first; i <= line.right.last(); ++i) {
-      const double c =
-          line.right.at(i, 1) / weights.sigma - line.ratio * line.left.at(i, 1) - weights.kappa * line.left.at(i, 0);
+      const double c = line.right.at(i, 1) / weights.sigma - line.ratio * line.left.at(i, 1) -
+                       weights.kappa * line.left.at(i, 0);
       terms.emplace_back(line.net.index(i, j), c * line.net.weight(i, j));
     }
     detail::append(to, name, std::move(terms));
   }
 }
 
-Expected<SmoothLine> keep_smooth_line(Line& line, const SmoothOptions& options, double size, ConstraintList& to) {
+Expected<SmoothLine> keep_smooth_line(Line& line, const SmoothOptions& options, double size,
+                                      ConstraintList& to) {
   if (auto measured = line.measure(); !measured) return std::unexpected(measured.error());
   SmoothLine result{line.direction, line.knot, line.net.knots().multiplicity(line.knot)};
   result.angle = line.angle;
   result.ratio = line.ratio;
-  const std::string name = fmt::format("smooth line {} = {}", line.direction == 0 ? "u" : "v", line.knot);
+  const std::string name =
+      fmt::format("smooth line {} = {}", line.direction == 0 ? "u" : "v", line.knot);
   const std::size_t before = to.constraints.size();
   const auto finish = [&](SmoothLine::State state) {
     result.state = state;
@@ -243,11 +260,13 @@ Expected<SmoothLine> keep_smooth_line(Line& line, const SmoothOptions& options, 
   using enum SmoothLine::State;
   if (line.torn_basis() && line.gap > options.gap * size) return finish(torn);
   const WeightRatios weights = weight_ratios(line);
-  if (auto joined = couple_positions(line, weights, name, options, to); !joined) return std::unexpected(joined.error());
+  if (auto joined = couple_positions(line, weights, name, options, to); !joined)
+    return std::unexpected(joined.error());
   if (line.net.knots().degree() == 1) return finish(linear);
   if (line.pointlike) return finish(pointlike);
   if (line.angle > options.angle) return finish(crease);
-  if (weights.positions && weights.derivatives && line.ratio > 0 && line.ratio_error <= options.angle) {
+  if (weights.positions && weights.derivatives && line.ratio > 0 &&
+      line.ratio_error <= options.angle) {
     couple_derivatives(line, weights, name, to);
     return finish(coupled);
   }
@@ -258,10 +277,13 @@ Expected<SmoothLine> keep_smooth_line(Line& line, const SmoothOptions& options, 
 
 }  // namespace
 
-Expected<std::vector<SmoothLine>> keep_smooth(const Surface& rest, const SmoothOptions& options, ConstraintList& to) {
+Expected<std::vector<SmoothLine>> keep_smooth(const Surface& rest, const SmoothOptions& options,
+                                              ConstraintList& to) {
   for (const auto& [value, name] :
-       {std::pair{options.angle, "angle"}, std::pair{options.gap, "gap"}, std::pair{options.tolerance, "tolerance"}}) {
-    if (auto valid = detail::check_tolerance(value, name); !valid) return std::unexpected(valid.error());
+       {std::pair{options.angle, "angle"}, std::pair{options.gap, "gap"},
+        std::pair{options.tolerance, "tolerance"}}) {
+    if (auto valid = detail::check_tolerance(value, name); !valid)
+      return std::unexpected(valid.error());
   }
   const Points& points = rest.control_points();
   const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();

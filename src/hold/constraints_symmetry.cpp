@@ -93,10 +93,12 @@ void compare_knots(const KnotVector& knots, double tolerance, MirrorReport& repo
   };
   for (std::size_t k = 0; k < inside.size(); ++k) {
     const double mirrored = image(inside[k]);
-    report.knots = std::max(report.knots, distance_to_nearest(with_ends, mirrored) / domain.length());
+    report.knots =
+        std::max(report.knots, distance_to_nearest(with_ends, mirrored) / domain.length());
     if (k > 0 && std::abs(inside[k] - inside[k - 1]) <= near) continue;
     const auto missing = count_near(inside[k]) - count_near(mirrored);
-    if (missing > 0) report.insert.insert(report.insert.end(), static_cast<std::size_t>(missing), mirrored);
+    if (missing > 0)
+      report.insert.insert(report.insert.end(), static_cast<std::size_t>(missing), mirrored);
   }
   std::ranges::sort(report.insert);
   if (!report.insert.empty()) return;
@@ -115,9 +117,11 @@ Expected<std::array<Points, 2>> partners(const Surface& s, int direction) {
     at[d].push_back(domain.upper);
     mirrored[d] = at[d];
     if (static_cast<int>(d) != direction) continue;
-    for (double& x : mirrored[d]) x = std::clamp(domain.lower + (domain.upper - x), domain.lower, domain.upper);
+    for (double& x : mirrored[d])
+      x = std::clamp(domain.lower + (domain.upper - x), domain.lower, domain.upper);
   }
-  const auto here = evaluate_grid<2>(s, {at[0], at[1]}), there = evaluate_grid<2>(s, {mirrored[0], mirrored[1]});
+  const auto here = evaluate_grid<2>(s, {at[0], at[1]}),
+             there = evaluate_grid<2>(s, {mirrored[0], mirrored[1]});
   if (!here) return std::unexpected(here.error());
   if (!there) return std::unexpected(there.error());
   return std::array{here->points(), there->points()};
@@ -125,11 +129,12 @@ Expected<std::array<Points, 2>> partners(const Surface& s, int direction) {
 
 }  // namespace
 
-Expected<void> hold_symmetry_plane(const Surface& rest, SurfaceEdge edge, const MirrorPlane& plane, int order,
-                                   double tolerance, double angle, ConstraintList& to) {
+Expected<void> hold_symmetry_plane(const Surface& rest, SurfaceEdge edge, const MirrorPlane& plane,
+                                   int order, double tolerance, double angle, ConstraintList& to) {
   const auto frame = frame_of(plane);
   if (!frame) return std::unexpected(frame.error());
-  if (order != 0 && order != 1) return input_error(fmt::format("{} is not an order", order), "symmetry", "use 0 or 1");
+  if (order != 0 && order != 1)
+    return input_error(fmt::format("{} is not an order", order), "symmetry", "use 0 or 1");
   for (double value : {tolerance, angle}) {
     if (auto valid = detail::check_tolerance(value, "symmetry"); !valid) return valid;
   }
@@ -138,7 +143,8 @@ Expected<void> hold_symmetry_plane(const Surface& rest, SurfaceEdge edge, const 
   const EdgeRows rows = edge_rows(net, edge_at_end(edge));
   const auto sum = [&](const Terms& row, const Point& origin) {
     Point s = Point::Zero();
-    for (const auto& [unknown, c] : row) s += c * (rest.control_points().row(unknown).transpose() - origin);
+    for (const auto& [unknown, c] : row)
+      s += c * (rest.control_points().row(unknown).transpose() - origin);
     return s;
   };
   double off = 0, across = 0, tilt = 0;
@@ -151,17 +157,22 @@ Expected<void> hold_symmetry_plane(const Surface& rest, SurfaceEdge edge, const 
     tilt = std::max(tilt, (cross - frame->normal * frame->normal.dot(cross)).norm());
   }
   if (!(off <= tolerance)) {
-    return input_error(fmt::format("the edge leaves the plane by {:.3g}", off), name, "move the plane or the edge");
+    return input_error(fmt::format("the edge leaves the plane by {:.3g}", off), name,
+                       "move the plane or the edge");
   }
   if (order == 1 && !(rows.weight_error <= proportional)) {
-    return input_error(fmt::format("the weights of the rows at the edge are not proportional: they differ by {:.3g}",
-                                   rows.weight_error),
-                       name, "keep the edge in the plane only (order 0)");
+    return input_error(
+        fmt::format(
+            "the weights of the rows at the edge are not proportional: they differ by {:.3g}",
+            rows.weight_error),
+        name, "keep the edge in the plane only (order 0)");
   }
   if (order == 1 && !(tilt <= std::sin(std::min(angle, 1.5)) * across)) {
-    return input_error(fmt::format("the surface does not meet the plane at right angles: {:.3g} radian are missing",
-                                   std::asin(std::min(1.0, across > 0 ? tilt / across : 1.0))),
-                       name, "keep the edge in the plane only (order 0)");
+    return input_error(
+        fmt::format(
+            "the surface does not meet the plane at right angles: {:.3g} radian are missing",
+            std::asin(std::min(1.0, across > 0 ? tilt / across : 1.0))),
+        name, "keep the edge in the plane only (order 0)");
   }
   for (const Terms& row : rows.position) detail::append(to, name, row, frame->normal);
   if (order == 0) return {};
@@ -171,10 +182,12 @@ Expected<void> hold_symmetry_plane(const Surface& rest, SurfaceEdge edge, const 
   return {};
 }
 
-Expected<MirrorReport> mirror_report(const Surface& rest, int direction, const MirrorPlane& plane, double tolerance) {
+Expected<MirrorReport> mirror_report(const Surface& rest, int direction, const MirrorPlane& plane,
+                                     double tolerance) {
   const auto frame = frame_of(plane);
   if (!frame) return std::unexpected(frame.error());
-  if (auto valid = detail::check_tolerance(tolerance, "mirror"); !valid) return std::unexpected(valid.error());
+  if (auto valid = detail::check_tolerance(tolerance, "mirror"); !valid)
+    return std::unexpected(valid.error());
   MirrorReport report;
   compare_knots(rest.knots(direction), tolerance, report);
   const auto points = partners(rest, direction);
@@ -190,7 +203,8 @@ Expected<MirrorReport> mirror_report(const Surface& rest, int direction, const M
   for (int i = 0; i < net.rows(); ++i) {
     for (int j = 0; j < net.columns(); ++j) {
       const double a = net.weight(i, j), b = net.weight(net.rows() - 1 - i, j);
-      report.weights = std::max(report.weights, a == b ? 0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b)));
+      report.weights = std::max(report.weights,
+                                a == b ? 0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b)));
     }
   }
   return report;
@@ -203,28 +217,32 @@ Expected<MirrorPlane> mirror_plane(const Surface& rest, int direction) {
   const auto axes = detail::symmetric_eigen(Eigen::Matrix3d(way.transpose() * way));
   if (!axes) return std::unexpected(axes.error());
   if (!(axes->values[2] > 0)) {
-    return numerical_error("partners do not lie apart, so no plane mirrors them", "mirror", "name the plane");
+    return numerical_error("partners do not lie apart, so no plane mirrors them", "mirror",
+                           "name the plane");
   }
-  return MirrorPlane{(0.5 * ((*points)[0] + (*points)[1])).colwise().mean().transpose(), axes->vectors.col(2)};
+  return MirrorPlane{(0.5 * ((*points)[0] + (*points)[1])).colwise().mean().transpose(),
+                     axes->vectors.col(2)};
 }
 
-Expected<MirrorReport> keep_mirror(const Surface& rest, int direction, const MirrorPlane& plane, double tolerance,
-                                   ConstraintList& to) {
+Expected<MirrorReport> keep_mirror(const Surface& rest, int direction, const MirrorPlane& plane,
+                                   double tolerance, ConstraintList& to) {
   auto report = mirror_report(rest, direction, plane, tolerance);
   if (!report) return report;
   const auto frame = frame_of(plane);
   const char axis = direction == 0 ? 'u' : 'v';
   if (!report->insert.empty()) {
     return input_error(
-        fmt::format("the knots are not symmetric in {}: {:.3g} of the domain's length is missing", axis, report->knots),
+        fmt::format("the knots are not symmetric in {}: {:.3g} of the domain's length is missing",
+                    axis, report->knots),
         "mirror", fmt::format("insert the knots {}", fmt::join(report->insert, ", ")));
   }
   if (report->clamp) {
-    return input_error(fmt::format("the knots outside of the domain are not symmetric in {}", axis), "mirror",
-                       "insert the ends of the domain until both are clamped");
+    return input_error(fmt::format("the knots outside of the domain are not symmetric in {}", axis),
+                       "mirror", "insert the ends of the domain until both are clamped");
   }
   if (report->weights > tolerance) {
-    return input_error(fmt::format("the weights are not symmetric in {}: they differ by {:.3g}", axis, report->weights),
+    return input_error(fmt::format("the weights are not symmetric in {}: they differ by {:.3g}",
+                                   axis, report->weights),
                        "mirror");
   }
   const NetAcross net(rest, direction);

@@ -20,20 +20,22 @@ struct Patches {
   std::span<const int> rows;
 };
 
-/// R of one patch at its parameters, or its derivative in a direction, in unknowns of all patches, times a sign.
+/// R of one patch at its parameters, or its derivative in a direction, in unknowns of all patches,
+/// times a sign.
 Expected<void> add_row(const Patches& patches, const SharedPoint::value_type& place,
                        const std::optional<Eigen::Vector2d>& across, double sign, Terms& terms) {
   const auto& [patch, at] = place;
   const Surface& s = *patches.all[static_cast<std::size_t>(patch)];
   for (int d = 0; d < 2; ++d) {
-    auto inside = detail::check_parameter(s.knots(d), at[static_cast<std::size_t>(d)], d == 0 ? "u" : "v");
+    auto inside =
+        detail::check_parameter(s.knots(d), at[static_cast<std::size_t>(d)], d == 0 ? "u" : "v");
     if (!inside) return inside;
   }
   const int first = patches.rows[static_cast<std::size_t>(patch)];
   for (int along = across ? 0 : -1; along < (across ? 2 : 0); ++along) {
     const double share = across ? sign * (*across)[along] : sign;
-    const auto row =
-        detail::rational_row(s, at[0], at[1], s.knots(0).find_span(at[0]), s.knots(1).find_span(at[1]), along);
+    const auto row = detail::rational_row(s, at[0], at[1], s.knots(0).find_span(at[0]),
+                                          s.knots(1).find_span(at[1]), along);
     if (!row) return std::unexpected(row.error());
     for (const auto& [unknown, c] : *row) {
       if (share * c != 0) terms.emplace_back(first + unknown, share * c);
@@ -43,7 +45,8 @@ Expected<void> add_row(const Patches& patches, const SharedPoint::value_type& pl
 }
 
 /// The conditions on positions at the points of an edge, or those on derivatives.
-Expected<std::vector<Terms>> conditions(const Patches& patches, const CoupledEdge& edge, bool derivatives) {
+Expected<std::vector<Terms>> conditions(const Patches& patches, const CoupledEdge& edge,
+                                        bool derivatives) {
   std::vector<Terms> result;
   for (std::size_t p = 0; p < edge.points.size(); ++p) {
     const SharedPoint& point = edge.points[p];
@@ -69,8 +72,8 @@ Expected<std::vector<Terms>> conditions(const Patches& patches, const CoupledEdg
   return result;
 }
 
-/// An unknown in those that are independent. Where a constraint along a normal couples the coordinates, those of x
-/// stand for all.
+/// An unknown in those that are independent. Where a constraint along a normal couples the
+/// coordinates, those of x stand for all.
 Terms independent_terms(const detail::ConstraintElimination& elimination, int unknown) {
   const int at = elimination.coupled() ? 3 * unknown : unknown;
   const auto& definition = elimination.definition(at);
@@ -84,14 +87,16 @@ Terms independent_terms(const detail::ConstraintElimination& elimination, int un
 }
 
 /// The conditions in the unknowns that an elimination leaves independent.
-std::vector<Terms> reduced(const detail::ConstraintElimination& elimination, const std::vector<Terms>& conditions) {
+std::vector<Terms> reduced(const detail::ConstraintElimination& elimination,
+                           const std::vector<Terms>& conditions) {
   std::map<int, Terms> known;  // of every unknown
   std::vector<Terms> result;
   for (const Terms& condition : conditions) {
     std::map<int, double> sum;
     for (const auto& [unknown, c] : condition) {
       auto found = known.find(unknown);
-      if (found == known.end()) found = known.emplace(unknown, independent_terms(elimination, unknown)).first;
+      if (found == known.end())
+        found = known.emplace(unknown, independent_terms(elimination, unknown)).first;
       for (const auto& [y, a] : found->second) sum[y] += c * a;
     }
     result.emplace_back(sum.begin(), sum.end());
@@ -113,12 +118,15 @@ LinearConstraint constraint_of(const std::string& name, const Terms& terms) {
 
 }  // namespace
 
-Expected<EdgeCoupling> couple_edges(std::span<const Surface* const> patches, std::span<const int> rows,
-                                    std::span<const CoupledEdge> edges, std::span<const LinearConstraint> before,
-                                    const std::vector<bool>& held, const CouplingTolerance& tolerance) {
+Expected<EdgeCoupling> couple_edges(std::span<const Surface* const> patches,
+                                    std::span<const int> rows, std::span<const CoupledEdge> edges,
+                                    std::span<const LinearConstraint> before,
+                                    const std::vector<bool>& held,
+                                    const CouplingTolerance& tolerance) {
   for (const double t : {tolerance.position, tolerance.tangent}) {
     if (t > 0 && t <= 1) continue;
-    return input_error(fmt::format("{} is not a tolerance", t), "tolerance", "use a number above 0, up to 1");
+    return input_error(fmt::format("{} is not a tolerance", t), "tolerance",
+                       "use a number above 0, up to 1");
   }
   auto elimination = ConstraintSpace::eliminated(rows.back(), before, held);
   if (!elimination) return std::unexpected(elimination.error());
@@ -136,9 +144,11 @@ Expected<EdgeCoupling> couple_edges(std::span<const Surface* const> patches, std
     return {};
   };
   for (const CoupledEdge& edge : edges) {
-    if (auto done = couple(edge, false, tolerance.position); !done) return std::unexpected(done.error());
+    if (auto done = couple(edge, false, tolerance.position); !done)
+      return std::unexpected(done.error());
     if (edge.across.empty()) continue;
-    if (auto done = couple(edge, true, tolerance.tangent); !done) return std::unexpected(done.error());
+    if (auto done = couple(edge, true, tolerance.tangent); !done)
+      return std::unexpected(done.error());
   }
   return result;
 }

@@ -20,8 +20,8 @@ struct Edge {
   Points points;
   Point lower, upper;
   double length = 0, longest = 0;  // of the polyline, and of its longest piece
-  /// For piece k, from sample k to the next, a bound on the deviation of the curve from it: an arc with second
-  /// differences d of its samples deviates by d/8.
+  /// For piece k, from sample k to the next, a bound on the deviation of the curve from it: an arc
+  /// with second differences d of its samples deviates by d/8.
   std::vector<double> stray;
   struct Block {
     Eigen::Index begin, end;  // pieces
@@ -43,7 +43,8 @@ void complete(Edge& edge) {
     const double piece = (edge.points.row(k + 1) - edge.points.row(k)).norm();
     edge.length += piece;
     edge.longest = std::max(edge.longest, piece);
-    edge.stray.push_back(std::max(bends[static_cast<std::size_t>(k)], bends[static_cast<std::size_t>(k + 1)]));
+    edge.stray.push_back(
+        std::max(bends[static_cast<std::size_t>(k)], bends[static_cast<std::size_t>(k + 1)]));
   }
   for (Eigen::Index k = 0; k < pieces; k += block_size) {
     const Eigen::Index end = std::min(k + block_size, pieces);
@@ -69,7 +70,8 @@ Expected<Edge> sampled(const PatchEdge& id, const Surface& surface) {
 /// The position of an edge relative to a curve: the nearest points of its samples.
 struct Beside {
   bool all = true;
-  double gap = 0, common = 0;  // over the samples within the tolerance; length of the pieces between such
+  double gap = 0,
+         common = 0;  // over the samples within the tolerance; length of the pieces between such
 };
 
 double distance_to_segment(const Point& x, const Point& a, const Point& b, double& s) {
@@ -88,8 +90,8 @@ struct Foot {
   double distance = INFINITY, t = 0;
 };
 
-/// That of the edge's curve to x, where it is nearer than `limit`: on the nearest piece of the polyline, then by
-/// Gauss–Newton on |C(t) − x|² about it.
+/// That of the edge's curve to x, where it is nearer than `limit`: on the nearest piece of the
+/// polyline, then by Gauss–Newton on |C(t) − x|² about it.
 std::optional<Foot> foot_on(const Point& x, const Edge& edge, double limit) {
   double nearest = limit + edge.longest, t = 0;
   std::size_t piece = edge.t.size();
@@ -105,7 +107,8 @@ std::optional<Foot> foot_on(const Point& x, const Edge& edge, double limit) {
     }
   }
   if (piece == edge.t.size() || nearest > limit + edge.stray[piece]) return std::nullopt;
-  const double low = edge.t[piece > 0 ? piece - 1 : 0], high = edge.t[std::min(piece + 2, edge.t.size() - 1)];
+  const double low = edge.t[piece > 0 ? piece - 1 : 0],
+               high = edge.t[std::min(piece + 2, edge.t.size() - 1)];
   const double scale = edge.surface->knots(edge_along(edge.id.edge)).domain().length();
   Foot best;
   for (int iteration = 0; iteration < 12; ++iteration) {
@@ -113,7 +116,9 @@ std::optional<Foot> foot_on(const Point& x, const Edge& edge, double limit) {
     if (!at) return std::nullopt;
     const Point offset = x - at->points().row(0).transpose();
     const Point tangent =
-        scale * at->at(edge_along(edge.id.edge) == 0 ? MultiIndex<2>{1, 0} : MultiIndex<2>{0, 1}).row(0).transpose();
+        scale * at->at(edge_along(edge.id.edge) == 0 ? MultiIndex<2>{1, 0} : MultiIndex<2>{0, 1})
+                    .row(0)
+                    .transpose();
     if (offset.norm() < best.distance) best = {offset.norm(), t};
     if (tangent.squaredNorm() == 0) break;
     const double next = std::clamp(t + offset.dot(tangent) / tangent.squaredNorm(), low, high);
@@ -151,15 +156,18 @@ double mapped_gap(const Edge& edge, const Edge& other, bool reversed) {
 /// Whether the isocurves between two opposite edges stay within the tolerance of the edge.
 bool flat_between(const Edge& edge, double tolerance) {
   const int across = edge_across(edge.id.edge);
-  const Interval domain = edge.surface->knots(across).domain(), along = edge.surface->knots(1 - across).domain();
+  const Interval domain = edge.surface->knots(across).domain(),
+                 along = edge.surface->knots(1 - across).domain();
   std::vector<double> line;
-  for (double s : edge.t) line.push_back(std::clamp(along.lower + s * along.length(), along.lower, along.upper));
+  for (double s : edge.t)
+    line.push_back(std::clamp(along.lower + s * along.length(), along.lower, along.upper));
   for (int quarter = 1; quarter < 4; ++quarter) {
     const double middle = domain.lower + domain.length() * quarter / 4;
     const std::span<const double> fixed(&middle, 1);
-    const auto isocurve =
-        across == 0 ? evaluate_grid<2>(*edge.surface, {fixed, line}) : evaluate_grid<2>(*edge.surface, {line, fixed});
-    if (!isocurve || (isocurve->points() - edge.points).rowwise().norm().maxCoeff() > tolerance) return false;
+    const auto isocurve = across == 0 ? evaluate_grid<2>(*edge.surface, {fixed, line})
+                                      : evaluate_grid<2>(*edge.surface, {line, fixed});
+    if (!isocurve || (isocurve->points() - edge.points).rowwise().norm().maxCoeff() > tolerance)
+      return false;
   }
   return true;
 }
@@ -178,7 +186,8 @@ std::optional<Seam> compare(const Edge& a, const Edge& b, double tolerance) {
   seam.gap = INFINITY;
   for (bool reversed : {false, true}) {
     if (itself && !reversed) continue;
-    if (reversed ? !(near(0, last_b) && near(last_a, 0)) : !(near(0, 0) && near(last_a, last_b))) continue;
+    if (reversed ? !(near(0, last_b) && near(last_a, 0)) : !(near(0, 0) && near(last_a, last_b)))
+      continue;
     const double gap = std::max(mapped_gap(a, b, reversed), mapped_gap(b, a, reversed));
     if (gap <= tolerance && gap < seam.gap) {
       seam.gap = gap;
@@ -192,10 +201,12 @@ std::optional<Seam> compare(const Edge& a, const Edge& b, double tolerance) {
   if (ab.common == 0) return std::nullopt;
   const Beside ba = beside(b, a, tolerance);
   seam.gap = std::max(ab.gap, ba.gap);
-  seam.reversed = (a.points.row(last_a) - a.points.row(0)).dot(b.points.row(last_b) - b.points.row(0)) < 0;
+  seam.reversed =
+      (a.points.row(last_a) - a.points.row(0)).dot(b.points.row(last_b) - b.points.row(0)) < 0;
   if (ab.all && ba.all) {
     seam.kind = SeamKind::reparametrised;
-  } else if (ab.common >= least_common_part * a.length || ba.common >= least_common_part * b.length) {
+  } else if (ab.common >= least_common_part * a.length ||
+             ba.common >= least_common_part * b.length) {
     seam.kind = SeamKind::partial;
   } else {
     return std::nullopt;
@@ -203,14 +214,19 @@ std::optional<Seam> compare(const Edge& a, const Edge& b, double tolerance) {
   return seam;
 }
 
-/// The side of its normal on which a patch lies along its edge: that of (edge's tangent) × (inwards) · (S_u × S_v).
-double turn_along(SurfaceEdge edge) { return edge == SurfaceEdge::u0 || edge == SurfaceEdge::v1 ? -1 : 1; }
+/// The side of its normal on which a patch lies along its edge: that of (edge's tangent) ×
+/// (inwards) · (S_u × S_v).
+double turn_along(SurfaceEdge edge) {
+  return edge == SurfaceEdge::u0 || edge == SurfaceEdge::v1 ? -1 : 1;
+}
 
 }  // namespace
 
 std::vector<double> seam_sides(std::span<const Seam> seams, int patches, int first) {
   std::vector<double> sides(static_cast<std::size_t>(patches), 0);
-  const auto side = [&sides](int patch) -> double& { return sides[static_cast<std::size_t>(patch)]; };
+  const auto side = [&sides](int patch) -> double& {
+    return sides[static_cast<std::size_t>(patch)];
+  };
   side(first) = 1;
   for (bool more = true; more;) {
     more = false;
@@ -218,7 +234,8 @@ std::vector<double> seam_sides(std::span<const Seam> seams, int patches, int fir
       const bool from_a = side(seam.a.patch) != 0;
       if (seam.kind == SeamKind::reparametrised || from_a == (side(seam.b.patch) != 0)) continue;
       // The patches lie on both sides of the edge: the same turn along it is a turn of the normal.
-      const double same = -turn_along(seam.a.edge) * turn_along(seam.b.edge) * (seam.reversed ? -1 : 1);
+      const double same =
+          -turn_along(seam.a.edge) * turn_along(seam.b.edge) * (seam.reversed ? -1 : 1);
       if (from_a) {
         side(seam.b.patch) = same * side(seam.a.patch);
       } else {
@@ -233,7 +250,8 @@ std::vector<double> seam_sides(std::span<const Seam> seams, int patches, int fir
 
 Expected<FoundSeams> find_seams(std::span<const Surface* const> patches, double tolerance) {
   if (!(tolerance > 0) || !std::isfinite(tolerance)) {
-    return input_error("the tolerance of seams is not a positive length", {}, "a small part of the model's size");
+    return input_error("the tolerance of seams is not a positive length", {},
+                       "a small part of the model's size");
   }
   FoundSeams found;
   std::vector<Edge> edges;
@@ -292,7 +310,8 @@ Expected<double> moved_gap(const Seam& seam, std::span<const Surface* const> bef
       std::optional<double> t;
       if (seam.kind == SeamKind::whole) {
         t = seam.reversed ? 1 - edge->t[k] : edge->t[k];
-      } else if (const auto foot = foot_on(edge->points.row(static_cast<Eigen::Index>(k)), *other, seam.gap)) {
+      } else if (const auto foot =
+                     foot_on(edge->points.row(static_cast<Eigen::Index>(k)), *other, seam.gap)) {
         t = foot->t;
       }
       if (!t) continue;

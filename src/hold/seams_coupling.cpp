@@ -28,11 +28,14 @@ struct Coupling {
   SeamReport report;
   std::vector<std::pair<int, double>> terms;
 
-  void reason(std::string text) { report.reason += (report.reason.empty() ? "" : "; ") + std::move(text); }
+  void reason(std::string text) {
+    report.reason += (report.reason.empty() ? "" : "; ") + std::move(text);
+  }
 
   void add_row(const RowMatrix& form, Eigen::Index row, int first, double factor) {
     for (RowMatrix::InnerIterator it(form, row); it; ++it) {
-      if (it.value() != 0) terms.emplace_back(first + static_cast<int>(it.col()), factor * it.value());
+      if (it.value() != 0)
+        terms.emplace_back(first + static_cast<int>(it.col()), factor * it.value());
     }
   }
 
@@ -52,15 +55,16 @@ struct Coupling {
   bool periodic();
   void rigid(const std::string& why);
   void whole(const Expected<seams::RestMeeting>& rest);
-  void tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms& forms_b, const seams::CommonSpace& space,
-                const seams::RestMeeting& rest);
+  void tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms& forms_b,
+                const seams::CommonSpace& space, const seams::RestMeeting& rest);
 };
 
 /// X_{n−p+k} = X_k across a closed direction whose knots and weights repeat.
 bool Coupling::periodic() {
   const int across = edge_across(seam.a.edge);
-  const bool closed = seam.a.patch == seam.b.patch && seam.kind == SeamKind::whole && !seam.reversed &&
-                      seam.a.edge != seam.b.edge && across == edge_across(seam.b.edge);
+  const bool closed = seam.a.patch == seam.b.patch && seam.kind == SeamKind::whole &&
+                      !seam.reversed && seam.a.edge != seam.b.edge &&
+                      across == edge_across(seam.b.edge);
   if (!closed || options.most < SeamContinuity::periodic) return false;
   const KnotVector& knots = a.knots(across);
   const int p = knots.degree(), n = knots.count();
@@ -72,9 +76,12 @@ bool Coupling::periodic() {
   const int other = a.net()[at(1 - across)];
   const auto row = [&](int i, int j) { return across == 0 ? i * other + j : j * n + i; };
   if (a.rational()) {
-    const auto quotient = [&](int i, int j) { return a.weights()[at(row(n - p + i, j))] / a.weights()[at(row(i, j))]; };
+    const auto quotient = [&](int i, int j) {
+      return a.weights()[at(row(n - p + i, j))] / a.weights()[at(row(i, j))];
+    };
     for (int i = 0; i < p; ++i) {
-      for (int j = 0; j < other; ++j) mismatch = std::max(mismatch, std::abs(quotient(i, j) / quotient(0, 0) - 1));
+      for (int j = 0; j < other; ++j)
+        mismatch = std::max(mismatch, std::abs(quotient(i, j) / quotient(0, 0) - 1));
     }
   }
   if (!(mismatch <= options.agreement)) return false;
@@ -89,13 +96,15 @@ bool Coupling::periodic() {
   return true;
 }
 
-/// All edge points of both sides move by the same displacement: D is constant if every E_j is its weight times it.
+/// All edge points of both sides move by the same displacement: D is constant if every E_j is its
+/// weight times it.
 void Coupling::rigid(const std::string& why) {
   if (!options.rigid) {
     reason("not coupled: " + why);
     return;
   }
-  const seams::EdgeForms forms_a = seams::edge_forms(a, seam.a.edge), forms_b = seams::edge_forms(b, seam.b.edge);
+  const seams::EdgeForms forms_a = seams::edge_forms(a, seam.a.edge),
+                         forms_b = seams::edge_forms(b, seam.b.edge);
   Eigen::Index reference = 0;
   if (!(forms_a.weight.cwiseAbs().maxCoeff(&reference) > 0)) {
     reason("not coupled: the edge has no weight");
@@ -117,22 +126,27 @@ void Coupling::rigid(const std::string& why) {
 }
 
 void Coupling::whole(const Expected<seams::RestMeeting>& rest) {
-  const auto space = seams::common_space(a.knots(edge_along(seam.a.edge)), b.knots(edge_along(seam.b.edge)),
-                                         seam.reversed, options.agreement);
+  const auto space =
+      seams::common_space(a.knots(edge_along(seam.a.edge)), b.knots(edge_along(seam.b.edge)),
+                          seam.reversed, options.agreement);
   if (!space) return rigid("the knots of its sides cannot be compared");
-  const seams::EdgeForms forms_a = seams::edge_forms(a, seam.a.edge), forms_b = seams::edge_forms(b, seam.b.edge);
+  const seams::EdgeForms forms_a = seams::edge_forms(a, seam.a.edge),
+                         forms_b = seams::edge_forms(b, seam.b.edge);
   const RowMatrix value_a = space->from_a * forms_a.value, value_b = space->from_b * forms_b.value;
-  const Eigen::VectorXd weight_a = space->from_a * forms_a.weight, weight_b = space->from_b * forms_b.weight;
+  const Eigen::VectorXd weight_a = space->from_a * forms_a.weight,
+                        weight_b = space->from_b * forms_b.weight;
   const double factor = weight_b.sum() / weight_a.sum();
   double mismatch = 0;
   for (Eigen::Index k = 0; k < weight_a.size(); ++k) {
     if (!(weight_a[k] > 0 && weight_b[k] > 0)) return rigid("its weights are not all positive");
     mismatch = std::max(mismatch, std::abs(weight_b[k] / (factor * weight_a[k]) - 1));
   }
-  if (!(mismatch <= options.agreement)) return rigid("the weights of its sides are not in proportion");
+  if (!(mismatch <= options.agreement))
+    return rigid("the weights of its sides are not in proportion");
   report.mismatch = std::max({report.mismatch, space->mismatch, mismatch});
   report.restricted = !space->same;
-  if (report.restricted) reason("degrees or knots of its sides differ: it follows only what both can");
+  if (report.restricted)
+    reason("degrees or knots of its sides differ: it follows only what both can");
 
   for (const Eigen::Index k : space->independent) {
     add_row(value_a, k, first_a, 1 / weight_a[k]);
@@ -149,24 +163,31 @@ void Coupling::whole(const Expected<seams::RestMeeting>& rest) {
 
 void Coupling::tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms& forms_b,
                         const seams::CommonSpace& space, const seams::RestMeeting& rest) {
-  // Folded onto each other, as at a thin trailing edge, counts as smooth: the same condition preserves both.
+  // Folded onto each other, as at a thin trailing edge, counts as smooth: the same condition
+  // preserves both.
   if ((rest.ratio >= 0 ? rest.angle : rest.fold) > options.angle) {
-    return reason(fmt::format("C0: a sharp edge, {:.3g} degrees at rest", rest.angle * 180 / std::numbers::pi));
+    return reason(fmt::format("C0: a sharp edge, {:.3g} degrees at rest",
+                              rest.angle * 180 / std::numbers::pi));
   }
   if (rest.ratio == 0) return reason("C0: the cross-derivatives vanish");
   if (!(rest.deviation <= options.angle)) {
-    return reason(
-        fmt::format("C0: the cross-derivatives are in no fixed ratio (lengths {:.4g} to {:.4g}, off by {:.2g})",
-                    rest.lowest, rest.highest, rest.deviation));
+    return reason(fmt::format(
+        "C0: the cross-derivatives are in no fixed ratio (lengths {:.4g} to {:.4g}, off by {:.2g})",
+        rest.lowest, rest.highest, rest.deviation));
   }
   const RowMatrix value = space.from_a * forms_a.value;
-  const RowMatrix derivative_a = space.from_a * forms_a.derivative, derivative_b = space.from_b * forms_b.derivative;
-  const Eigen::VectorXd weight_a = space.from_a * forms_a.weight, weight_b = space.from_b * forms_b.weight;
-  const Eigen::ArrayXd a_part = (space.from_a * forms_a.weight_derivative).array() / weight_a.array();
-  const Eigen::ArrayXd b_part = rest.ratio * (space.from_b * forms_b.weight_derivative).array() / weight_b.array();
+  const RowMatrix derivative_a = space.from_a * forms_a.derivative,
+                  derivative_b = space.from_b * forms_b.derivative;
+  const Eigen::VectorXd weight_a = space.from_a * forms_a.weight,
+                        weight_b = space.from_b * forms_b.weight;
+  const Eigen::ArrayXd a_part =
+      (space.from_a * forms_a.weight_derivative).array() / weight_a.array();
+  const Eigen::ArrayXd b_part =
+      rest.ratio * (space.from_b * forms_b.weight_derivative).array() / weight_b.array();
   const Eigen::ArrayXd kappa = a_part + b_part;
   if (a.rational() || b.rational()) {
-    const double inside = edge_across(seam.a.edge) == 0 ? a.knots(0).domain().length() : a.knots(1).domain().length();
+    const double inside =
+        edge_across(seam.a.edge) == 0 ? a.knots(0).domain().length() : a.knots(1).domain().length();
     const double scale = std::max({a_part.abs().maxCoeff(), b_part.abs().maxCoeff(), 1 / inside});
     const double spread = (kappa.maxCoeff() - kappa.minCoeff()) / scale;
     if (!(spread <= options.agreement))
@@ -182,15 +203,17 @@ void Coupling::tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms&
   report.continuity = SeamContinuity::g1;
   if (rest.ratio < 0) reason("its sides are folded onto each other");
   if (report.deviation > 1e-6) {
-    reason(fmt::format("its sides are {:.2g} off a smooth join at rest: the angle may change by {:.2g} rad",
-                       report.deviation, report.deviation));
+    reason(fmt::format(
+        "its sides are {:.2g} off a smooth join at rest: the angle may change by {:.2g} rad",
+        report.deviation, report.deviation));
   }
 }
 
 }  // namespace
 
-Expected<SeamCoupling> couple_seams(std::span<const Surface* const> patches, std::span<const int> rows,
-                                    std::span<const Seam> found, const SeamOptions& options) {
+Expected<SeamCoupling> couple_seams(std::span<const Surface* const> patches,
+                                    std::span<const int> rows, std::span<const Seam> found,
+                                    const SeamOptions& options) {
   SeamCoupling result;
   for (std::size_t k = 0; k < found.size(); ++k) {
     for (int patch : {found[k].a.patch, found[k].b.patch}) {
@@ -203,13 +226,15 @@ Expected<SeamCoupling> couple_seams(std::span<const Surface* const> patches, std
   std::vector<seams::RestMeeting*> smooth(found.size(), nullptr);
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (found[k].kind != SeamKind::whole || options.most == SeamContinuity::none) continue;
-    rests[k] = seams::rest_meeting(*patches[at(found[k].a.patch)], *patches[at(found[k].b.patch)], found[k]);
+    rests[k] = seams::rest_meeting(*patches[at(found[k].a.patch)], *patches[at(found[k].b.patch)],
+                                   found[k]);
     if (rests[k] && rests[k]->deviation <= options.angle) smooth[k] = &*rests[k];
   }
   seams::agree_ratios(patches, found, smooth);
   for (std::size_t k = 0; k < found.size(); ++k) {
     const Seam& seam = found[k];
-    const std::string name = fmt::format("seam {} ({} – {})", k, to_string(seam.a), to_string(seam.b));
+    const std::string name =
+        fmt::format("seam {} ({} – {})", k, to_string(seam.a), to_string(seam.b));
     Coupling coupling{seam,
                       *patches[at(seam.a.patch)],
                       *patches[at(seam.b.patch)],

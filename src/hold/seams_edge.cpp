@@ -17,11 +17,13 @@ double edge_end(const Surface& surface, SurfaceEdge edge) {
   return edge_at_end(edge) ? domain.upper : domain.lower;
 }
 
-Expected<Evaluation<2>> evaluate_edge(const Surface& surface, SurfaceEdge edge, std::span<const double> t, int order) {
+Expected<Evaluation<2>> evaluate_edge(const Surface& surface, SurfaceEdge edge,
+                                      std::span<const double> t, int order) {
   const Interval domain = surface.knots(edge_along(edge)).domain();
   std::vector<double> along;
   along.reserve(t.size());
-  for (double s : t) along.push_back(std::clamp(domain.lower + s * domain.length(), domain.lower, domain.upper));
+  for (double s : t)
+    along.push_back(std::clamp(domain.lower + s * domain.length(), domain.lower, domain.upper));
   const double end = edge_end(surface, edge);
   const std::span<const double> fixed(&end, 1);
   return edge_across(edge) == 0 ? evaluate_grid<2>(surface, {fixed, along}, order)
@@ -40,7 +42,8 @@ std::vector<double> edge_samples(const KnotVector& along) {
   std::vector<double> t;
   t.reserve(spans.size() * static_cast<std::size_t>(pieces) + 1);
   for (int s : spans) {
-    const double a = (along[s] - domain.lower) / domain.length(), b = (along[s + 1] - domain.lower) / domain.length();
+    const double a = (along[s] - domain.lower) / domain.length(),
+                 b = (along[s + 1] - domain.lower) / domain.length();
     for (int k = 0; k < pieces; ++k) t.push_back(a + (b - a) * k / pieces);
   }
   t.push_back(1);

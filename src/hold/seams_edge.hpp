@@ -11,8 +11,8 @@ namespace knead::seams {
 [[nodiscard]] double edge_end(const Surface& surface, SurfaceEdge edge);
 
 /// `surface` and its derivatives at t = (x − lower)/length in [0, 1] along an edge.
-[[nodiscard]] Expected<Evaluation<2>> evaluate_edge(const Surface& surface, SurfaceEdge edge, std::span<const double> t,
-                                                    int order);
+[[nodiscard]] Expected<Evaluation<2>> evaluate_edge(const Surface& surface, SurfaceEdge edge,
+                                                    std::span<const double> t, int order);
 
 /// The derivative into the patch, across the edge, per parameter.
 [[nodiscard]] Points inward(const Evaluation<2>& evaluation, SurfaceEdge edge);

@@ -53,14 +53,15 @@ bool take_over(Target& target, const Target& other, bool mirror, double agreemen
 
 }  // namespace
 
-std::vector<SeamRefinement> seam_refinements(std::span<const Surface* const> patches, std::span<const Seam> seams,
-                                             double agreement) {
+std::vector<SeamRefinement> seam_refinements(std::span<const Surface* const> patches,
+                                             std::span<const Seam> seams, double agreement) {
   std::vector<std::array<Target, 2>> targets;
   for (const Surface* patch : patches) {
     std::array<Target, 2> own;
     for (int d = 0; d < 2; ++d) {
       const KnotVector& knots = patch->knots(d);
-      own[static_cast<std::size_t>(d)] = {knots.degree(), seams::inner_knots(seams::normalised_knots(knots, false))};
+      own[static_cast<std::size_t>(d)] = {
+          knots.degree(), seams::inner_knots(seams::normalised_knots(knots, false))};
     }
     targets.push_back(std::move(own));
   }
@@ -68,8 +69,8 @@ std::vector<SeamRefinement> seam_refinements(std::span<const Surface* const> pat
     assert(e.patch >= 0 && static_cast<std::size_t>(e.patch) < patches.size());
     return targets[static_cast<std::size_t>(e.patch)][static_cast<std::size_t>(edge_along(e.edge))];
   };
-  // Each pass carries knots one seam further. The only maps are t and 1 − t, so at most the mirrored union
-  // appears.
+  // Each pass carries knots one seam further. The only maps are t and 1 − t, so at most the
+  // mirrored union appears.
   for (bool changed = true; changed;) {
     changed = false;
     for (const Seam& seam : seams) {
@@ -88,19 +89,22 @@ std::vector<SeamRefinement> seam_refinements(std::span<const Surface* const> pat
       SeamRefinement refinement{static_cast<int>(patch), d, wanted.degree - knots.degree(), {}};
       std::vector<double> own;  // values of the inner knots, bit for bit
       for (double x : knots.knots()) {
-        if (x > domain.lower && x < domain.upper && (own.empty() || own.back() != x)) own.push_back(x);
+        if (x > domain.lower && x < domain.upper && (own.empty() || own.back() != x))
+          own.push_back(x);
       }
       const auto inner = seams::inner_knots(seams::normalised_knots(knots, false));
       for (const InnerKnot& k : wanted.inner) {
         const auto at = std::ranges::find(inner, k.t, &InnerKnot::t);
         const bool stands = at != inner.end();
-        const double value =
-            stands ? own[static_cast<std::size_t>(at - inner.begin())]
-                   : (k.t < 0.5 ? domain.lower + k.t * domain.length() : domain.upper - (1 - k.t) * domain.length());
+        const double value = stands ? own[static_cast<std::size_t>(at - inner.begin())]
+                                    : (k.t < 0.5 ? domain.lower + k.t * domain.length()
+                                                 : domain.upper - (1 - k.t) * domain.length());
         const int already = stands ? at->multiplicity + refinement.elevate : 0;
-        refinement.insert.insert(refinement.insert.end(), static_cast<std::size_t>(k.multiplicity - already), value);
+        refinement.insert.insert(refinement.insert.end(),
+                                 static_cast<std::size_t>(k.multiplicity - already), value);
       }
-      if (refinement.elevate > 0 || !refinement.insert.empty()) refinements.push_back(std::move(refinement));
+      if (refinement.elevate > 0 || !refinement.insert.empty())
+        refinements.push_back(std::move(refinement));
     }
   }
   return refinements;

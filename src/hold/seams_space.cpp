@@ -22,13 +22,16 @@ std::vector<double> clamped_over(int degree, std::span<const InnerKnot> inner, i
   return knots;
 }
 
-/// Adds `factor` times the polar form of the piece of span s at p arguments, as a row over the coefficients s − p … s
-/// (Goldman's form of the Oslo algorithm: de Boor's recursion read backwards).
-void add_blossom(const KnotVector& x, int s, std::span<const double> arguments, double factor, std::span<double> row) {
+/// Adds `factor` times the polar form of the piece of span s at p arguments, as a row over the
+/// coefficients s − p … s (Goldman's form of the Oslo algorithm: de Boor's recursion read
+/// backwards).
+void add_blossom(const KnotVector& x, int s, std::span<const double> arguments, double factor,
+                 std::span<double> row) {
   const int p = x.degree();
   std::vector<double> g(at(p + 1), 0.0);  // g[j − (s − p)]
   g[at(p)] = 1;
-  for (int r = p; r >= 1; --r) {  // the first argument goes to the narrowest quotients: all terms are non-negative
+  for (int r = p; r >= 1;
+       --r) {  // the first argument goes to the narrowest quotients: all terms are non-negative
     const double t = arguments[at(p - r)];
     std::vector<double> next(at(p + 1), 0.0);
     for (int j = s - p + r; j <= s; ++j) {
@@ -42,8 +45,9 @@ void add_blossom(const KnotVector& x, int s, std::span<const double> arguments, 
   for (int k = 0; k <= p; ++k) row[at(s - p + k)] += factor * g[at(k)];
 }
 
-/// Coefficients on `to` from those on `from`: same domain [0, 1], `to` clamped with all inner knots of `from`, its
-/// degree the same or one higher (then a mean over the omitted argument, Prautzsch 1984).
+/// Coefficients on `to` from those on `from`: same domain [0, 1], `to` clamped with all inner knots
+/// of `from`, its degree the same or one higher (then a mean over the omitted argument, Prautzsch
+/// 1984).
 RowMatrix coarse_to_fine(const KnotVector& from, const KnotVector& to) {
   const int p = from.degree(), q = to.degree();
   assert(q == p || q == p + 1);
@@ -85,9 +89,11 @@ std::optional<RowMatrix> onto(int degree, const std::vector<double>& knots, int 
   return RowMatrix(coarse_to_fine(*from, *to) * result);
 }
 
-/// The independent ones of the conditions R_a E_a = R_b E_b: their number, the columns of both minus the dimension of
-/// the intersection, is known. After a few dozen, elimination could not tell the others from rounding.
-std::optional<std::vector<Eigen::Index>> independent_rows(const RowMatrix& from_a, const RowMatrix& from_b,
+/// The independent ones of the conditions R_a E_a = R_b E_b: their number, the columns of both
+/// minus the dimension of the intersection, is known. After a few dozen, elimination could not tell
+/// the others from rounding.
+std::optional<std::vector<Eigen::Index>> independent_rows(const RowMatrix& from_a,
+                                                          const RowMatrix& from_b,
                                                           Eigen::Index common) {
   Eigen::MatrixXd both(from_a.cols() + from_b.cols(), from_a.rows());
   both << Eigen::MatrixXd(from_a.transpose()), -Eigen::MatrixXd(from_b.transpose());
@@ -107,7 +113,8 @@ std::vector<double> normalised_knots(const KnotVector& knots, bool reversed) {
   t.reserve(knots.knots().size());
   for (double x : knots.knots()) {
     // Measured from the nearer end, so that mirrored knots have mirrored values.
-    const double from_start = (x - domain.lower) / domain.length(), from_end = (domain.upper - x) / domain.length();
+    const double from_start = (x - domain.lower) / domain.length(),
+                 from_end = (domain.upper - x) / domain.length();
     t.push_back(reversed ? (from_start < from_end ? 1 - from_start : from_end)
                          : (from_start < from_end ? from_start : 1 - from_end));
   }
@@ -126,7 +133,8 @@ std::vector<InnerKnot> inner_knots(std::span<const double> normalised) {
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> matching_knots(std::span<const InnerKnot> a,
-                                                                std::span<const InnerKnot> b, double agreement) {
+                                                                std::span<const InnerKnot> b,
+                                                                double agreement) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
@@ -144,7 +152,8 @@ std::vector<std::pair<std::size_t, std::size_t>> matching_knots(std::span<const 
   return pairs;
 }
 
-std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b, bool reversed, double agreement) {
+std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b, bool reversed,
+                                        double agreement) {
   const std::vector<double> knots_a = normalised_knots(a, false);
   std::vector<double> knots_b = normalised_knots(b, reversed);
   const std::vector<InnerKnot> inner_a = inner_knots(knots_a);
@@ -163,8 +172,10 @@ std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b
 
   std::vector<InnerKnot> common;
   std::size_t j = 0, pair = 0;
-  Eigen::Index shared = std::min(a.degree(), b.degree()) + 1;  // dimension of the intersection: the smoother of either
-  result.same = more_a == 0 && more_b == 0 && inner_a.size() == inner_b.size() && pairs.size() == inner_a.size();
+  Eigen::Index shared = std::min(a.degree(), b.degree()) +
+                        1;  // dimension of the intersection: the smoother of either
+  result.same = more_a == 0 && more_b == 0 && inner_a.size() == inner_b.size() &&
+                pairs.size() == inner_a.size();
   for (std::size_t i = 0; i < inner_a.size(); ++i) {
     while (j < inner_b.size() && inner_b[j].t < inner_a[i].t) {
       common.push_back({inner_b[j].t, inner_b[j].multiplicity + more_b});
@@ -173,14 +184,16 @@ std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b
     InnerKnot knot{inner_a[i].t, inner_a[i].multiplicity + more_a};
     if (pair < pairs.size() && pairs[pair].first == i) {
       result.same = result.same && inner_b[j].multiplicity == inner_a[i].multiplicity;
-      shared += std::max(0, std::min(inner_a[i].multiplicity - more_b, inner_b[j].multiplicity - more_a));
+      shared +=
+          std::max(0, std::min(inner_a[i].multiplicity - more_b, inner_b[j].multiplicity - more_a));
       knot.multiplicity = std::max(knot.multiplicity, inner_b[j].multiplicity + more_b);
       ++j;
       ++pair;
     }
     common.push_back(knot);
   }
-  for (; j < inner_b.size(); ++j) common.push_back({inner_b[j].t, inner_b[j].multiplicity + more_b});
+  for (; j < inner_b.size(); ++j)
+    common.push_back({inner_b[j].t, inner_b[j].multiplicity + more_b});
 
   const std::vector<double> knots = clamped_over(degree, common, 0);
   auto from_a = onto(a.degree(), knots_a, degree, knots);
@@ -200,7 +213,8 @@ std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index k = 0; k < result.from_b.outerSize(); ++k) {
       for (RowMatrix::InnerIterator it(result.from_b, k); it; ++it) {
-        entries.emplace_back(static_cast<int>(k), b.count() - 1 - static_cast<int>(it.col()), it.value());
+        entries.emplace_back(static_cast<int>(k), b.count() - 1 - static_cast<int>(it.col()),
+                             it.value());
       }
     }
     result.from_b.setFromTriplets(entries.begin(), entries.end());
@@ -223,7 +237,8 @@ EdgeForms edge_forms(const Surface& surface, SurfaceEdge edge) {
       const int i = span - p + r, row = across == 0 ? i * n + j : j * n + i;
       const double weight = surface.rational() ? surface.weights()[at(row)] : 1;
       if (basis[at(r)] != 0) values.emplace_back(j, row, basis[at(r)] * weight);
-      if (basis[at(p + 1 + r)] != 0) derivatives.emplace_back(j, row, sign * basis[at(p + 1 + r)] * weight);
+      if (basis[at(p + 1 + r)] != 0)
+        derivatives.emplace_back(j, row, sign * basis[at(p + 1 + r)] * weight);
     }
   }
   EdgeForms forms{RowMatrix(count, m * n), RowMatrix(count, m * n), {}, {}};

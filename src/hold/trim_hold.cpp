@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double rounding_of_parameters =
-    8 * std::numeric_limits<double>::epsilon();  // of the domain: smaller deviations do not count
-constexpr double grain = 1e-9;                   // of the domain: smaller overlaps do not count
+// Of the domain: smaller deviations do not count.
+constexpr double rounding_of_parameters = 8 * std::numeric_limits<double>::epsilon();
+constexpr double grain = 1e-9;  // of the domain: smaller overlaps do not count
 constexpr double share_of_cell = 0.25;
 
 /// The spans of one direction and the functions over them.
@@ -37,12 +37,14 @@ struct Direction {
     const auto begin = lines.begin(), end = lines.end();
     const auto first = std::upper_bound(begin, end, lower - e) - begin - 1;
     const auto last = std::lower_bound(begin, end, upper + e) - begin;
-    return {std::clamp(static_cast<int>(first), 0, count()), std::clamp(static_cast<int>(last), 0, count())};
+    return {std::clamp(static_cast<int>(first), 0, count()),
+            std::clamp(static_cast<int>(last), 0, count())};
   }
   /// Spans in the support of function i, as first and one past the last.
   [[nodiscard]] std::array<int, 2> support(int i) const {
     const auto first = std::lower_bound(spans.begin(), spans.end(), i) - spans.begin();
-    const auto last = std::upper_bound(spans.begin(), spans.end(), i + knots.degree()) - spans.begin();
+    const auto last =
+        std::upper_bound(spans.begin(), spans.end(), i + knots.degree()) - spans.begin();
     return {static_cast<int>(first), static_cast<int>(last)};
   }
   /// Whether N_i has a non-zero derivative of order <= `order` at c, from inside its support.
@@ -73,19 +75,22 @@ class Cells {
     crossed_.assign(static_cast<std::size_t>(u_.count() * v_.count()), false);
     held_.assign(crossed_.size(), -1);
     // A length in parameters: by the largest speed of either direction, sampled.
-    for (std::size_t d = 0; d < 2; ++d) snap_[d] = grain * direction(static_cast<int>(d)).domain.length();
+    for (std::size_t d = 0; d < 2; ++d)
+      snap_[d] = grain * direction(static_cast<int>(d)).domain.length();
     speed(surface, tolerance);
   }
 
   [[nodiscard]] const Direction& direction(int d) const { return d == 0 ? u_ : v_; }
 
-  /// Marks the spans that an edge crosses, and returns the lines it runs along. `number` < 0: not held.
+  /// Marks the spans that an edge crosses, and returns the lines it runs along. `number` < 0: not
+  /// held.
   std::vector<KnotLine> mark(const TrimEdge& edge, int number) {
     std::vector<KnotLine> lines;
     const Vector2d slack = Vector2d(u_.domain.length(), v_.domain.length()) * edge.deviation;
     for (std::size_t k = 0; k + 1 < edge.course.size(); ++k) {
       for (const Vector2d& turn : turns(edge.course[k], edge.course[k + 1])) {
-        chord(in_domain(edge.course[k] + turn), in_domain(edge.course[k + 1] + turn), slack, number, lines);
+        chord(in_domain(edge.course[k] + turn), in_domain(edge.course[k + 1] + turn), slack, number,
+              lines);
       }
     }
     return lines;
@@ -95,8 +100,9 @@ class Cells {
     visible_.assign(crossed_.size(), false);
     for (int i = 0; i < u_.count(); ++i) {
       for (int j = 0; j < v_.count(); ++j) {
-        const Vector2d middle((0.5 * (u_.lines[at(i)] + u_.lines[at(i + 1)]) - u_.domain.lower) / u_.domain.length(),
-                              (0.5 * (v_.lines[at(j)] + v_.lines[at(j + 1)]) - v_.domain.lower) / v_.domain.length());
+        const Vector2d middle(
+            (0.5 * (u_.lines[at(i)] + u_.lines[at(i + 1)]) - u_.domain.lower) / u_.domain.length(),
+            (0.5 * (v_.lines[at(j)] + v_.lines[at(j + 1)]) - v_.domain.lower) / v_.domain.length());
         visible_[cell(i, j)] = crossed_[cell(i, j)] || region_.contains(middle);
       }
     }
@@ -131,12 +137,14 @@ class Cells {
     std::array<std::vector<double>, 2> grid;
     for (int d = 0; d < 2; ++d) {
       const Interval domain = direction(d).domain;
-      for (int k = 0; k <= samples; ++k) grid[at(d)].push_back(domain.lower + domain.length() * k / samples);
+      for (int k = 0; k <= samples; ++k)
+        grid[at(d)].push_back(domain.lower + domain.length() * k / samples);
       grid[at(d)].back() = domain.upper;
     }
     const auto jet = evaluate_grid<2>(surface, {std::span<const double>(grid[0]), grid[1]}, 1);
     if (!jet) return;
-    const double u = jet->at({1, 0}).rowwise().norm().maxCoeff(), v = jet->at({0, 1}).rowwise().norm().maxCoeff();
+    const double u = jet->at({1, 0}).rowwise().norm().maxCoeff(),
+                 v = jet->at({0, 1}).rowwise().norm().maxCoeff();
     if (u > 0) snap_[0] = std::max(snap_[0], std::min(tolerance / u, 1e-4 * u_.domain.length()));
     if (v > 0) snap_[1] = std::max(snap_[1], std::min(tolerance / v, 1e-4 * v_.domain.length()));
   }
@@ -150,7 +158,8 @@ class Cells {
       shifts[at(d)].clear();
       const double lower = std::min(a[d], b[d]), upper = std::max(a[d], b[d]);
       constexpr double touch = 1e-6;
-      for (double s = std::ceil(-upper - touch); s <= std::floor(1 - lower + touch); ++s) shifts[at(d)].push_back(s);
+      for (double s = std::ceil(-upper - touch); s <= std::floor(1 - lower + touch); ++s)
+        shifts[at(d)].push_back(s);
     }
     std::vector<Vector2d> result;
     for (const double s : shifts[0]) {
@@ -160,19 +169,23 @@ class Cells {
   }
 
   [[nodiscard]] Vector2d in_domain(const Vector2d& fractions) const {
-    return {u_.domain.lower + fractions.x() * u_.domain.length(), v_.domain.lower + fractions.y() * v_.domain.length()};
+    return {u_.domain.lower + fractions.x() * u_.domain.length(),
+            v_.domain.lower + fractions.y() * v_.domain.length()};
   }
 
-  void chord(const Vector2d& a, const Vector2d& b, const Vector2d& slack, int number, std::vector<KnotLine>& lines) {
+  void chord(const Vector2d& a, const Vector2d& b, const Vector2d& slack, int number,
+             std::vector<KnotLine>& lines) {
     for (int d = 0; d < 2; ++d) {
       const auto& all = direction(d).lines;
-      const auto near = std::ranges::min_element(all, {}, [&](double c) { return std::abs(c - a[d]); });
+      const auto near =
+          std::ranges::min_element(all, {}, [&](double c) { return std::abs(c - a[d]); });
       if (std::abs(*near - a[d]) > snap_[at(d)] || std::abs(*near - b[d]) > snap_[at(d)]) continue;
       const int e = 1 - d;
       const double off = std::max(std::abs(*near - a[d]), std::abs(*near - b[d]));
       const bool exact = off <= rounding_of_parameters * direction(d).domain.length() &&
                          slack[d] <= rounding_of_parameters * direction(d).domain.length();
-      if (number >= 0) lines.push_back({d, *near, {std::min(a[e], b[e]), std::max(a[e], b[e])}, exact});
+      if (number >= 0)
+        lines.push_back({d, *near, {std::min(a[e], b[e]), std::max(a[e], b[e])}, exact});
       return;
     }
     const int pieces = pieces_of(a, b);
@@ -209,20 +222,24 @@ class Cells {
   std::vector<int> held_;  // the first held edge that runs through
 };
 
-/// The order to hold along a line so that an edge that only runs close to it keeps this one: a tangent plane kept only
-/// on the line turns off it in proportion to the distance. The same at a pole, where normals turn fast.
+/// The order to hold along a line so that an edge that only runs close to it keeps this one: a
+/// tangent plane kept only on the line turns off it in proportion to the distance. The same at a
+/// pole, where normals turn fast.
 int beside_line(int order) { return order > 0 ? order + 1 : order; }
 
 /// Control points that affect a line.
-void hold_line(const Cells& cells, const KnotLine& line, int order, int columns, std::vector<int>& by, int number) {
-  const Direction &across = cells.direction(line.direction), &along = cells.direction(1 - line.direction);
+void hold_line(const Cells& cells, const KnotLine& line, int order, int columns,
+               std::vector<int>& by, int number) {
+  const Direction &across = cells.direction(line.direction),
+                  &along = cells.direction(1 - line.direction);
   const auto [first, last] = along.meeting(line.along.lower, line.along.upper);
   for (int i = 0; i < across.knots.count(); ++i) {
     if (!across.acts(i, line.at, order)) continue;
     for (int j = 0; j < along.knots.count(); ++j) {
       const auto [from, to] = along.support(j);
       if (from >= last || to <= first) continue;
-      int& held = by[static_cast<std::size_t>(line.direction == 0 ? i * columns + j : j * columns + i)];
+      int& held =
+          by[static_cast<std::size_t>(line.direction == 0 ? i * columns + j : j * columns + i)];
       if (held < 0) held = number;
     }
   }
@@ -230,11 +247,13 @@ void hold_line(const Cells& cells, const KnotLine& line, int order, int columns,
 
 }  // namespace
 
-Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region, std::span<const int> orders,
-                              double tolerance, ConstraintList& to) {
-  if (orders.size() != region.edges.size()) return usage_error("there is not one order for each edge", "orders");
+Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region,
+                              std::span<const int> orders, double tolerance, ConstraintList& to) {
+  if (orders.size() != region.edges.size())
+    return usage_error("there is not one order for each edge", "orders");
   for (const int order : orders) {
-    if (order < -1 || order > 2) return usage_error(fmt::format("{} is not an order", order), "orders", "use -1 to 2");
+    if (order < -1 || order > 2)
+      return usage_error(fmt::format("{} is not an order", order), "orders", "use -1 to 2");
   }
   Cells cells(rest, region, tolerance);
   const int columns = rest.net()[1];
@@ -248,8 +267,9 @@ Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region, 
     for (const KnotLine& line : lines) {
       hold_line(cells, line, line.exact ? order : beside_line(order), columns, by, number);
     }
-    result.edges.push_back(
-        {region.edges[e].id, order, lines.size() + 1 >= region.edges[e].course.size() && !lines.empty(), 0});
+    result.edges.push_back({region.edges[e].id, order,
+                            lines.size() + 1 >= region.edges[e].course.size() && !lines.empty(),
+                            0});
   }
   cells.mark_visible();
   const int outside = static_cast<int>(region.edges.size());
@@ -273,7 +293,8 @@ Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region, 
         continue;
       }
       if (held < outside) ++result.edges[static_cast<std::size_t>(held)].points;
-      to.hold(i * columns + j, held < outside    ? "edge " + region.edges[static_cast<std::size_t>(held)].id
+      to.hold(i * columns + j, held < outside
+                                   ? "edge " + region.edges[static_cast<std::size_t>(held)].id
                                : held == outside ? "what lies outside of the face"
                                                  : "pole");
     }

@@ -39,7 +39,8 @@ class Isocurve {
     if (!before) return std::unexpected(before.error());
     return sum;
   }
-  /// The parameter at this length from the place towards `end`, or `end`; in steps of a 64th of the length.
+  /// The parameter at this length from the place towards `end`, or `end`; in steps of a 64th of the
+  /// length.
   [[nodiscard]] Expected<double> reach(double length_to, double end) const {
     constexpr int steps = 64;
     const double from = at_[direction_];
@@ -73,8 +74,8 @@ class Isocurve {
 };
 
 /// Knots that divide the spans of one direction between `lower` and `upper` to at most `length`.
-Expected<void> divide(const Isocurve& curve, const KnotVector& knots, double lower, double upper, double length,
-                      std::vector<double>& insert) {
+Expected<void> divide(const Isocurve& curve, const KnotVector& knots, double lower, double upper,
+                      double length, std::vector<double>& insert) {
   std::vector<double> lines = {lower, upper};
   for (const double x : knots.knots()) {
     if (x > lower && x < upper) lines.push_back(x);
@@ -91,7 +92,8 @@ Expected<void> divide(const Isocurve& curve, const KnotVector& knots, double low
     if (!size) return std::unexpected(size.error());
     if (*size <= coarse_enough * length) continue;
     const int pieces = static_cast<int>(std::ceil(*size / length));
-    for (int j = 1; j < pieces; ++j) more.push_back(lines[k] + (lines[k + 1] - lines[k]) * j / pieces);
+    for (int j = 1; j < pieces; ++j)
+      more.push_back(lines[k] + (lines[k + 1] - lines[k]) * j / pieces);
   }
   insert.insert(insert.end(), more.begin(), more.end());
   return {};
@@ -99,7 +101,9 @@ Expected<void> divide(const Isocurve& curve, const KnotVector& knots, double low
 
 }  // namespace
 
-int trim_refinement_cap(const Surface& opened) { return std::max(least_cap, static_cast<int>(grown * opened.size())); }
+int trim_refinement_cap(const Surface& opened) {
+  return std::max(least_cap, static_cast<int>(grown * opened.size()));
+}
 
 Expected<Surface> TrimRefinement::apply(const Surface& surface) const {
   Expected<Surface> result = surface;
@@ -111,8 +115,8 @@ Expected<Surface> TrimRefinement::apply(const Surface& surface) const {
   return insert_knots<2>(*result, insert);
 }
 
-Expected<TrimRefinement> trim_refinement(const Surface& surface, const std::array<double, 2>& at, double distance,
-                                         double detail, int cap) {
+Expected<TrimRefinement> trim_refinement(const Surface& surface, const std::array<double, 2>& at,
+                                         double distance, double detail, int cap) {
   TrimRefinement result;
   if (!(distance > 0 && std::isfinite(distance))) return result;
   for (double coarser = 1; coarser <= 8; coarser *= 2) {
@@ -134,11 +138,13 @@ Expected<TrimRefinement> trim_refinement(const Surface& surface, const std::arra
                    b = curve.reach(1.5 * detail, knots.domain().upper);
         if (!a) return std::unexpected(a.error());
         if (!b) return std::unexpected(b.error());
-        done = divide(curve, knots, std::max(*a, *lower), std::min(*b, *upper), coarser * detail / 3, result.insert[d]);
+        done = divide(curve, knots, std::max(*a, *lower), std::min(*b, *upper),
+                      coarser * detail / 3, result.insert[d]);
       }
       if (!done) return std::unexpected(done.error());
       std::ranges::sort(result.insert[d]);
-      size *= knots.count() + static_cast<double>(result.elevate[d]) * static_cast<double>(knots.spans().size()) +
+      size *= knots.count() +
+              static_cast<double>(result.elevate[d]) * static_cast<double>(knots.spans().size()) +
               static_cast<double>(result.insert[d].size());
     }
     if (size <= cap) return result;

@@ -21,8 +21,8 @@ Image answers(const Image& image, double sigma, double sign) {
     for (int x = 0; x < image.width; ++x) {
       const int left = std::max(x - 1, 0), right = std::min(x + 1, image.width - 1);
       const int up = std::max(y - 1, 0), down = std::min(y + 1, image.height - 1);
-      result.at(x, y) = scale * (smooth.at(left, y) + smooth.at(right, y) + smooth.at(x, up) + smooth.at(x, down) -
-                                 4 * smooth.at(x, y));
+      result.at(x, y) = scale * (smooth.at(left, y) + smooth.at(right, y) + smooth.at(x, up) +
+                                 smooth.at(x, down) - 4 * smooth.at(x, y));
     }
   }
   return result;

@@ -15,22 +15,23 @@ using Corners = std::array<std::uint32_t, 3>;
 std::vector<double> steps(const KnotVector& knots, int per_span, bool last) {
   std::vector<double> at;
   for (const int span : knots.spans()) {
-    for (int i = 0; i < per_span; ++i) at.push_back(std::lerp(knots[span], knots[span + 1], i / double(per_span)));
+    for (int i = 0; i < per_span; ++i)
+      at.push_back(std::lerp(knots[span], knots[span + 1], i / double(per_span)));
   }
   if (last) at.push_back(knots.domain().upper);
   return at;
 }
 
 /// Which side of the plane through three points.
-double side_of(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Eigen::RowVector3d& c,
-               const Eigen::RowVector3d& p) {
+double side_of(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b,
+               const Eigen::RowVector3d& c, const Eigen::RowVector3d& p) {
   return (b - a).cross(c - a).dot(p - a);
 }
 
 /// Whether a segment goes through a triangle.
 bool pierces(const Points& at, std::uint32_t from, std::uint32_t to, const Corners& triangle) {
-  const Eigen::RowVector3d a = at.row(triangle[0]), b = at.row(triangle[1]), c = at.row(triangle[2]), p = at.row(from),
-                           q = at.row(to);
+  const Eigen::RowVector3d a = at.row(triangle[0]), b = at.row(triangle[1]),
+                           c = at.row(triangle[2]), p = at.row(from), q = at.row(to);
   if (side_of(a, b, c, p) * side_of(a, b, c, q) >= 0) return false;
   const double x = side_of(p, q, a, b), y = side_of(p, q, b, c), z = side_of(p, q, c, a);
   return (x > 0 && y > 0 && z > 0) || (x < 0 && y < 0 && z < 0);
@@ -43,7 +44,8 @@ bool cross(const Points& at, const Corners& s, const Corners& t) {
   return false;
 }
 
-/// Twice the area of (a, b, p) in the plane of the last two coordinates; exactly the negative for (b, a, p).
+/// Twice the area of (a, b, p) in the plane of the last two coordinates; exactly the negative for
+/// (b, a, p).
 double area_of(const Point& a, const Point& b, double y, double z) {
   const bool swapped = std::pair(a[1], a[2]) > std::pair(b[1], b[2]);
   const Point &from = swapped ? b : a, &to = swapped ? a : b;
@@ -51,8 +53,8 @@ double area_of(const Point& a, const Point& b, double y, double z) {
   return swapped ? -area : area;
 }
 
-/// Whether a point on the edge from a to b counts as inside of the triangle to the left of it: of two triangles that
-/// share the edge, it counts in one.
+/// Whether a point on the edge from a to b counts as inside of the triangle to the left of it: of
+/// two triangles that share the edge, it counts in one.
 bool keeps_edge(const Point& a, const Point& b) { return a[2] == b[2] ? b[1] < a[1] : b[2] > a[2]; }
 
 }  // namespace
@@ -64,20 +66,25 @@ ClosedMesh closed_mesh(const ClosedSurface& snake, int per_span) {
   ClosedMesh mesh;
   const auto at = evaluate_grid(snake.surface, {std::span(u), std::span(v)});
   if (!at) return mesh;  // only rational surfaces can fail
-  const auto rows = static_cast<std::uint32_t>(u.size()), columns = static_cast<std::uint32_t>(v.size());
+  const auto rows = static_cast<std::uint32_t>(u.size()),
+             columns = static_cast<std::uint32_t>(v.size());
   const std::uint32_t between = sphere ? columns - 2 : columns;
   const auto corner = [&](std::uint32_t i, std::uint32_t j) {
     if (!sphere) return i % rows * columns + j % columns;
-    return j == 0 ? rows * between : j == columns - 1 ? rows * between + 1 : i % rows * between + j - 1;
+    return j == 0             ? rows * between
+           : j == columns - 1 ? rows * between + 1
+                              : i % rows * between + j - 1;
   };
   mesh.points.resize(rows * between + (sphere ? 2 : 0), 3);
   for (std::uint32_t i = 0; i < rows; ++i) {
-    for (std::uint32_t j = 0; j < columns; ++j) mesh.points.row(corner(i, j)) = at->points().row(i * columns + j);
+    for (std::uint32_t j = 0; j < columns; ++j)
+      mesh.points.row(corner(i, j)) = at->points().row(i * columns + j);
   }
   const std::uint32_t across = sphere ? columns - 1 : columns;
   for (std::uint32_t i = 0; i < rows; ++i) {
     for (std::uint32_t j = 0; j < across; ++j) {
-      const std::uint32_t a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1), d = corner(i, j + 1);
+      const std::uint32_t a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
+                          d = corner(i, j + 1);
       if (a != b) mesh.triangles.push_back({a, b, c});
       if (c != d) mesh.triangles.push_back({a, c, d});
     }
@@ -91,7 +98,8 @@ int crossings(const ClosedMesh& mesh) {
   };
   std::vector<Box> boxes;
   for (const Corners& t : mesh.triangles) {
-    const Eigen::RowVector3d a = mesh.points.row(t[0]), b = mesh.points.row(t[1]), c = mesh.points.row(t[2]);
+    const Eigen::RowVector3d a = mesh.points.row(t[0]), b = mesh.points.row(t[1]),
+                             c = mesh.points.row(t[2]);
     boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
   }
   std::vector<std::size_t> order(boxes.size());
@@ -103,16 +111,21 @@ int crossings(const ClosedMesh& mesh) {
     const Corners& s = mesh.triangles[order[i]];
     for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].lower[0] <= box.upper[0]; ++j) {
       const Box& other = boxes[order[j]];
-      if ((other.lower.array() > box.upper.array()).any() || (box.lower.array() > other.upper.array()).any()) continue;
+      if ((other.lower.array() > box.upper.array()).any() ||
+          (box.lower.array() > other.upper.array()).any())
+        continue;
       const Corners& t = mesh.triangles[order[j]];
-      if (std::ranges::any_of(s, [&t](std::uint32_t k) { return std::ranges::find(t, k) != t.end(); })) continue;
+      if (std::ranges::any_of(s,
+                              [&t](std::uint32_t k) { return std::ranges::find(t, k) != t.end(); }))
+        continue;
       if (cross(mesh.points, s, t)) ++count;
     }
   }
   return count;
 }
 
-VolumeImage mask_of(const ClosedMesh& mesh, const std::array<int, 3>& size, const VolumeFrame& frame) {
+VolumeImage mask_of(const ClosedMesh& mesh, const std::array<int, 3>& size,
+                    const VolumeFrame& frame) {
   VolumeImage mask{size, {}, frame};
   const auto lines = static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]);
   mask.values.assign(lines * static_cast<std::size_t>(size[0]), 0);
@@ -120,7 +133,8 @@ VolumeImage mask_of(const ClosedMesh& mesh, const std::array<int, 3>& size, cons
   const Eigen::Matrix3d to_voxels = frame.directions.inverse();
   for (const Corners& t : mesh.triangles) {
     std::array<Point, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = to_voxels * (mesh.points.row(t[k]).transpose() - frame.origin);
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = to_voxels * (mesh.points.row(t[k]).transpose() - frame.origin);
     if (area_of(p[0], p[1], p[2][1], p[2][2]) < 0) std::swap(p[1], p[2]);
     const auto range = [&](Eigen::Index d) {
       const auto [low, high] = std::minmax({p[0][d], p[1][d], p[2][d]});
@@ -142,8 +156,9 @@ VolumeImage mask_of(const ClosedMesh& mesh, const std::array<int, 3>& size, cons
         }
         if (!inside || !(total > 0)) continue;
         const double x = (share[0] * p[0][0] + share[1] * p[1][0] + share[2] * p[2][0]) / total;
-        hits[static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) + static_cast<std::size_t>(y)].push_back(
-            x);
+        hits[static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) +
+             static_cast<std::size_t>(y)]
+            .push_back(x);
       }
     }
   }
@@ -151,7 +166,8 @@ VolumeImage mask_of(const ClosedMesh& mesh, const std::array<int, 3>& size, cons
     std::ranges::sort(hits[line]);
     double* row = mask.values.data() + line * static_cast<std::size_t>(size[0]);
     for (std::size_t k = 0; k + 1 < hits[line].size(); k += 2) {
-      const double from = std::max(0.0, std::ceil(hits[line][k])), to = std::min(size[0] - 1.0, hits[line][k + 1]);
+      const double from = std::max(0.0, std::ceil(hits[line][k])),
+                   to = std::min(size[0] - 1.0, hits[line][k + 1]);
       for (double x = from; x <= to; ++x) row[static_cast<std::size_t>(x)] = 1;
     }
   }

@@ -25,8 +25,9 @@ Expected<void> check_start(const SurfaceStart& start) {
     }
   }
   if (torus && start.radii[1] >= start.radii[0]) {
-    return input_error(fmt::format("the tube of {} closes the ring of {}", start.radii[1], start.radii[0]), "radii",
-                       "give the ring's first, then the tube's, which is less");
+    return input_error(
+        fmt::format("the tube of {} closes the ring of {}", start.radii[1], start.radii[0]),
+        "radii", "give the ring's first, then the tube's, which is less");
   }
   if (!start.centre.allFinite()) return input_error("the centre is not finite", "centre");
   if (!start.axis.allFinite() || !(start.axis.norm() > 0)) {
@@ -52,7 +53,8 @@ Point place_of(const SurfaceStart& start, const Eigen::Quaterniond& turn, double
 
 SurfaceSpace space_for(const SurfaceStart& start, const SurfaceSnakeSettings& settings) {
   const bool torus = start.form == SurfaceForm::torus;
-  const double mean = torus ? start.radii[0] : (start.radii[0] + start.radii[1] + start.radii[2]) / 3;
+  const double mean =
+      torus ? start.radii[0] : (start.radii[0] + start.radii[1] + start.radii[2]) / 3;
   const double around = settings.units > 0 ? settings.units : 2 * pi * mean;
   return {start.form,
           settings.degree,
@@ -62,12 +64,13 @@ SurfaceSpace space_for(const SurfaceStart& start, const SurfaceSnakeSettings& se
 
 }  // namespace
 
-Expected<ClosedSurface> closed_surface(const SurfaceStart& start, const SurfaceSnakeSettings& settings) {
+Expected<ClosedSurface> closed_surface(const SurfaceStart& start,
+                                       const SurfaceSnakeSettings& settings) {
   if (auto checked = check_settings(settings); !checked) return std::unexpected(checked.error());
   if (auto checked = check_start(start); !checked) return std::unexpected(checked.error());
   if (start.form == SurfaceForm::sphere && settings.control_points[1] < fewest_from_pole_to_pole) {
-    return input_error(fmt::format("{} from pole to pole are too few", settings.control_points[1]), "control_points",
-                       fmt::format("use {} or more", fewest_from_pole_to_pole));
+    return input_error(fmt::format("{} from pole to pole are too few", settings.control_points[1]),
+                       "control_points", fmt::format("use {} or more", fewest_from_pole_to_pole));
   }
   const SurfaceSpace space = space_for(start, settings);
   const auto net = SurfaceNet::create(space, 0, 0);
@@ -77,7 +80,8 @@ Expected<ClosedSurface> closed_surface(const SurfaceStart& start, const SurfaceS
   Points places(std::ssize(u) * std::ssize(v), 3);
   Eigen::Index k = 0;
   for (const double a : u) {
-    for (const double b : v) places.row(k++) = place_of(start, turn, a / space.lengths[0], b / space.lengths[1]);
+    for (const double b : v)
+      places.row(k++) = place_of(start, turn, a / space.lengths[0], b / space.lengths[1]);
   }
   const auto c = projected(space, places);
   if (!c) return std::unexpected(c.error());
@@ -91,7 +95,8 @@ SurfaceMeasure measure(const ClosedSurface& snake) {
     q[d] = gauss_basis(knots, knots.degree() + 3, 1);
   }
   SurfaceMeasure sum;
-  const auto at = evaluate_grid<2>(snake.surface, std::array<const BasisTable*, 2>{&q[0].basis, &q[1].basis}, 1);
+  const auto at = evaluate_grid<2>(snake.surface,
+                                   std::array<const BasisTable*, 2>{&q[0].basis, &q[1].basis}, 1);
   if (!at) return sum;  // only rational surfaces can fail
   Eigen::Index k = 0;
   for (const double a : q[0].weights) {

@@ -25,11 +25,12 @@ std::vector<Place> polyline(const SnakeResult& snake, int per_span) {
   const std::vector<double> breaks = breaks_of(snake.curve);
   std::vector<double> at;
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
-    for (int i = 0; i < per_span; ++i) at.push_back(std::lerp(breaks[k], breaks[k + 1], i / double(per_span)));
+    for (int i = 0; i < per_span; ++i)
+      at.push_back(std::lerp(breaks[k], breaks[k + 1], i / double(per_span)));
   }
   if (!snake.closed) at.push_back(breaks.back());
-  const auto places =
-      evaluate(snake.curve, Parameters<1>(Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at))));
+  const auto places = evaluate(
+      snake.curve, Parameters<1>(Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at))));
   std::vector<Place> result;
   if (!places) return result;
   for (Eigen::Index k = 0; k < places->points().rows(); ++k) {
@@ -48,7 +49,9 @@ int crossings(const SnakeResult& snake) {
     const auto [left, right] = std::minmax(line[i][0], line[i + 1][0]);
     for (std::size_t j = i + 2; j < segments; ++j) {
       if (snake.closed && i == 0 && j + 1 == segments) continue;
-      if (std::max(line[j][0], line[j + 1][0]) < left || std::min(line[j][0], line[j + 1][0]) > right) continue;
+      if (std::max(line[j][0], line[j + 1][0]) < left ||
+          std::min(line[j][0], line[j + 1][0]) > right)
+        continue;
       if (cross(line[i], line[i + 1], line[j], line[j + 1])) ++count;
     }
   }
@@ -56,7 +59,9 @@ int crossings(const SnakeResult& snake) {
 }
 
 Image mask_of(const SnakeResult& snake, int width, int height) {
-  Image mask{width, height, std::vector<double>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0)};
+  Image mask{
+      width, height,
+      std::vector<double>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0)};
   const std::vector<Place> line = polyline(snake);
   if (!snake.closed) return mask;
   for_rows_inside(line, width, height, [&mask](int y, int from, int to) {

@@ -8,10 +8,11 @@
 
 namespace knead {
 
-/// Calls `row(y, from, to)` for the pixels from…to of row y whose centres are inside a closed polygon by the even-odd
-/// rule, for all pieces of all rows of the image.
+/// Calls `row(y, from, to)` for the pixels from…to of row y whose centres are inside a closed
+/// polygon by the even-odd rule, for all pieces of all rows of the image.
 template <typename Row>
-void for_rows_inside(std::span<const std::array<double, 2>> polygon, int width, int height, Row&& row) {
+void for_rows_inside(std::span<const std::array<double, 2>> polygon, int width, int height,
+                     Row&& row) {
   double top = height, bottom = -1;
   for (const auto& p : polygon) {
     top = std::min(top, p[1]);
@@ -29,7 +30,8 @@ void for_rows_inside(std::span<const std::array<double, 2>> polygon, int width, 
     }
     std::ranges::sort(at);
     for (std::size_t k = 0; k + 1 < at.size(); k += 2) {
-      const double from = std::max(0.0, std::ceil(at[k])), to = std::min(width - 1.0, std::floor(at[k + 1]));
+      const double from = std::max(0.0, std::ceil(at[k])),
+                   to = std::min(width - 1.0, std::floor(at[k + 1]));
       if (from <= to) row(y, static_cast<int>(from), static_cast<int>(to));
     }
   }

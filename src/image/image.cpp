@@ -14,11 +14,13 @@
 namespace knead {
 namespace {
 
-/// The image filtered along x and then along y by an odd number of weights, the border repeated. Whole rows at a time:
-/// each sum is in the order of its weights.
-Image convolved(const Image& image, const std::vector<double>& along_x, const std::vector<double>& along_y) {
+/// The image filtered along x and then along y by an odd number of weights, the border repeated.
+/// Whole rows at a time: each sum is in the order of its weights.
+Image convolved(const Image& image, const std::vector<double>& along_x,
+                const std::vector<double>& along_y) {
   const auto width = static_cast<std::size_t>(image.width);
-  const int reach_x = static_cast<int>(along_x.size() / 2), reach_y = static_cast<int>(along_y.size() / 2);
+  const int reach_x = static_cast<int>(along_x.size() / 2),
+            reach_y = static_cast<int>(along_y.size() / 2);
   Image half = image, whole = image;
   std::ranges::fill(half.values, 0);
   std::ranges::fill(whole.values, 0);
@@ -52,15 +54,19 @@ std::array<Image, 2> differences(const Image& image) {
 
 Expected<void> check_image(const Image& image) {
   if (image.width < 1 || image.height < 1) {
-    return input_error(fmt::format("{} x {} pixels are no image", image.width, image.height), "image");
+    return input_error(fmt::format("{} x {} pixels are no image", image.width, image.height),
+                       "image");
   }
-  const std::size_t asked = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const std::size_t asked =
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.values.size() != asked) {
-    return input_error(fmt::format("{} x {} pixels have {} values", image.width, image.height, image.values.size()),
+    return input_error(fmt::format("{} x {} pixels have {} values", image.width, image.height,
+                                   image.values.size()),
                        "image", "give one per pixel");
   }
   for (std::size_t k = 0; k < asked; ++k) {
-    if (!std::isfinite(image.values[k])) return input_error("the value is not finite", fmt::format("pixel {}", k));
+    if (!std::isfinite(image.values[k]))
+      return input_error("the value is not finite", fmt::format("pixel {}", k));
   }
   return {};
 }
@@ -95,7 +101,8 @@ Image distance_to(const Image& mask) {
     line.clear();
     for (int x = 0; x < mask.width; ++x) line.push_back(result.at(x, y));
     detail::lower_envelope(line, squared);
-    for (int x = 0; x < mask.width; ++x) result.at(x, y) = std::sqrt(squared[static_cast<std::size_t>(x)]);
+    for (int x = 0; x < mask.width; ++x)
+      result.at(x, y) = std::sqrt(squared[static_cast<std::size_t>(x)]);
   }
   return result;
 }
@@ -113,7 +120,8 @@ Image termination(const Image& image) {
     const double x = ix.values[k], y = iy.values[k], slope = std::hypot(x, y);
     result.values[k] =
         slope > 1e-3 * largest
-            ? (iyy.values[k] * x * x - 2 * ixy.values[k] * x * y + ixx.values[k] * y * y) / (slope * slope * slope)
+            ? (iyy.values[k] * x * x - 2 * ixy.values[k] * x * y + ixx.values[k] * y * y) /
+                  (slope * slope * slope)
             : 0;
   }
   return result;
@@ -126,16 +134,19 @@ std::array<Image, 2> gradient_vector_flow(const Image& edges, double mu, int ite
   for (double& x : scaled.values) x = range > 0 ? (x - base) / range : 0;
   const std::array<Image, 2> slope = differences(scaled);
   std::array<Image, 2> flow = slope;
-  const double step = std::min(1.0, 1 / (4 * mu + 2));  // stable: step (4 μ + |∇f|²) <= 1 with |∇f|² <= 1/2
+  // Stable: step (4 μ + |∇f|²) <= 1 with |∇f|² <= 1/2.
+  const double step = std::min(1.0, 1 / (4 * mu + 2));
   for (std::size_t d = 0; d < 2; ++d) {
     Image next = flow[d];
     for (int i = 0; i < iterations; ++i) {
       for (int y = 0; y < edges.height; ++y) {
         for (int x = 0; x < edges.width; ++x) {
           const double here = flow[d].at(x, y), gx = slope[0].at(x, y), gy = slope[1].at(x, y);
-          const double around = flow[d].at(std::max(x - 1, 0), y) + flow[d].at(std::min(x + 1, edges.width - 1), y) +
-                                flow[d].at(x, std::max(y - 1, 0)) + flow[d].at(x, std::min(y + 1, edges.height - 1));
-          next.at(x, y) = here + step * (mu * (around - 4 * here) - (gx * gx + gy * gy) * (here - slope[d].at(x, y)));
+          const double around =
+              flow[d].at(std::max(x - 1, 0), y) + flow[d].at(std::min(x + 1, edges.width - 1), y) +
+              flow[d].at(x, std::max(y - 1, 0)) + flow[d].at(x, std::min(y + 1, edges.height - 1));
+          next.at(x, y) = here + step * (mu * (around - 4 * here) -
+                                         (gx * gx + gy * gy) * (here - slope[d].at(x, y)));
         }
       }
       std::swap(flow[d], next);
@@ -149,25 +160,32 @@ ImageSpline::ImageSpline(const Image& image) : width_(image.width), height_(imag
   for (int y = 0; y < height_; ++y) detail::interpolate_lines(&c.at(0, y), 1, 1, width_);
   const auto columns = static_cast<std::size_t>(width_);
   detail::interpolate_lines(c.values.data(), columns, columns, height_);
-  const auto mirrored = [](int k, int n) { return n == 1 ? 0 : k < 0 ? -k : k >= n ? 2 * n - 2 - k : k; };
-  coefficients_.reserve(static_cast<std::size_t>(width_ + 2) * static_cast<std::size_t>(height_ + 2));
+  const auto mirrored = [](int k, int n) {
+    return n == 1 ? 0 : k < 0 ? -k : k >= n ? 2 * n - 2 - k : k;
+  };
+  coefficients_.reserve(static_cast<std::size_t>(width_ + 2) *
+                        static_cast<std::size_t>(height_ + 2));
   for (int y = -1; y <= height_; ++y) {
-    for (int x = -1; x <= width_; ++x) coefficients_.push_back(c.at(mirrored(x, width_), mirrored(y, height_)));
+    for (int x = -1; x <= width_; ++x)
+      coefficients_.push_back(c.at(mirrored(x, width_), mirrored(y, height_)));
   }
 }
 
 namespace {
 
-/// Σ of 4 × 4 coefficients from there, fewer of an image of one pixel, with weights along and across the rows.
+/// Σ of 4 × 4 coefficients from there, fewer of an image of one pixel, with weights along and
+/// across the rows.
 template <std::size_t Sums>
 std::array<double, Sums> weighted(const std::vector<double>& coefficients, std::array<int, 2> size,
-                                  std::array<int, 2> from, const std::array<const double*, Sums>& along,
+                                  std::array<int, 2> from,
+                                  const std::array<const double*, Sums>& along,
                                   const std::array<const double*, Sums>& across) {
   const int rows = std::min(4, size[1] - from[1]), columns = std::min(4, size[0] - from[0]);
   std::array<double, Sums> totals{};
   for (int b = 0; b < rows; ++b) {
-    const double* row =
-        coefficients.data() + static_cast<std::size_t>(from[1] + b) * static_cast<std::size_t>(size[0]) + from[0];
+    const double* row = coefficients.data() +
+                        static_cast<std::size_t>(from[1] + b) * static_cast<std::size_t>(size[0]) +
+                        from[0];
     for (std::size_t s = 0; s < Sums; ++s) {
       double line = 0;
       for (int a = 0; a < columns; ++a) line += along[s][a] * row[a];

@@ -34,12 +34,15 @@ Expected<void> check_potential_settings(const ImagePotentialSettings& s) {
                  {"distance", s.distance, true}};
   for (const auto& [name, value, signed_too] : numbers) {
     if (!std::isfinite(value)) return input_error("the weight is not a finite number", name);
-    if (!signed_too && value < 0) return input_error(fmt::format("{} is negative", value), name, "use 0 or more");
+    if (!signed_too && value < 0)
+      return input_error(fmt::format("{} is negative", value), name, "use 0 or more");
   }
   if (s.smoothing > 100)
-    return input_error(fmt::format("{} pixels are too many", s.smoothing), "smoothing", "use up to 100");
+    return input_error(fmt::format("{} pixels are too many", s.smoothing), "smoothing",
+                       "use up to 100");
   if (s.flow_iterations < 0 || s.flow_iterations > 100000) {
-    return input_error(fmt::format("{} iterations", s.flow_iterations), "flow_iterations", "use 0 to 100000");
+    return input_error(fmt::format("{} iterations", s.flow_iterations), "flow_iterations",
+                       "use 0 to 100000");
   }
   return {};
 }
@@ -68,12 +71,14 @@ void normalise(std::array<Image, 2>& flow) {
 }
 
 Expected<Image> nearness(const Image& image, const std::optional<Image>& mask) {
-  if (!mask) return input_error("there is no mask to be near", "mask", "give one, or leave out distance");
-  if (auto checked = check_image(*mask); !checked) return std::unexpected(checked.error().within("mask"));
+  if (!mask)
+    return input_error("there is no mask to be near", "mask", "give one, or leave out distance");
+  if (auto checked = check_image(*mask); !checked)
+    return std::unexpected(checked.error().within("mask"));
   if (mask->width != image.width || mask->height != image.height) {
-    return input_error(
-        fmt::format("it has {} x {} pixels, the image {} x {}", mask->width, mask->height, image.width, image.height),
-        "mask", "give one of the same size");
+    return input_error(fmt::format("it has {} x {} pixels, the image {} x {}", mask->width,
+                                   mask->height, image.width, image.height),
+                       "mask", "give one of the same size");
   }
   Image distance = distance_to(*mask);
   if (!std::isfinite(distance.values.front())) {
@@ -84,10 +89,12 @@ Expected<Image> nearness(const Image& image, const std::optional<Image>& mask) {
 
 }  // namespace
 
-Expected<ImagePotential> ImagePotential::create(const Image& image, const ImagePotentialSettings& settings,
+Expected<ImagePotential> ImagePotential::create(const Image& image,
+                                                const ImagePotentialSettings& settings,
                                                 const std::optional<Image>& mask) {
   if (auto checked = check_image(image); !checked) return std::unexpected(checked.error());
-  if (auto checked = check_potential_settings(settings); !checked) return std::unexpected(checked.error());
+  if (auto checked = check_potential_settings(settings); !checked)
+    return std::unexpected(checked.error());
   const Image smooth = gaussian(image, settings.smoothing);
   Image q = smooth;
   for (double& x : q.values) x *= settings.line;
@@ -121,11 +128,14 @@ double ImagePotential::value(double x, double y) const { return fields_->potenti
 
 std::array<double, 2> ImagePotential::force(double x, double y) const {
   auto f = fields_->potential.gradient(x, y);
-  for (std::size_t d = 0; d < fields_->flow.size(); ++d) f[d] += fields_->settings.flow * fields_->flow[d].value(x, y);
+  for (std::size_t d = 0; d < fields_->flow.size(); ++d)
+    f[d] += fields_->settings.flow * fields_->flow[d].value(x, y);
   return f;
 }
 
-double ImagePotential::intensity(double x, double y) const { return fields_->intensity.value(x, y); }
+double ImagePotential::intensity(double x, double y) const {
+  return fields_->intensity.value(x, y);
+}
 double ImagePotential::intensity_to_the_left(double x, double y) const {
   return fields_->to_the_left ? fields_->to_the_left->value(x, y) : 0;
 }

@@ -79,7 +79,9 @@ void interpolate_lines(double* lines, std::size_t count, std::size_t stride, int
   }
 }
 
-void interpolate_line(double* line, std::size_t stride, int n) { interpolate_lines(line, 1, stride, n); }
+void interpolate_line(double* line, std::size_t stride, int n) {
+  interpolate_lines(line, 1, stride, n);
+}
 
 void cubic_basis(double t, double* values, bool derivative) {
   const double r = 1 - t;

@@ -22,7 +22,8 @@ Inside MovingSnake::inside(const ImagePotential& image) const {
   for (Eigen::Index q = 0; q < v.rows(); ++q) {
     const double w = net.quadrature().weights[static_cast<std::size_t>(q)];
     sum.area += w * (v(q, 0) * t(q, 1) - v(q, 1) * t(q, 0)) / 2;
-    if (image.settings().region != 0) sum.intensity += w * t(q, 1) * image.intensity_to_the_left(v(q, 0), v(q, 1));
+    if (image.settings().region != 0)
+      sum.intensity += w * t(q, 1) * image.intensity_to_the_left(v(q, 0), v(q, 1));
   }
   return sum;
 }
@@ -31,15 +32,18 @@ std::array<Eigen::RowVector3d, 2> MovingSnake::end_tangents() const {
   const KnotVector& knots = net.knots();
   const int p = knots.degree();
   const auto n = c.rows();
-  const double first = knots[p + 1] - knots[p], final = knots[knots.count()] - knots[knots.count() - 1];
+  const double first = knots[p + 1] - knots[p],
+               final = knots[knots.count()] - knots[knots.count() - 1];
   return {p * (c.row(1) - c.row(0)) / first, p * (c.row(n - 1) - c.row(n - 2)) / final};
 }
 
 std::array<Eigen::RowVector3d, 2> MovingSnake::pulls() const {
-  std::array<Eigen::RowVector3d, 2> pulls = {Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero()};
+  std::array<Eigen::RowVector3d, 2> pulls = {Eigen::RowVector3d::Zero(),
+                                             Eigen::RowVector3d::Zero()};
   if (end_pull[0] == 0 && end_pull[1] == 0) return pulls;
   const auto tangents = end_tangents();
-  for (std::size_t e = 0; e < 2; ++e) pulls[e] = (e == 0 ? -1 : 1) * end_pull[e] * tangents[e].normalized();
+  for (std::size_t e = 0; e < 2; ++e)
+    pulls[e] = (e == 0 ? -1 : 1) * end_pull[e] * tangents[e].normalized();
   return pulls;
 }
 
@@ -57,7 +61,8 @@ Expected<void> MovingSnake::spread() {
   return {};
 }
 
-Points MovingSnake::forces(const ImagePotential& image, double side, const std::optional<Sides>& sides) const {
+Points MovingSnake::forces(const ImagePotential& image, double side,
+                           const std::optional<Sides>& sides) const {
   const Points v = net.at_gauss(c, 0), t = net.at_gauss(c, 1);
   Points f = viscosity() * v;
   for (Eigen::Index q = 0; q < v.rows(); ++q) {
@@ -67,13 +72,14 @@ Points MovingSnake::forces(const ImagePotential& image, double side, const std::
     double pressure = settings.balloon;
     if (sides) {
       const bool relative = image.settings().relative_region;
-      pressure += image.settings().region *
-                  region_pressure(*sides, static_cast<std::size_t>(q), image.intensity(x, y), relative);
+      pressure += image.settings().region * region_pressure(*sides, static_cast<std::size_t>(q),
+                                                            image.intensity(x, y), relative);
     }
     if (settings.closed) force += side * pressure * Eigen::Vector2d(t(q, 1), -t(q, 0));
     for (const SnakeVolcano& volcano : settings.volcanoes) {
       const Eigen::Vector2d away(x - volcano.at[0], y - volcano.at[1]);
-      const double distance = away.norm(), share = volcano.radius / std::max(distance, volcano.radius);
+      const double distance = away.norm(),
+                   share = volcano.radius / std::max(distance, volcano.radius);
       if (distance > 0) force += volcano.strength * share * share * away / distance;
     }
     f.row(q).head<2>() += force.transpose();
@@ -81,7 +87,8 @@ Points MovingSnake::forces(const ImagePotential& image, double side, const std::
   return f;
 }
 
-Expected<void> MovingSnake::step(const ImagePotential& image, double side, const std::optional<Sides>& sides) {
+Expected<void> MovingSnake::step(const ImagePotential& image, double side,
+                                 const std::optional<Sides>& sides) {
   const Points next = net.solve(forces(image, side, sides), c, pulls());
   const Points move = limited(next - c, settings.max_move);
   c += move;
@@ -91,8 +98,10 @@ Expected<void> MovingSnake::step(const ImagePotential& image, double side, const
     if (auto done = net.set_viscosity(viscosity()); !done) return done;
   }
   const bool normal = image.settings().region != 0 || settings.balloon != 0;
-  const bool may = normal && settings.closed && settings.springs.empty() && settings.redistribute > 0;
-  const bool spreads = may && !motion.resting() && iterations % settings.redistribute == 0 && uneven();
+  const bool may =
+      normal && settings.closed && settings.springs.empty() && settings.redistribute > 0;
+  const bool spreads =
+      may && !motion.resting() && iterations % settings.redistribute == 0 && uneven();
   return spreads ? spread() : Expected<void>{};
 }
 
@@ -147,11 +156,13 @@ std::vector<bool> spans_that_differ(const MovingSnake& coarse, const MovingSnake
     Eigen::RowVector3d there = Eigen::RowVector3d::Zero();
     const int first = basis->first[q];
     for (int r = 0; r <= basis->degree; ++r) {
-      there += basis->row(static_cast<int>(q), 0)[r] * fine.c.row((first + r) % fine.net.unknowns());
+      there +=
+          basis->row(static_cast<int>(q), 0)[r] * fine.c.row((first + r) % fine.net.unknowns());
     }
     const auto row = static_cast<Eigen::Index>(q);
     const Eigen::RowVector2d d = (there - v.row(row)).head<2>(), along = t.row(row).head<2>();
-    const double across = std::abs(d[0] * along[1] - d[1] * along[0]) / std::max(along.norm(), 1e-300);
+    const double across =
+        std::abs(d[0] * along[1] - d[1] * along[0]) / std::max(along.norm(), 1e-300);
     if (across > coarse.settings.refine) marked[q / per_span] = true;
   }
   return marked;

@@ -22,7 +22,8 @@ struct Inside {
 struct Sides {
   double inside = 0;                 ///< the mean
   std::vector<double> outside = {};  ///< what counts as outside at each Gauss point
-  std::vector<char> beyond = {};     ///< whether Gauss points are in other snakes or beyond the image; empty: none
+  /// Whether Gauss points are in other snakes or beyond the image; empty: none.
+  std::vector<char> beyond = {};
 };
 
 /// One snake on its way.
@@ -36,12 +37,15 @@ struct MovingSnake {
 
   [[nodiscard]] Inside inside(const ImagePotential& image) const;
   /// An iteration; `side` is 1 where the normal (y', −x') points outwards, else −1.
-  [[nodiscard]] Expected<void> step(const ImagePotential& image, double side, const std::optional<Sides>& sides);
+  [[nodiscard]] Expected<void> step(const ImagePotential& image, double side,
+                                    const std::optional<Sides>& sides);
 
   /// v' at both ends of an open one.
   [[nodiscard]] std::array<Eigen::RowVector3d, 2> end_tangents() const;
 
-  [[nodiscard]] bool ended() const { return motion.resting() || iterations >= settings.max_iterations; }
+  [[nodiscard]] bool ended() const {
+    return motion.resting() || iterations >= settings.max_iterations;
+  }
 
  private:
   /// What draws the ends of an open one outwards.
@@ -51,20 +55,25 @@ struct MovingSnake {
   /// Spreads it evenly along itself.
   [[nodiscard]] Expected<void> spread();
   /// γ v and the forces of the image, of pressure and of volcanoes at the Gauss points.
-  [[nodiscard]] Points forces(const ImagePotential& image, double side, const std::optional<Sides>& sides) const;
+  [[nodiscard]] Points forces(const ImagePotential& image, double side,
+                              const std::optional<Sides>& sides) const;
   [[nodiscard]] double viscosity() const { return motion.viscosity(settings.gamma); }
 };
 
-/// A snake that starts here. Errors (input): settings outside their ranges, other knots than those of `curve_through`.
+/// A snake that starts here. Errors (input): settings outside their ranges, other knots than those
+/// of `curve_through`.
 [[nodiscard]] Expected<MovingSnake> snake_on(const Curve& start, const SnakeSettings& settings);
 
 /// The same snake on the net of these spans, with its iterations.
-[[nodiscard]] Expected<MovingSnake> moved_to(const MovingSnake& snake, std::span<const double> breaks);
+[[nodiscard]] Expected<MovingSnake> moved_to(const MovingSnake& snake,
+                                             std::span<const double> breaks);
 
 /// Breaks with those spans halved.
-[[nodiscard]] std::vector<double> halved(const std::vector<double>& breaks, const std::vector<bool>& marked);
+[[nodiscard]] std::vector<double> halved(const std::vector<double>& breaks,
+                                         const std::vector<bool>& marked);
 
 /// Spans in which the contour is elsewhere, across itself, on a net of half the spans.
-[[nodiscard]] std::vector<bool> spans_that_differ(const MovingSnake& coarse, const MovingSnake& fine);
+[[nodiscard]] std::vector<bool> spans_that_differ(const MovingSnake& coarse,
+                                                  const MovingSnake& fine);
 
 }  // namespace knead

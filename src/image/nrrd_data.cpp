@@ -71,12 +71,15 @@ void read_values(const NrrdHeader& header, std::string_view data, std::vector<do
   }
 }
 
-/// The file that a detached header names. Links are followed here, so that what is read later is what was judged.
-Expected<std::filesystem::path> data_file_of(const NrrdHeader& header, const std::filesystem::path& path) {
+/// The file that a detached header names. Links are followed here, so that what is read later is
+/// what was judged.
+Expected<std::filesystem::path> data_file_of(const NrrdHeader& header,
+                                             const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   const auto refused = [&](std::string what) {
-    return std::unexpected(Error{ErrorKind::input, fmt::format("\"{}\" {}", printable(header.data_file), what),
-                                 "data file", "put the data into the folder of the header", path.string(), 0});
+    return std::unexpected(
+        Error{ErrorKind::input, fmt::format("\"{}\" {}", printable(header.data_file), what),
+              "data file", "put the data into the folder of the header", path.string(), 0});
   };
   const fs::path name = header.data_file;
   if (name.is_absolute() || std::find(name.begin(), name.end(), fs::path("..")) != name.end()) {
@@ -97,7 +100,9 @@ Expected<std::filesystem::path> data_file_of(const NrrdHeader& header, const std
 #endif
 }
 
-std::string vector_text(const Eigen::Vector3d& v) { return fmt::format("({:.17g},{:.17g},{:.17g})", v[0], v[1], v[2]); }
+std::string vector_text(const Eigen::Vector3d& v) {
+  return fmt::format("({:.17g},{:.17g},{:.17g})", v[0], v[1], v[2]);
+}
 
 }  // namespace
 
@@ -110,7 +115,8 @@ std::size_t NrrdHeader::data_bytes() const {
 Expected<VolumeImage> nrrd_volume(const NrrdHeader& header, std::string_view data) {
   for (long line = 0; line < header.skipped_lines; ++line) {
     const auto end = data.find('\n');
-    if (end == std::string_view::npos) return input_error("the data end within the skipped lines", "line skip");
+    if (end == std::string_view::npos)
+      return input_error("the data end within the skipped lines", "line skip");
     data.remove_prefix(end + 1);
   }
   const std::size_t needed = header.data_bytes();
@@ -121,18 +127,20 @@ Expected<VolumeImage> nrrd_volume(const NrrdHeader& header, std::string_view dat
   }
   if (data.size() != needed) {
     const auto [nx, ny, nz] = header.size;
-    return input_error(
-        fmt::format("{} x {} x {} voxels need {} bytes of data, not {}", nx, ny, nz, needed, data.size()), "data",
-        "check sizes, type and byte skip");
+    return input_error(fmt::format("{} x {} x {} voxels need {} bytes of data, not {}", nx, ny, nz,
+                                   needed, data.size()),
+                       "data", "check sizes, type and byte skip");
   }
   VolumeImage volume{header.size, {}, header.frame};
   volume.values.resize(needed / bytes_per_value(header.type));
   read_values(header, data, volume.values);
   if (header.type == NrrdType::int64 || header.type == NrrdType::uint64) {
     constexpr double largest = 9007199254740992.0;  // 2^53: beyond, not every integer is a double
-    const auto lost = std::ranges::find_if(volume.values, [](double x) { return std::abs(x) > largest; });
+    const auto lost =
+        std::ranges::find_if(volume.values, [](double x) { return std::abs(x) > largest; });
     if (lost != volume.values.end()) {
-      return input_error("the value is larger than 2^53", fmt::format("voxel {}", lost - volume.values.begin()),
+      return input_error("the value is larger than 2^53",
+                         fmt::format("voxel {}", lost - volume.values.begin()),
                          "save the volume as float or double");
     }
   }
@@ -175,11 +183,13 @@ std::string nrrd_bytes(const VolumeImage& volume, std::string_view space) {
   std::string bytes = fmt::format(
       "NRRD0004\ntype: uint8\ndimension: 3\n{}\nsizes: {} {} {}\nspace directions: {} {} {}\n"
       "space origin: {}\nencoding: raw\n\n",
-      space.empty() ? "space dimension: 3" : fmt::format("space: {}", space), nx, ny, nz, vector_text(d.col(0)),
-      vector_text(d.col(1)), vector_text(d.col(2)), vector_text(volume.frame.origin));
+      space.empty() ? "space dimension: 3" : fmt::format("space: {}", space), nx, ny, nz,
+      vector_text(d.col(0)), vector_text(d.col(1)), vector_text(d.col(2)),
+      vector_text(volume.frame.origin));
   bytes.reserve(bytes.size() + volume.values.size());
   for (const double x : volume.values) {
-    bytes.push_back(static_cast<char>(static_cast<unsigned char>(std::lround(std::clamp(x, 0.0, 255.0)))));
+    bytes.push_back(
+        static_cast<char>(static_cast<unsigned char>(std::lround(std::clamp(x, 0.0, 255.0)))));
   }
   return bytes;
 }

@@ -21,8 +21,9 @@ constexpr std::size_t longest_header = 1 << 20;
 
 std::string_view without_blanks(std::string_view text) {
   const auto from = text.find_first_not_of(" \t\r");
-  return from == std::string_view::npos ? std::string_view()
-                                        : text.substr(from, text.find_last_not_of(" \t\r") + 1 - from);
+  return from == std::string_view::npos
+             ? std::string_view()
+             : text.substr(from, text.find_last_not_of(" \t\r") + 1 - from);
 }
 
 std::string in_lower_case(std::string_view text) {
@@ -45,7 +46,8 @@ std::optional<double> number_in(std::string_view text) {
   text = without_blanks(text);
   double value = 0;
   const auto [stop, code] = read_double(text.data(), text.data() + text.size(), value);
-  if (code != std::errc{} || stop != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  if (code != std::errc{} || stop != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
   return value;
 }
 
@@ -86,8 +88,10 @@ constexpr TypeNames types[] = {
     {NrrdHeader::Type::uint16, "|ushort|unsigned short|unsigned short int|uint16|uint16_t|"},
     {NrrdHeader::Type::int32, "|int|signed int|int32|int32_t|"},
     {NrrdHeader::Type::uint32, "|uint|unsigned int|uint32|uint32_t|"},
-    {NrrdHeader::Type::int64, "|longlong|long long|long long int|signed long long|signed long long int|int64|int64_t|"},
-    {NrrdHeader::Type::uint64, "|ulonglong|unsigned long long|unsigned long long int|uint64|uint64_t|"},
+    {NrrdHeader::Type::int64,
+     "|longlong|long long|long long int|signed long long|signed long long int|int64|int64_t|"},
+    {NrrdHeader::Type::uint64,
+     "|ulonglong|unsigned long long|unsigned long long int|uint64|uint64_t|"},
     {NrrdHeader::Type::single, "|float|"},
     {NrrdHeader::Type::real, "|double|"}};
 
@@ -99,8 +103,8 @@ class HeaderFields {
     int line = 0;
   };
 
-  /// Reads the lines up to the empty one, or to the file of the data. Errors (input): a line that is neither a field, a
-  /// key nor a comment; a field that comes twice; no end.
+  /// Reads the lines up to the empty one, or to the file of the data. Errors (input): a line that
+  /// is neither a field, a key nor a comment; a field that comes twice; no end.
   Expected<void> read(std::string_view bytes, NrrdHeader& header) {
     std::size_t at = 0;
     for (int line = 1; at < std::min(bytes.size(), longest_header); ++line) {
@@ -112,13 +116,15 @@ class HeaderFields {
       if (text.empty()) return {};
       if (text.starts_with('#')) continue;
       const auto colon = text.find(':');
-      if (colon == std::string_view::npos) return wrong(line, "the line is no field", "write \"name: value\"");
+      if (colon == std::string_view::npos)
+        return wrong(line, "the line is no field", "write \"name: value\"");
       if (text.substr(colon).starts_with(":=")) continue;
       std::string name = in_lower_case(without_blanks(text.substr(0, colon)));
       if (name == "datafile") name = "data file";
       if (name == "centerings") name = "centers";
       const Entry entry{std::string(without_blanks(text.substr(colon + 1))), line};
-      if (!fields_.emplace(name, entry).second) return wrong(line, "it comes twice", "leave one", printable(name));
+      if (!fields_.emplace(name, entry).second)
+        return wrong(line, "it comes twice", "leave one", printable(name));
     }
     if (find("data file") != nullptr) return {};  // a detached header may end with its last field
     return wrong(0, "the header does not end", "end it by an empty line");
@@ -133,12 +139,15 @@ class HeaderFields {
     return entry == nullptr ? std::string() : entry->value;
   }
 
-  [[nodiscard]] static std::unexpected<Error> wrong(int line, std::string what, std::string remedy = {},
+  [[nodiscard]] static std::unexpected<Error> wrong(int line, std::string what,
+                                                    std::string remedy = {},
                                                     std::string where = {}) {
-    return std::unexpected(Error{ErrorKind::input, std::move(what), std::move(where), std::move(remedy), "", line});
+    return std::unexpected(
+        Error{ErrorKind::input, std::move(what), std::move(where), std::move(remedy), "", line});
   }
   /// What is wrong with a field, or that it is missing.
-  [[nodiscard]] std::unexpected<Error> wrong(const std::string& name, std::string what, std::string remedy = {}) const {
+  [[nodiscard]] std::unexpected<Error> wrong(const std::string& name, std::string what,
+                                             std::string remedy = {}) const {
     const Entry* entry = find(name);
     return wrong(entry == nullptr ? 0 : entry->line, std::move(what), std::move(remedy), name);
   }
@@ -149,22 +158,27 @@ class HeaderFields {
 
 Expected<void> read_type(const HeaderFields& fields, NrrdHeader& header) {
   const std::string name = in_lower_case(fields.text("type"));
-  const auto found = std::ranges::find_if(
-      types, [&](const TypeNames& t) { return !name.empty() && t.names.find("|" + name + "|") != std::string::npos; });
+  const auto found = std::ranges::find_if(types, [&](const TypeNames& t) {
+    return !name.empty() && t.names.find("|" + name + "|") != std::string::npos;
+  });
   if (found == std::end(types)) {
-    return fields.wrong(
-        "type", name.empty() ? "the type is missing" : fmt::format("\"{}\" is no type of numbers", printable(name)),
-        "use int8 to uint64, float or double");
+    return fields.wrong("type",
+                        name.empty() ? "the type is missing"
+                                     : fmt::format("\"{}\" is no type of numbers", printable(name)),
+                        "use int8 to uint64, float or double");
   }
   header.type = found->type;
-  const std::string encoding = in_lower_case(fields.text("encoding")), endian = in_lower_case(fields.text("endian"));
+  const std::string encoding = in_lower_case(fields.text("encoding")),
+                    endian = in_lower_case(fields.text("endian"));
   if (encoding != "raw") {
-    return fields.wrong(
-        "encoding",
-        encoding.empty() ? "it is missing" : fmt::format("data in \"{}\" are not read", printable(encoding)),
-        "save the file with raw encoding (unu save -f nrrd -e raw)");
+    return fields.wrong("encoding",
+                        encoding.empty()
+                            ? "it is missing"
+                            : fmt::format("data in \"{}\" are not read", printable(encoding)),
+                        "save the file with raw encoding (unu save -f nrrd -e raw)");
   }
-  const bool one_byte = header.type == NrrdHeader::Type::int8 || header.type == NrrdHeader::Type::uint8;
+  const bool one_byte =
+      header.type == NrrdHeader::Type::int8 || header.type == NrrdHeader::Type::uint8;
   if (endian != "little" && endian != "big" && !(endian.empty() && one_byte)) {
     return fields.wrong("endian", "the order of the bytes is not said", "use little or big");
   }
@@ -174,23 +188,28 @@ Expected<void> read_type(const HeaderFields& fields, NrrdHeader& header) {
 
 Expected<void> read_sizes(const HeaderFields& fields, NrrdHeader& header) {
   if (fields.text("dimension") != "3") {
-    return fields.wrong("dimension", fmt::format("\"{}\" is not 3", printable(fields.text("dimension"))),
+    return fields.wrong("dimension",
+                        fmt::format("\"{}\" is not 3", printable(fields.text("dimension"))),
                         "give one number per voxel of a volume");
   }
   const std::string text = fields.text("sizes");
   const auto list = words_in(text);
-  if (list.size() != 3) return fields.wrong("sizes", "there are not three sizes", "write \"sizes: 64 64 32\"");
+  if (list.size() != 3)
+    return fields.wrong("sizes", "there are not three sizes", "write \"sizes: 64 64 32\"");
   double all = 1;
   for (std::size_t d = 0; d < 3; ++d) {
     const auto size = whole_in(list[d]);
     if (!size || *size < 1 || *size > 1 << 20) {
-      return fields.wrong("sizes", fmt::format("\"{}\" is no size", printable(std::string(list[d]))), "use 1 or more");
+      return fields.wrong("sizes",
+                          fmt::format("\"{}\" is no size", printable(std::string(list[d]))),
+                          "use 1 or more");
     }
     header.size[d] = static_cast<int>(*size);
     all *= static_cast<double>(*size);
   }
   if (all > most_voxels) {
-    return fields.wrong("sizes", fmt::format("{} voxels are too many", all), "crop or shrink it to 2^27 voxels");
+    return fields.wrong("sizes", fmt::format("{} voxels are too many", all),
+                        "crop or shrink it to 2^27 voxels");
   }
   return {};
 }
@@ -203,20 +222,24 @@ Expected<void> read_space(const HeaderFields& fields, NrrdHeader& header) {
   }
   if (in_lower_case(header.space).ends_with("time"))
     return fields.wrong("space", "it has time", "cut a volume of one time");
-  const std::string directions = fields.text("space directions"), origin = fields.text("space origin");
+  const std::string directions = fields.text("space directions"),
+                    origin = fields.text("space origin");
   std::string_view rest = directions;
   for (Eigen::Index d = 0; d < 3; ++d) {
     const auto direction = take_vector(rest);
     if (!direction) {
-      return fields.wrong("space directions", "there are not three directions", "write \"(1,0,0) (0,1,0) (0,0,1)\"");
+      return fields.wrong("space directions", "there are not three directions",
+                          "write \"(1,0,0) (0,1,0) (0,0,1)\"");
     }
     header.frame.directions.col(d) = *direction;
   }
-  if (!without_blanks(rest).empty()) return fields.wrong("space directions", "there are more than three", "give three");
+  if (!without_blanks(rest).empty())
+    return fields.wrong("space directions", "there are more than three", "give three");
   if (origin.empty()) return {};
   rest = origin;
   const auto at = take_vector(rest);
-  if (!at || !without_blanks(rest).empty()) return fields.wrong("space origin", "it is no place", "write \"(0,0,0)\"");
+  if (!at || !without_blanks(rest).empty())
+    return fields.wrong("space origin", "it is no place", "write \"(0,0,0)\"");
   header.frame.origin = *at;
   return {};
 }
@@ -228,7 +251,8 @@ Expected<std::vector<double>> per_axis(const HeaderFields& fields, const std::st
   for (const std::string_view word : words_in(text)) {
     const auto value = number_in(word);
     if (!value)
-      return fields.wrong(name, fmt::format("\"{}\" is no number", printable(std::string(word))), "give one per axis");
+      return fields.wrong(name, fmt::format("\"{}\" is no number", printable(std::string(word))),
+                          "give one per axis");
     result.push_back(*value);
   }
   if (fields.find(name) != nullptr && result.size() != 3) {
@@ -243,14 +267,16 @@ Expected<void> read_axes(const HeaderFields& fields, NrrdHeader& header) {
   if (!spacings) return std::unexpected(spacings.error());
   if (!mins) return std::unexpected(mins.error());
   for (std::size_t d = 0; d < spacings->size(); ++d) {
-    header.frame.directions(static_cast<Eigen::Index>(d), static_cast<Eigen::Index>(d)) = (*spacings)[d];
+    header.frame.directions(static_cast<Eigen::Index>(d), static_cast<Eigen::Index>(d)) =
+        (*spacings)[d];
   }
   if (mins->empty()) return {};
   const std::string text = in_lower_case(fields.text("centers"));
   const auto centres = words_in(text);
   for (std::size_t d = 0; d < 3; ++d) {
     const auto k = static_cast<Eigen::Index>(d);
-    const bool cell = centres.size() == 3 && centres[d] == "cell", node = centres.size() == 3 && centres[d] == "node";
+    const bool cell = centres.size() == 3 && centres[d] == "cell",
+               node = centres.size() == 3 && centres[d] == "node";
     if (!cell && !node) {
       return fields.wrong("axis mins", "it is not said whether they are of cells or of nodes",
                           "add \"centers: cell cell cell\", or leave them out");
@@ -263,7 +289,8 @@ Expected<void> read_axes(const HeaderFields& fields, NrrdHeader& header) {
 Expected<void> read_data_place(const HeaderFields& fields, NrrdHeader& header) {
   header.data_file = fields.text("data file");
   if (fields.find("data file") != nullptr) {
-    const bool many = header.data_file.starts_with("LIST") || header.data_file.find('%') != std::string::npos;
+    const bool many =
+        header.data_file.starts_with("LIST") || header.data_file.find('%') != std::string::npos;
     if (header.data_file.empty() || many) {
       return fields.wrong("data file", "data in several files are not read", "join them in one");
     }
@@ -288,8 +315,10 @@ Expected<NrrdHeader> parse_nrrd_header(std::string_view bytes, std::string name)
   NrrdHeader header;
   HeaderFields fields;
   const auto read = [&]() -> Expected<void> {
-    const std::string_view version = without_blanks(bytes.substr(0, std::min(bytes.find('\n'), std::size_t{64})));
-    if (version.size() != 8 || !version.starts_with("NRRD000") || version[7] < '1' || version[7] > '5') {
+    const std::string_view version =
+        without_blanks(bytes.substr(0, std::min(bytes.find('\n'), std::size_t{64})));
+    if (version.size() != 8 || !version.starts_with("NRRD000") || version[7] < '1' ||
+        version[7] > '5') {
       return HeaderFields::wrong(1, "it is no NRRD file of the versions NRRD0001 to NRRD0005");
     }
     if (auto done = fields.read(bytes, header); !done) return done;

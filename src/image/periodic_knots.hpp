@@ -7,9 +7,9 @@
 
 namespace knead {
 
-/// The knots of functions that come around again where the last of these ascending breaks is the first: the spans go on
-/// beyond both ends, `degree` of them, by whole turns. Errors (input): fewer spans than the degree; those of
-/// `KnotVector::create`.
+/// The knots of functions that come around again where the last of these ascending breaks is the
+/// first: the spans go on beyond both ends, `degree` of them, by whole turns. Errors (input): fewer
+/// spans than the degree; those of `KnotVector::create`.
 inline Expected<KnotVector> periodic_knots(int degree, std::span<const double> breaks) {
   const int spans = static_cast<int>(breaks.size()) - 1;
   if (spans < degree) return input_error("too few spans to come around", "knots");

@@ -16,7 +16,8 @@ class Cover {
  public:
   static constexpr int none = -1, several = -2;
 
-  Cover(const std::vector<MovingSnake>& snakes, int width, int height) : width_(width), height_(height) {
+  Cover(const std::vector<MovingSnake>& snakes, int width, int height)
+      : width_(width), height_(height) {
     owner_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), none);
     for (std::size_t k = 0; k < snakes.size(); ++k) {
       if (snakes[k].settings.closed) add(snakes[k], static_cast<int>(k));
@@ -69,13 +70,14 @@ std::optional<double> median(GreySamples samples) {
 }
 
 /// Fills in what is outside within the snake's band.
-void look_around(const ImagePotential& image, const MovingSnake& snake, double side, const Cover& cover, int own,
-                 Sides& sides) {
+void look_around(const ImagePotential& image, const MovingSnake& snake, double side,
+                 const Cover& cover, int own, Sides& sides) {
   const Points v = snake.net.at_gauss(snake.c, 0), t = snake.net.at_gauss(snake.c, 1);
   GreySamples band;
   std::vector<std::array<double, 2>> least_and_most;  // on the way outwards from each point
   for (Eigen::Index q = 0; q < v.rows(); ++q) {
-    const double length = snake.net.quadrature().weights[static_cast<std::size_t>(q)] * t.row(q).norm();
+    const double length =
+        snake.net.quadrature().weights[static_cast<std::size_t>(q)] * t.row(q).norm();
     const Eigen::Vector2d normal = side * Eigen::Vector2d(t(q, 1), -t(q, 0)).normalized();
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (double d = 0; d < snake.settings.band; ++d) {
@@ -99,7 +101,8 @@ void look_around(const ImagePotential& image, const MovingSnake& snake, double s
 
 }  // namespace
 
-std::vector<std::optional<Sides>> sides_of(const ImagePotential& image, const std::vector<MovingSnake>& snakes,
+std::vector<std::optional<Sides>> sides_of(const ImagePotential& image,
+                                           const std::vector<MovingSnake>& snakes,
                                            const std::vector<Inside>& insides) {
   std::vector<std::optional<Sides>> result(snakes.size());
   if (image.settings().region == 0) return result;
@@ -119,13 +122,15 @@ std::vector<std::optional<Sides>> sides_of(const ImagePotential& image, const st
     const auto points = snakes[k].net.quadrature().parameters.size();
     result[k] = Sides{insides[k].intensity / insides[k].area, std::vector<double>(points, outside)};
     if (!(snakes[k].settings.band > 0)) continue;
-    look_around(image, snakes[k], std::copysign(1, insides[k].area), *cover, static_cast<int>(k), *result[k]);
+    look_around(image, snakes[k], std::copysign(1, insides[k].area), *cover, static_cast<int>(k),
+                *result[k]);
   }
   return result;
 }
 
 double region_pressure(const Sides& sides, std::size_t point, double grey, bool relative) {
-  const double outside = sides.outside[point], contrast = sides.inside - outside, square = contrast * contrast;
+  const double outside = sides.outside[point], contrast = sides.inside - outside,
+               square = contrast * contrast;
   if (!sides.beyond.empty() && sides.beyond[point] != 0) return relative ? -1 : -square;
   const double in = grey - sides.inside, out = grey - outside, pressure = out * out - in * in;
   if (!relative) return pressure;

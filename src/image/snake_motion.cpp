@@ -16,7 +16,8 @@ void SnakeMotion::went_to(const Points& c, double rest) {
     return;
   }
   last_ = std::numeric_limits<double>::infinity();
-  for (const Points& earlier : before_) last_ = std::min(last_, (c - earlier).cwiseAbs().rowwise().sum().maxCoeff());
+  for (const Points& earlier : before_)
+    last_ = std::min(last_, (c - earlier).cwiseAbs().rowwise().sum().maxCoeff());
   last_ = std::ldexp(last_, level_);
   resting_ = last_ < rest;
   before_.clear();

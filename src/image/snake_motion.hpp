@@ -10,11 +10,11 @@ namespace knead {
 /// How a snake moves, curve or surface: whether it rests, and how much its viscosity has grown.
 class SnakeMotion {
  public:
-  /// After an iteration that has brought the unknowns to c. It rests when all are within `rest` of one of ten earlier
-  /// places, counted as if the viscosity had not grown.
+  /// After an iteration that has brought the unknowns to c. It rests when all are within `rest` of
+  /// one of ten earlier places, counted as if the viscosity had not grown.
   void went_to(const Points& c, double rest);
-  /// Doubles the viscosity when much of the snake turns back, and halves it again, down to what is asked, while it goes
-  /// on: whether it is another.
+  /// Doubles the viscosity when much of the snake turns back, and halves it again, down to what is
+  /// asked, while it goes on: whether it is another.
   [[nodiscard]] bool steadied(const Points& move);
 
   [[nodiscard]] bool resting() const { return resting_; }

@@ -17,13 +17,15 @@ Expected<KnotVector> knots_between(std::span<const double> breaks, const SnakeSe
   const int p = settings.degree, spans = static_cast<int>(breaks.size()) - 1;
   if (settings.closed) return periodic_knots(p, breaks);
   std::vector<double> knots;
-  for (int k = -p; k <= spans + p; ++k) knots.push_back(breaks[static_cast<std::size_t>(std::clamp(k, 0, spans))]);
+  for (int k = -p; k <= spans + p; ++k)
+    knots.push_back(breaks[static_cast<std::size_t>(std::clamp(k, 0, spans))]);
   return KnotVector::create(p, std::move(knots));
 }
 
 }  // namespace
 
-Expected<SnakeNet> SnakeNet::create(std::span<const double> breaks, const SnakeSettings& settings, bool projection) {
+Expected<SnakeNet> SnakeNet::create(std::span<const double> breaks, const SnakeSettings& settings,
+                                    bool projection) {
   auto knots = knots_between(breaks, settings);
   if (!knots) return std::unexpected(knots.error());
   const auto set = gramians(*knots);
@@ -74,7 +76,8 @@ Expected<void> SnakeNet::set_viscosity(double gamma) {
   SparseMatrix reduced = matrix_;
   if (held_) {
     const auto fixed = [this](Eigen::Index i) { return i == 0 || i == unknowns_ - 1; };
-    reduced.prune([&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!fixed(i) && !fixed(j)); });
+    reduced.prune(
+        [&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!fixed(i) && !fixed(j)); });
     for (const int i : {0, unknowns_ - 1}) reduced.coeffRef(i, i) = 1;
   }
   auto factor = SparseCholesky::factor(reduced);
@@ -95,7 +98,8 @@ Points SnakeNet::at_gauss(const Points& c, int derivative) const {
   return result;
 }
 
-Points SnakeNet::solve(const Points& f, const Points& c, const std::array<Eigen::RowVector3d, 2>& ends) const {
+Points SnakeNet::solve(const Points& f, const Points& c,
+                       const std::array<Eigen::RowVector3d, 2>& ends) const {
   const BasisTable& basis = quadrature_.basis;
   Points right = springs_;
   right.row(0) += ends[0];
@@ -104,12 +108,14 @@ Points SnakeNet::solve(const Points& f, const Points& c, const std::array<Eigen:
     const double* values = basis.row(q, 0);
     const double weight = quadrature_.weights[static_cast<std::size_t>(q)];
     for (int r = 0; r <= basis.degree; ++r) {
-      right.row(unknown(basis.first[static_cast<std::size_t>(q)] + r)) += weight * values[r] * f.row(q);
+      right.row(unknown(basis.first[static_cast<std::size_t>(q)] + r)) +=
+          weight * values[r] * f.row(q);
     }
   }
   if (held_) {
     for (const int fixed : {0, unknowns_ - 1}) {
-      for (SparseMatrix::InnerIterator it(matrix_, fixed); it; ++it) right.row(it.row()) -= it.value() * c.row(fixed);
+      for (SparseMatrix::InnerIterator it(matrix_, fixed); it; ++it)
+        right.row(it.row()) -= it.value() * c.row(fixed);
     }
     for (const int fixed : {0, unknowns_ - 1}) right.row(fixed) = c.row(fixed);
   }
@@ -130,11 +136,13 @@ std::vector<double> breaks_of(const Curve& curve) {
   return breaks;
 }
 
-Expected<Points> projected(const Curve& curve, std::span<const double> breaks, const SnakeSettings& settings) {
+Expected<Points> projected(const Curve& curve, std::span<const double> breaks,
+                           const SnakeSettings& settings) {
   const auto net = SnakeNet::create(breaks, settings, true);
   if (!net) return std::unexpected(net.error());
   const auto& at = net->quadrature().parameters;
-  const auto places = evaluate(curve, Parameters<1>(Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at))));
+  const auto places =
+      evaluate(curve, Parameters<1>(Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at))));
   if (!places) return std::unexpected(places.error());
   Points ends = Points::Zero(net->unknowns(), 3);
   ends.row(0) = curve.control_points().row(0);
@@ -151,11 +159,13 @@ Expected<Points> fitted(std::vector<std::array<double, 2>> places, std::span<con
       return input_error("the place is not finite", fmt::format("points[{}]", k));
     }
     if (k > 0) {
-      chord.push_back(chord.back() + std::hypot(places[k][0] - places[k - 1][0], places[k][1] - places[k - 1][1]));
+      chord.push_back(chord.back() +
+                      std::hypot(places[k][0] - places[k - 1][0], places[k][1] - places[k - 1][1]));
     }
   }
   const double length = chord.back(), units = breaks.back() - breaks.front();
-  if (!(length > 0) || !std::isfinite(length)) return input_error("all points are one", "points", "spread them");
+  if (!(length > 0) || !std::isfinite(length))
+    return input_error("all points are one", "points", "spread them");
   const auto net = SnakeNet::create(breaks, settings, true);
   if (!net) return std::unexpected(net.error());
   const auto& at = net->quadrature().parameters;
@@ -164,7 +174,8 @@ Expected<Points> fitted(std::vector<std::array<double, 2>> places, std::span<con
   for (std::size_t q = 0; q < at.size(); ++q) {
     const double s = (at[q] - breaks.front()) / units * length;
     while (piece + 2 < chord.size() && chord[piece + 1] < s) ++piece;
-    const double part = chord[piece + 1] - chord[piece], r = part > 0 ? (s - chord[piece]) / part : 0;
+    const double part = chord[piece + 1] - chord[piece],
+                 r = part > 0 ? (s - chord[piece]) / part : 0;
     for (std::size_t d = 0; d < 2; ++d) {
       targets(static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(d)) =
           std::lerp(places[piece][d], places[piece + 1][d], r);

@@ -21,8 +21,9 @@ struct SnakeInfo {
   std::vector<std::array<double, 2>> control_points;
 };
 static void describe(SnakeInfo& s, Fields& fields) {
-  fields.add_all("closed", s.closed, "degree", s.degree, "iterations", s.iterations, "converged", s.converged,
-                 "crossings", s.crossings, "area", s.area, "knots", s.knots, "control_points", s.control_points);
+  fields.add_all("closed", s.closed, "degree", s.degree, "iterations", s.iterations, "converged",
+                 s.converged, "crossings", s.crossings, "area", s.area, "knots", s.knots,
+                 "control_points", s.control_points);
 }
 
 struct SurfaceSnakeInfo {
@@ -37,9 +38,9 @@ struct SurfaceSnakeInfo {
   std::vector<std::array<double, 3>> control_points;
 };
 static void describe(SurfaceSnakeInfo& s, Fields& fields) {
-  fields.add_all("form", s.form, "degree", s.degree, "iterations", s.iterations, "converged", s.converged, "crossings",
-                 s.crossings, "area", s.area, "volume", s.volume, "knots", s.knots, "net", s.net, "control_points",
-                 s.control_points);
+  fields.add_all("form", s.form, "degree", s.degree, "iterations", s.iterations, "converged",
+                 s.converged, "crossings", s.crossings, "area", s.area, "volume", s.volume, "knots",
+                 s.knots, "net", s.net, "control_points", s.control_points);
 }
 
 namespace {
@@ -53,14 +54,17 @@ double area_inside(const std::vector<std::array<double, 2>>& line) {
   return std::abs(twice) / 2;
 }
 
-std::vector<double> values_of(const KnotVector& knots) { return {knots.knots().begin(), knots.knots().end()}; }
+std::vector<double> values_of(const KnotVector& knots) {
+  return {knots.knots().begin(), knots.knots().end()};
+}
 
 template <std::size_t N, class Result>
 std::vector<std::array<double, N>> control_points(const Result& shape) {
   std::vector<std::array<double, N>> list(static_cast<std::size_t>(shape.size()));
   for (std::size_t i = 0; i < list.size(); ++i) {
     for (std::size_t d = 0; d < N; ++d) {
-      list[i][d] = shape.control_points()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(d));
+      list[i][d] =
+          shape.control_points()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(d));
     }
   }
   return list;
@@ -70,20 +74,24 @@ std::vector<std::array<double, N>> control_points(const Result& shape) {
 template <class Info>
 std::string list_json(const std::vector<Info>& infos) {
   std::string text;
-  for (const Info& info : infos) text += (text.empty() ? "\n" : ",\n") + to_json(type_of<Info>(), &info);
+  for (const Info& info : infos)
+    text += (text.empty() ? "\n" : ",\n") + to_json(type_of<Info>(), &info);
   return "[" + text + "]}\n";
 }
 
 }  // namespace
 
-std::string snakes_json(std::span<const SnakeResult> snakes, std::string_view name, int width, int height) {
+std::string snakes_json(std::span<const SnakeResult> snakes, std::string_view name, int width,
+                        int height) {
   std::vector<SnakeInfo> infos;
   for (const SnakeResult& s : snakes) {
     const KnotVector& knots = s.curve.knots()[0];
     infos.push_back({s.closed, knots.degree(), s.iterations, s.converged, crossings(s),
-                     s.closed ? area_inside(polyline(s)) : 0, values_of(knots), control_points<2>(s.curve)});
+                     s.closed ? area_inside(polyline(s)) : 0, values_of(knots),
+                     control_points<2>(s.curve)});
   }
-  return fmt::format("{{\"image\":{},\"width\":{},\"height\":{},\"snakes\":", json_text(name), width, height) +
+  return fmt::format("{{\"image\":{},\"width\":{},\"height\":{},\"snakes\":", json_text(name),
+                     width, height) +
          list_json(infos);
 }
 
@@ -107,7 +115,8 @@ std::string volume_snakes_json(std::span<const SurfaceSnakeResult> snakes, std::
   return fmt::format("{{\"volume\":{},\"snakes\":", json_text(name)) + list_json(infos);
 }
 
-VolumeImage volume_snakes_mask(std::span<const SurfaceSnakeResult> snakes, const VolumeImage& volume) {
+VolumeImage volume_snakes_mask(std::span<const SurfaceSnakeResult> snakes,
+                               const VolumeImage& volume) {
   VolumeImage all{volume.size, std::vector<double>(volume.values.size(), 0), volume.frame};
   for (const SurfaceSnakeResult& s : snakes) {
     const VolumeImage one = mask_of(closed_mesh(s.snake), all.size, all.frame);
@@ -120,18 +129,21 @@ VolumeImage volume_snakes_mask(std::span<const SurfaceSnakeResult> snakes, const
 std::string snakes_csv(std::span<const SnakeResult> snakes) {
   std::string text = "snake,x,y\n";
   for (std::size_t k = 0; k < snakes.size(); ++k) {
-    for (const auto& [x, y] : polyline(snakes[k])) text += fmt::format("{},{:.17g},{:.17g}\n", k, x, y);
+    for (const auto& [x, y] : polyline(snakes[k]))
+      text += fmt::format("{},{:.17g},{:.17g}\n", k, x, y);
   }
   return text;
 }
 
 std::string snakes_svg(std::span<const SnakeResult> snakes, int width, int height) {
-  std::string text =
-      fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-0.5 -0.5 {} {}\" width=\"{}\" height=\"{}\">\n",
-                  width, height, width, height);
+  std::string text = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-0.5 -0.5 {} {}\" width=\"{}\" "
+      "height=\"{}\">\n",
+      width, height, width, height);
   for (const SnakeResult& s : snakes) {
     std::string points;
-    for (const auto& [x, y] : polyline(s)) points += fmt::format("{}{:.17g},{:.17g}", points.empty() ? "" : " ", x, y);
+    for (const auto& [x, y] : polyline(s))
+      points += fmt::format("{}{:.17g},{:.17g}", points.empty() ? "" : " ", x, y);
     text += fmt::format("<{} points=\"{}\" fill=\"none\" stroke=\"#c0392b\" stroke-width=\"1\"/>\n",
                         s.closed ? "polygon" : "polyline", points);
   }
@@ -139,11 +151,14 @@ std::string snakes_svg(std::span<const SnakeResult> snakes, int width, int heigh
 }
 
 Image snakes_mask(std::span<const SnakeResult> snakes, int width, int height) {
-  Image all{width, height, std::vector<double>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0)};
+  Image all{
+      width, height,
+      std::vector<double>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0)};
   for (const SnakeResult& s : snakes) {
     if (!s.closed) continue;
     const Image one = mask_of(s, width, height);
-    for (std::size_t k = 0; k < all.values.size(); ++k) all.values[k] = std::max(all.values[k], one.values[k]);
+    for (std::size_t k = 0; k < all.values.size(); ++k)
+      all.values[k] = std::max(all.values[k], one.values[k]);
   }
   return all;
 }

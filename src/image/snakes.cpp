@@ -12,7 +12,9 @@
 namespace knead {
 namespace {
 
-bool all_ended(const std::vector<MovingSnake>& snakes) { return std::ranges::all_of(snakes, &MovingSnake::ended); }
+bool all_ended(const std::vector<MovingSnake>& snakes) {
+  return std::ranges::all_of(snakes, &MovingSnake::ended);
+}
 
 /// An iteration of those that have not ended.
 Expected<void> step_all(const ImagePotential& image, std::vector<MovingSnake>& snakes) {
@@ -21,7 +23,8 @@ Expected<void> step_all(const ImagePotential& image, std::vector<MovingSnake>& s
   const auto sides = sides_of(image, snakes, insides);
   for (std::size_t k = 0; k < snakes.size(); ++k) {
     if (snakes[k].ended()) continue;
-    if (auto done = snakes[k].step(image, std::copysign(1, insides[k].area), sides[k]); !done) return done;
+    if (auto done = snakes[k].step(image, std::copysign(1, insides[k].area), sides[k]); !done)
+      return done;
   }
   return {};
 }
@@ -57,7 +60,8 @@ struct Snakes::State {
     for (const MovingSnake& s : snakes) {
       const auto& breaks = s.net.breaks();
       const bool may = may_refine(s);
-      auto moved = moved_to(s, may ? halved(breaks, std::vector<bool>(breaks.size() - 1, true)) : breaks);
+      auto moved =
+          moved_to(s, may ? halved(breaks, std::vector<bool>(breaks.size() - 1, true)) : breaks);
       if (!moved) return std::unexpected(moved.error());
       if (!may) moved->motion.stop();
       fine.push_back(std::move(*moved));
@@ -99,7 +103,8 @@ Snakes::~Snakes() = default;
 
 Expected<Snakes> Snakes::create(const ImagePotential& potential, const std::vector<Curve>& starts,
                                 const std::vector<SnakeSettings>& settings) {
-  if (starts.size() != settings.size()) return input_error("every snake needs its settings", "snakes");
+  if (starts.size() != settings.size())
+    return input_error("every snake needs its settings", "snakes");
   std::vector<MovingSnake> snakes;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     auto snake = snake_on(starts[k], settings[k]);
@@ -122,11 +127,13 @@ Expected<int> Snakes::advance(int iterations) {
 }
 
 Expected<SnakeResult> Snakes::result(int snake) const {
-  if (snake < 0 || snake >= count()) return input_error(fmt::format("there is no snake {}", snake), "snakes");
+  if (snake < 0 || snake >= count())
+    return input_error(fmt::format("there is no snake {}", snake), "snakes");
   const MovingSnake& s = state_->snakes[static_cast<std::size_t>(snake)];
   auto curve = s.net.curve(s.c);
   if (!curve) return std::unexpected(curve.error());
-  return SnakeResult{std::move(*curve), s.settings.closed, s.iterations, s.motion.resting(), s.motion.last()};
+  return SnakeResult{std::move(*curve), s.settings.closed, s.iterations, s.motion.resting(),
+                     s.motion.last()};
 }
 
 const SnakeSettings& Snakes::settings(int snake) const {
@@ -146,7 +153,8 @@ Expected<void> Snakes::change(int snake, const SnakeSettings& settings) {
 }
 
 Expected<void> Snakes::replace(int snake, const Curve& curve, const SnakeSettings& settings) {
-  if (snake < 0 || snake >= count()) return input_error(fmt::format("there is no snake {}", snake), "snakes");
+  if (snake < 0 || snake >= count())
+    return input_error(fmt::format("there is no snake {}", snake), "snakes");
   auto anew = snake_on(curve, settings);
   if (!anew) return std::unexpected(anew.error().within(fmt::format("snakes[{}]", snake)));
   state_->snakes[static_cast<std::size_t>(snake)] = std::move(*anew);
@@ -164,7 +172,8 @@ Expected<std::vector<SnakeResult>> Snakes::results() const {
   return all;
 }
 
-Expected<std::vector<SnakeResult>> run_snakes(const ImagePotential& potential, const std::vector<Curve>& starts,
+Expected<std::vector<SnakeResult>> run_snakes(const ImagePotential& potential,
+                                              const std::vector<Curve>& starts,
                                               const std::vector<SnakeSettings>& settings) {
   auto snakes = Snakes::create(potential, starts, settings);
   if (!snakes) return std::unexpected(snakes.error());

@@ -20,7 +20,8 @@ constexpr int extra_points = 6;  // for sin and 1/sin beside the polynomials: to
 Expected<KnotVector> uniform_knots(int degree, int count, double length, bool periodic) {
   if (!periodic) return KnotVector::clamped_uniform(degree, count, 0, length);
   std::vector<double> breaks;
-  for (int k = 0; k <= count; ++k) breaks.push_back(length * (double(k) / count));  // the end exactly
+  for (int k = 0; k <= count; ++k)
+    breaks.push_back(length * (double(k) / count));  // the end exactly
   return periodic_knots(degree, breaks);
 }
 
@@ -77,15 +78,19 @@ Expected<SurfaceSpace> space_of(const ClosedSurface& snake) {
                            {knots[0].count() - p, knots[1].count() - (torus ? p : 0)},
                            {knots[0].domain().length(), knots[1].domain().length()}};
   for (std::size_t d = 0; d < 2; ++d) {
-    const auto made = uniform_knots(p, std::max(space.counts[d], 0), space.lengths[d], d == 0 || torus);
-    const bool half = torus || d == 0 || std::abs(2 * space.lengths[1] - space.lengths[0]) <= 1e-12 * space.lengths[0];
+    const auto made =
+        uniform_knots(p, std::max(space.counts[d], 0), space.lengths[d], d == 0 || torus);
+    const bool half = torus || d == 0 ||
+                      std::abs(2 * space.lengths[1] - space.lengths[0]) <= 1e-12 * space.lengths[0];
     if (made && *made == knots[d] && half && !snake.surface.rational()) continue;
-    return input_error("its knots are not those of an active surface", d == 0 ? "u" : "v", "use closed_surface");
+    return input_error("its knots are not those of an active surface", d == 0 ? "u" : "v",
+                       "use closed_surface");
   }
   return space;
 }
 
-Expected<SurfaceNet::Axis> SurfaceNet::Axis::create(int degree, int count, double length, bool periodic) {
+Expected<SurfaceNet::Axis> SurfaceNet::Axis::create(int degree, int count, double length,
+                                                    bool periodic) {
   auto knots = uniform_knots(degree, count, length, periodic);
   if (!knots) return std::unexpected(knots.error());
   BasisQuadrature quadrature = gauss_basis(*knots, degree + 1, 1);
@@ -118,7 +123,8 @@ Expected<SurfaceNet> SurfaceNet::create(const SurfaceSpace& space, double alpha,
   for (const double a : wu) {
     for (std::size_t b = 0; b < wv.size(); ++b, ++k) {
       net.weights_[k] = a * wv[b];
-      net.weights_on_domain_[k] = net.weights_[k] * (torus ? 1 : std::sin(pi * at[b] / space.lengths[1]));
+      net.weights_on_domain_[k] =
+          net.weights_[k] * (torus ? 1 : std::sin(pi * at[b] / space.lengths[1]));
     }
   }
   net.make_transform();
@@ -136,7 +142,8 @@ void SurfaceNet::make_transform() {
       const auto column = static_cast<Eigen::Index>(wave_.size());
       for (int i = 0; i < n; ++i) {
         const double angle = 2 * pi * ((k * i) % n) / n;
-        waves_(i, column) = std::sqrt((alone ? 1.0 : 2.0) / n) * (part == 0 ? std::cos(angle) : std::sin(angle));
+        waves_(i, column) =
+            std::sqrt((alone ? 1.0 : 2.0) / n) * (part == 0 ? std::cos(angle) : std::sin(angle));
       }
       wave_.push_back(k);
     }
@@ -146,7 +153,8 @@ void SurfaceNet::make_transform() {
 Eigen::MatrixXd SurfaceNet::allowed(int wave) const {
   const int m = space_.counts[1];
   if (space_.form == SurfaceForm::torus) return Eigen::MatrixXd::Identity(m, m);
-  // The mean of the column next to a pole is the pole, one wave turns around it, others begin one column later.
+  // The mean of the column next to a pole is the pole, one wave turns around it, others begin one
+  // column later.
   const int first = wave == 1 ? 1 : wave == 0 ? 1 : 2;
   Eigen::MatrixXd t = Eigen::MatrixXd::Zero(m, m - 2 * first);
   for (int k = 0; k < m - 2 * first; ++k) t(first + k, k) = 1;
@@ -159,7 +167,8 @@ Expected<void> SurfaceNet::make_modes(double alpha, double beta) {
   const auto around = gramians(axes_[0].knots);
   if (!around) return std::unexpected(around.error());
   const int n = space_.counts[0], m = space_.counts[1];
-  const Eigen::MatrixXd u0 = folded(around->g00, n), u1 = folded(around->g11, n), u2 = folded(around->g22, n);
+  const Eigen::MatrixXd u0 = folded(around->g00, n), u1 = folded(around->g11, n),
+                        u2 = folded(around->g22, n);
   const bool torus = space_.form == SurfaceForm::torus;
   Eigen::MatrixXd v0, v1, v2, across;  // mass, slopes along v, second derivatives, slopes along u
   if (torus) {
@@ -172,11 +181,13 @@ Expected<void> SurfaceNet::make_modes(double alpha, double beta) {
     const double turn = pi / space_.lengths[1];
     v0 = weighted_gramian(axes_[1].knots, 0, [turn](double v) { return std::sin(turn * v); });
     v1 = weighted_gramian(axes_[1].knots, 1, [turn](double v) { return std::sin(turn * v); });
-    across = weighted_gramian(axes_[1].knots, 0, [turn](double v) { return 1 / std::sin(turn * v); });
+    across =
+        weighted_gramian(axes_[1].knots, 0, [turn](double v) { return 1 / std::sin(turn * v); });
   }
   for (int k = 0; 2 * k <= n; ++k) {
     const Eigen::MatrixXd& t = allowed_of(k);
-    const double g0 = symbol(u0, k), g1 = k == 0 ? 0 : symbol(u1, k), g2 = k == 0 ? 0 : symbol(u2, k);
+    const double g0 = symbol(u0, k), g1 = k == 0 ? 0 : symbol(u1, k),
+                 g2 = k == 0 ? 0 : symbol(u2, k);
     Mode mode;
     mode.mass = t.transpose() * (g0 * v0) * t;
     const Eigen::MatrixXd stretch = t.transpose() * (g0 * v1 + g1 * across) * t;
@@ -200,7 +211,8 @@ Expected<void> SurfaceNet::factor(double gamma, bool mass_alone) {
     const Eigen::MatrixXd sum = gamma * mode.mass + (mass_alone ? 0 : 1) * mode.internal;
     auto factored = detail::DenseCholesky::factor(sum);
     if (!factored) {
-      return numerical_error("the matrix of the active surface is not positive definite", "", "use a larger gamma");
+      return numerical_error("the matrix of the active surface is not positive definite", "",
+                             "use a larger gamma");
     }
     factors_.push_back(std::move(*factored));
   }
@@ -229,8 +241,8 @@ Points SurfaceNet::solve(const Points& right) const {
 }
 
 Points SurfaceNet::internal(const Points& c) const {
-  // The coefficients of allowed functions are those of the control points between the first and the last of them; the
-  // forces are put there, too, where `solve` finds them.
+  // The coefficients of allowed functions are those of the control points between the first and the
+  // last of them; the forces are put there, too, where `solve` finds them.
   return by_modes(c, [this](std::size_t wave, const Eigen::MatrixXd& t, const auto& values) {
     const auto first = (t.rows() - t.cols()) / 2;
     Points forces = Points::Zero(t.rows(), 3);
@@ -246,7 +258,8 @@ Points SurfaceNet::at_gauss(const Points& c, int du, int dv) const {
   const Dense lines = u * Eigen::Map<const Dense>(c.data(), n, 3 * m);
   Points result(u.rows() * v.rows(), 3);
   for (Eigen::Index q = 0; q < u.rows(); ++q) {
-    result.middleRows(q * v.rows(), v.rows()).noalias() = v * Eigen::Map<const Points>(lines.data() + q * 3 * m, m, 3);
+    result.middleRows(q * v.rows(), v.rows()).noalias() =
+        v * Eigen::Map<const Points>(lines.data() + q * 3 * m, m, 3);
   }
   return result;
 }
@@ -307,7 +320,8 @@ Expected<ClosedSurface> SurfaceNet::surface(const Points& c) const {
   Points all(rows * columns, 3);
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j < columns; ++j) {
-      all.row(i * columns + j) = c.row(i % space_.counts[0] * space_.counts[1] + j % space_.counts[1]);
+      all.row(i * columns + j) =
+          c.row(i % space_.counts[0] * space_.counts[1] + j % space_.counts[1]);
     }
   }
   auto made = Surface::create({axes_[0].knots, axes_[1].knots}, std::move(all));
@@ -334,8 +348,8 @@ Expected<Points> projected(const SurfaceSpace& space, const Points& places) {
 Expected<Points> projected(const SurfaceSpace& space, const ClosedSurface& snake) {
   const auto net = SurfaceNet::create(space, 0, 0);
   if (!net) return std::unexpected(net.error());
-  const auto places = evaluate_grid(
-      snake.surface, {std::span(net->quadrature(0).parameters), std::span(net->quadrature(1).parameters)});
+  const auto places = evaluate_grid(snake.surface, {std::span(net->quadrature(0).parameters),
+                                                    std::span(net->quadrature(1).parameters)});
   if (!places) return std::unexpected(places.error());
   return projected(space, places->points());
 }

@@ -58,7 +58,8 @@ struct MovingSurface {
     return {};
   }
 
-  /// The move by forces on the unknowns, springs drawing at its end (Sherman, Morrison and Woodbury).
+  /// The move by forces on the unknowns, springs drawing at its end (Sherman, Morrison and
+  /// Woodbury).
   [[nodiscard]] Expected<Points> moved_by(Points forces) const {
     const auto count = std::ssize(settings.springs);
     if (count == 0) return net.solve(forces);
@@ -70,7 +71,8 @@ struct MovingSurface {
       softness[k] = 1 / std::max(spring.strength, 1e-300);
     }
     const Points free = net.solve(forces);
-    const Eigen::MatrixXd small = held.transpose() * spread + Eigen::MatrixXd(softness.asDiagonal());
+    const Eigen::MatrixXd small =
+        held.transpose() * spread + Eigen::MatrixXd(softness.asDiagonal());
     const auto drawn = detail::solve_square(small, pull - held.transpose() * free);
     if (!drawn) return std::unexpected(drawn.error().within("springs"));
     return Points(free + spread * *drawn);
@@ -100,7 +102,8 @@ struct MovingSurface {
       if (!(size > 0)) continue;
       for (int k = 0; k < band_layers; ++k) {
         const double out = settings.band * (k + 0.5) / band_layers;
-        sum += net.weights()[q] * size * image.intensity(v.row(q).transpose() + out / size * normal) / band_layers;
+        sum += net.weights()[q] * size *
+               image.intensity(v.row(q).transpose() + out / size * normal) / band_layers;
       }
       area += net.weights()[q] * size;
     }
@@ -108,23 +111,28 @@ struct MovingSurface {
   }
 
   /// Forces of the image, of pressure and of volcanoes at the Gauss points, with their weights.
-  [[nodiscard]] Points forces(const VolumePotential& image, double side, const std::optional<Greys>& greys) const {
+  [[nodiscard]] Points forces(const VolumePotential& image, double side,
+                              const std::optional<Greys>& greys) const {
     const Points v = net.at_gauss(c, 0, 0);
-    const bool flows = image.settings().flow != 0, presses = greys || settings.balloon != 0 || flows;
-    const Points u = presses ? net.at_gauss(c, 1, 0) : Points(), w = presses ? net.at_gauss(c, 0, 1) : Points();
+    const bool flows = image.settings().flow != 0,
+               presses = greys || settings.balloon != 0 || flows;
+    const Points u = presses ? net.at_gauss(c, 1, 0) : Points(),
+                 w = presses ? net.at_gauss(c, 0, 1) : Points();
     Points f(v.rows(), 3);
     for (Eigen::Index q = 0; q < v.rows(); ++q) {
       const Point place = v.row(q);
       Eigen::Vector3d force = image.force(place);
       for (const SurfaceVolcano& volcano : settings.volcanoes) {
         const Eigen::Vector3d away = place - volcano.at;
-        const double distance = away.norm(), share = volcano.radius / std::max(distance, volcano.radius);
+        const double distance = away.norm(),
+                     share = volcano.radius / std::max(distance, volcano.radius);
         if (distance > 0) force += volcano.strength * share * share * away / distance;
       }
       if (presses) {
         double pressure = settings.balloon;
         if (greys) {
-          const double grey = image.intensity(place), in = grey - greys->inside, out = grey - greys->outside;
+          const double grey = image.intensity(place), in = grey - greys->inside,
+                       out = grey - greys->outside;
           pressure += image.settings().region * (out * out - in * in);
         }
         const Eigen::Vector3d normal = side * u.row(q).cross(w.row(q)).transpose().normalized();
@@ -136,7 +144,8 @@ struct MovingSurface {
     return f;
   }
 
-  Expected<void> step(const VolumePotential& image, double side, const std::optional<Greys>& greys) {
+  Expected<void> step(const VolumePotential& image, double side,
+                      const std::optional<Greys>& greys) {
     auto moved = moved_by(net.load(forces(image, side, greys)) - net.internal(c));
     if (!moved) return std::unexpected(moved.error());
     Points move = limited(std::move(*moved), settings.max_move);
@@ -147,11 +156,13 @@ struct MovingSurface {
     if (motion.steadied(move)) {
       if (auto done = prepare(); !done) return done;
     }
-    const bool normal = image.settings().region != 0 || image.settings().flow != 0 || settings.balloon != 0;
+    const bool normal =
+        image.settings().region != 0 || image.settings().flow != 0 || settings.balloon != 0;
     const bool may = normal && settings.springs.empty() && settings.redistribute > 0;
     if (!may || motion.resting() || iterations % settings.redistribute != 0) return {};
     const Eigen::VectorXd stretch = stretches();
-    const bool uneven = stretch.minCoeff() > 0 && stretch.maxCoeff() > most_uneven_area * stretch.minCoeff();
+    const bool uneven =
+        stretch.minCoeff() > 0 && stretch.maxCoeff() > most_uneven_area * stretch.minCoeff();
     return uneven ? redistribute(stretch) : Expected<void>{};
   }
 
@@ -165,12 +176,14 @@ struct MovingSurface {
     return result;
   }
 
-  /// Moves it within itself so that area J is stretched evenly, to first order: by the places of parameters shifted by
-  /// ∇φ with Δφ = mean − log J on Ω, since log J changes by Δφ (J. Moser's construction, linear).
+  /// Moves it within itself so that area J is stretched evenly, to first order: by the places of
+  /// parameters shifted by ∇φ with Δφ = mean − log J on Ω, since log J changes by Δφ (J. Moser's
+  /// construction, linear).
   Expected<void> redistribute(const Eigen::VectorXd& stretch) {
     const double turn = net.space().lengths[0] / (2 * std::numbers::pi);
     if (!mass) {
-      auto plain = SurfaceNet::create(net.space(), 0, 0), laplace = SurfaceNet::create(net.space(), 1, 0);
+      auto plain = SurfaceNet::create(net.space(), 0, 0),
+           laplace = SurfaceNet::create(net.space(), 1, 0);
       if (!plain || !laplace) return std::unexpected(plain ? laplace.error() : plain.error());
       if (auto done = plain->factor(1, true); !done) return done;
       if (auto done = laplace->factor(nearly_singular / (turn * turn)); !done) return done;
@@ -182,12 +195,13 @@ struct MovingSurface {
     right.col(0) = stretch.array().log();
     right.col(0).array() -= weights.dot(right.col(0)) / weights.sum();
     const Points phi = poisson->solve(net.load(weights.asDiagonal() * right));
-    const Points u = net.at_gauss(c, 1, 0), w = net.at_gauss(c, 0, 1), along_u = net.at_gauss(phi, 1, 0),
-                 along_w = net.at_gauss(phi, 0, 1);
+    const Points u = net.at_gauss(c, 1, 0), w = net.at_gauss(c, 0, 1),
+                 along_u = net.at_gauss(phi, 1, 0), along_w = net.at_gauss(phi, 0, 1);
     Points within(u.rows(), 3);
     for (Eigen::Index q = 0; q < within.rows(); ++q) {
       const double sine = weights[q] / net.weights()[q];
-      within.row(q) = weights[q] * (along_u(q, 0) / (sine * sine) * u.row(q) + along_w(q, 0) * w.row(q));
+      within.row(q) =
+          weights[q] * (along_u(q, 0) / (sine * sine) * u.row(q) + along_w(q, 0) * w.row(q));
     }
     const Points shift = mass->solve(net.load(within));
     const double longest = shift.rowwise().norm().maxCoeff();
@@ -196,7 +210,9 @@ struct MovingSurface {
   }
 
   [[nodiscard]] double viscosity() const { return motion.viscosity(settings.gamma); }
-  [[nodiscard]] bool ended() const { return motion.resting() || iterations >= settings.max_iterations; }
+  [[nodiscard]] bool ended() const {
+    return motion.resting() || iterations >= settings.max_iterations;
+  }
 };
 
 /// All of them until the last one rests.
@@ -228,8 +244,8 @@ Expected<void> run_until_rest(const VolumePotential& image, std::vector<MovingSu
   return {};
 }
 
-Expected<MovingSurface> activated(const SurfaceSnakeSettings& settings, const SurfaceSpace& space, Points c,
-                                  int iterations) {
+Expected<MovingSurface> activated(const SurfaceSnakeSettings& settings, const SurfaceSpace& space,
+                                  Points c, int iterations) {
   auto net = SurfaceNet::create(space, settings.alpha, settings.beta);
   if (!net) return std::unexpected(net.error());
   MovingSurface active{settings, std::move(*net), std::move(c)};
@@ -242,8 +258,9 @@ Expected<MovingSurface> activated(const SurfaceSnakeSettings& settings, const Su
 Expected<double> difference(const MovingSurface& coarse, const MovingSurface& fine) {
   const auto there = fine.net.surface(fine.c);
   if (!there) return std::unexpected(there.error());
-  const auto places = evaluate_grid(
-      there->surface, {std::span(coarse.net.quadrature(0).parameters), std::span(coarse.net.quadrature(1).parameters)});
+  const auto places =
+      evaluate_grid(there->surface, {std::span(coarse.net.quadrature(0).parameters),
+                                     std::span(coarse.net.quadrature(1).parameters)});
   if (!places) return std::unexpected(places.error());
   const Points v = coarse.net.at_gauss(coarse.c, 0, 0), u = coarse.net.at_gauss(coarse.c, 1, 0),
                w = coarse.net.at_gauss(coarse.c, 0, 1);
@@ -298,13 +315,16 @@ Expected<void> refine_all(const VolumePotential& image, std::vector<MovingSurfac
 
 }  // namespace
 
-Expected<std::vector<SurfaceSnakeResult>> run_surface_snakes(const VolumePotential& potential,
-                                                             std::vector<ClosedSurface> starts,
-                                                             const std::vector<SurfaceSnakeSettings>& settings) {
-  if (starts.size() != settings.size()) return input_error("every surface needs its settings", "snakes");
+Expected<std::vector<SurfaceSnakeResult>> run_surface_snakes(
+    const VolumePotential& potential, std::vector<ClosedSurface> starts,
+    const std::vector<SurfaceSnakeSettings>& settings) {
+  if (starts.size() != settings.size())
+    return input_error("every surface needs its settings", "snakes");
   std::vector<MovingSurface> snakes;
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    const auto in = [k](const Error& error) { return std::unexpected(error.within(fmt::format("snakes[{}]", k))); };
+    const auto in = [k](const Error& error) {
+      return std::unexpected(error.within(fmt::format("snakes[{}]", k)));
+    };
     if (auto checked = check_settings(settings[k]); !checked) return in(checked.error());
     const auto space = space_of(starts[k]);
     if (!space) return in(space.error());
@@ -315,12 +335,14 @@ Expected<std::vector<SurfaceSnakeResult>> run_surface_snakes(const VolumePotenti
     active->net.keep_poles(kept);
     const double size = (active->c.colwise().maxCoeff() - active->c.colwise().minCoeff()).norm();
     if (!((kept - active->c).cwiseAbs().maxCoeff() <= 1e-9 * size)) {
-      return in({ErrorKind::input, "its poles are not those of an active surface", "", "use closed_surface"});
+      return in({ErrorKind::input, "its poles are not those of an active surface", "",
+                 "use closed_surface"});
     }
     snakes.push_back(std::move(*active));
   }
   if (auto done = run_until_rest(potential, snakes); !done) return std::unexpected(done.error());
-  if (auto refined = refine_all(potential, snakes); !refined) return std::unexpected(refined.error());
+  if (auto refined = refine_all(potential, snakes); !refined)
+    return std::unexpected(refined.error());
   std::vector<SurfaceSnakeResult> results;
   for (const MovingSurface& s : snakes) {
     auto surface = s.net.surface(s.c);

@@ -40,11 +40,13 @@ void convolve(VolumeImage& volume, std::size_t axis, const std::vector<double>& 
       double* to = sums.data() + static_cast<std::size_t>(i) * lines.inner;
       for (int k = -reach; k <= reach; ++k) {
         const double w = weights[static_cast<std::size_t>(k + reach)];
-        const double* from = volume.values.data() + lines.at(block, std::clamp(i + k, 0, lines.count - 1));
+        const double* from =
+            volume.values.data() + lines.at(block, std::clamp(i + k, 0, lines.count - 1));
         for (std::size_t c = 0; c < lines.inner; ++c) to[c] += w * from[c];
       }
     }
-    std::ranges::copy(sums, volume.values.begin() + static_cast<std::ptrdiff_t>(lines.at(block, 0)));
+    std::ranges::copy(sums,
+                      volume.values.begin() + static_cast<std::ptrdiff_t>(lines.at(block, 0)));
   }
 }
 
@@ -71,7 +73,8 @@ VolumeImage slope_along(VolumeImage volume, std::size_t axis) {
     line.clear();
     for (int i = 0; i < n; ++i) line.push_back(first[static_cast<std::size_t>(i) * stride]);
     first[0] = first[static_cast<std::size_t>(n - 1) * stride] = 0;
-    for (std::size_t i = 1; i + 1 < line.size(); ++i) first[i * stride] = (line[i + 1] - line[i - 1]) / 2;
+    for (std::size_t i = 1; i + 1 < line.size(); ++i)
+      first[i * stride] = (line[i + 1] - line[i - 1]) / 2;
   });
   return volume;
 }
@@ -91,12 +94,14 @@ Expected<void> check_volume(const VolumeImage& volume) {
     return input_error(fmt::format("{} x {} x {} voxels are no volume", nx, ny, nz), "volume");
   }
   if (static_cast<double>(volume.values.size()) != double(nx) * ny * nz) {
-    return input_error(fmt::format("{} x {} x {} voxels have {} values", nx, ny, nz, volume.values.size()), "volume",
-                       "give one per voxel");
+    return input_error(
+        fmt::format("{} x {} x {} voxels have {} values", nx, ny, nz, volume.values.size()),
+        "volume", "give one per voxel");
   }
   for (std::size_t k = 0; k < volume.values.size(); ++k) {
     if (!std::isfinite(volume.values[k])) {
-      return input_error("the value is not finite", fmt::format("voxel {}", k), "replace it by a number");
+      return input_error("the value is not finite", fmt::format("voxel {}", k),
+                         "replace it by a number");
     }
   }
   const VolumeFrame& frame = volume.frame;
@@ -105,7 +110,8 @@ Expected<void> check_volume(const VolumeImage& volume) {
   }
   const double box = frame.spacing().prod();
   if (!(box > 0) || std::abs(frame.directions.determinant()) < 1e-9 * box) {
-    return input_error("the steps between voxels lie in a plane", "space directions", "give three independent ones");
+    return input_error("the steps between voxels lie in a plane", "space directions",
+                       "give three independent ones");
   }
   return {};
 }
@@ -121,10 +127,12 @@ VolumeImage gaussian(const VolumeImage& volume, double sigma) {
 }
 
 std::array<VolumeImage, 3> gradient(const VolumeImage& volume) {
-  std::array<VolumeImage, 3> slopes = {slope_along(volume, 0), slope_along(volume, 1), slope_along(volume, 2)};
+  std::array<VolumeImage, 3> slopes = {slope_along(volume, 0), slope_along(volume, 1),
+                                       slope_along(volume, 2)};
   const Eigen::Matrix3d to_space = volume.frame.directions.inverse().transpose();
   for (std::size_t k = 0; k < volume.values.size(); ++k) {
-    const Eigen::Vector3d g = to_space * Eigen::Vector3d(slopes[0].values[k], slopes[1].values[k], slopes[2].values[k]);
+    const Eigen::Vector3d g =
+        to_space * Eigen::Vector3d(slopes[0].values[k], slopes[1].values[k], slopes[2].values[k]);
     for (std::size_t d = 0; d < 3; ++d) slopes[d].values[k] = g[static_cast<Eigen::Index>(d)];
   }
   return slopes;
@@ -149,7 +157,8 @@ VolumeImage distance_to(const VolumeImage& mask) {
       line.clear();
       for (int i = 0; i < n; ++i) line.push_back(first[static_cast<std::size_t>(i) * stride]);
       detail::lower_envelope(line, squared, step);
-      for (int i = 0; i < n; ++i) first[static_cast<std::size_t>(i) * stride] = squared[static_cast<std::size_t>(i)];
+      for (int i = 0; i < n; ++i)
+        first[static_cast<std::size_t>(i) * stride] = squared[static_cast<std::size_t>(i)];
     });
   }
   for (double& x : result.values) x = std::sqrt(x);
@@ -164,18 +173,21 @@ VolumeImage termination(const VolumeImage& volume) {
   const auto at = [](const std::array<VolumeImage, 3>& v, std::size_t k) {
     return Eigen::Vector3d(v[0].values[k], v[1].values[k], v[2].values[k]);
   };
-  for (std::size_t k = 0; k < volume.values.size(); ++k) largest = std::max(largest, at(g, k).norm());
+  for (std::size_t k = 0; k < volume.values.size(); ++k)
+    largest = std::max(largest, at(g, k).norm());
   for (std::size_t k = 0; k < volume.values.size(); ++k) {
     const Eigen::Vector3d slope = at(g, k);
     const double s = slope.norm();
     Eigen::Matrix3d h;
     h << at(hx, k), at(hy, k), at(hz, k);
-    result.values[k] = s > 1e-3 * largest ? (s * s * h.trace() - slope.dot(h * slope)) / (s * s * s) : 0;
+    result.values[k] =
+        s > 1e-3 * largest ? (s * s * h.trace() - slope.dot(h * slope)) / (s * s * s) : 0;
   }
   return result;
 }
 
-std::array<VolumeImage, 3> gradient_vector_flow(const VolumeImage& edges, double mu, int iterations) {
+std::array<VolumeImage, 3> gradient_vector_flow(const VolumeImage& edges, double mu,
+                                                int iterations) {
   VolumeImage scaled = edges;
   const Eigen::Vector3d spacing = edges.frame.spacing();
   const double shortest = spacing.minCoeff();
@@ -191,7 +203,8 @@ std::array<VolumeImage, 3> gradient_vector_flow(const VolumeImage& edges, double
   }
   const Eigen::Vector3d share = mu * (shortest / spacing.array()).square();
   // Stable: no weight of a voxel itself is negative.
-  const double step = 1 / (2 * share.sum() + std::max(1.0, *std::ranges::max_element(steep.values)));
+  const double step =
+      1 / (2 * share.sum() + std::max(1.0, *std::ranges::max_element(steep.values)));
   std::array<VolumeImage, 3> flow = slope;
   const auto [nx, ny, nz] = edges.size;
   for (std::size_t d = 0; d < 3; ++d) {
@@ -202,13 +215,16 @@ std::array<VolumeImage, 3> gradient_vector_flow(const VolumeImage& edges, double
         for (int y = 0; y < ny; ++y) {
           const auto line = [&f](int j, int k) { return f.values.data() + f.index(0, j, k); };
           const double *row = line(y, z), *before = line(std::max(y - 1, 0), z),
-                       *after = line(std::min(y + 1, ny - 1), z), *below = line(y, std::max(z - 1, 0)),
+                       *after = line(std::min(y + 1, ny - 1), z),
+                       *below = line(y, std::max(z - 1, 0)),
                        *above = line(y, std::min(z + 1, nz - 1));
           const std::size_t start = f.index(0, y, z);
           for (int x = 0; x < nx; ++x) {
             const double here = row[x], twice = 2 * here;
-            const double spread = share[0] * (row[std::max(x - 1, 0)] + row[std::min(x + 1, nx - 1)] - twice) +
-                                  share[1] * (before[x] + after[x] - twice) + share[2] * (below[x] + above[x] - twice);
+            const double spread =
+                share[0] * (row[std::max(x - 1, 0)] + row[std::min(x + 1, nx - 1)] - twice) +
+                share[1] * (before[x] + after[x] - twice) +
+                share[2] * (below[x] + above[x] - twice);
             const std::size_t k = start + static_cast<std::size_t>(x);
             next.values[k] = here + step * (spread - steep.values[k] * (here - slope[d].values[k]));
           }
@@ -223,14 +239,17 @@ std::array<VolumeImage, 3> gradient_vector_flow(const VolumeImage& edges, double
 VolumeSpline::VolumeSpline(const VolumeImage& volume) : size_(volume.size) {
   VolumeImage c = volume;
   for (std::size_t d = 0; d < 3; ++d) each_line(c, d, detail::interpolate_line);
-  const auto mirrored = [](int k, int n) { return n == 1 ? 0 : k < 0 ? -k : k >= n ? 2 * n - 2 - k : k; };
+  const auto mirrored = [](int k, int n) {
+    return n == 1 ? 0 : k < 0 ? -k : k >= n ? 2 * n - 2 - k : k;
+  };
   std::size_t all = 1;
   for (const int n : size_) all *= static_cast<std::size_t>(n + 2);
   coefficients_.reserve(all);
   for (int z = -1; z <= size_[2]; ++z) {
     for (int y = -1; y <= size_[1]; ++y) {
       for (int x = -1; x <= size_[0]; ++x) {
-        coefficients_.push_back(c.at(mirrored(x, size_[0]), mirrored(y, size_[1]), mirrored(z, size_[2])));
+        coefficients_.push_back(
+            c.at(mirrored(x, size_[0]), mirrored(y, size_[1]), mirrored(z, size_[2])));
       }
     }
   }
@@ -247,13 +266,15 @@ Eigen::Vector4d VolumeSpline::sum(const Point& voxel, bool derivatives) const {
     detail::cubic_basis(u - first[d], values[d], false);
     if (derivatives) detail::cubic_basis(u - first[d], slopes[d], true);
   }
-  const auto row = static_cast<std::size_t>(size_[0] + 2), layer = row * static_cast<std::size_t>(size_[1] + 2);
+  const auto row = static_cast<std::size_t>(size_[0] + 2),
+             layer = row * static_cast<std::size_t>(size_[1] + 2);
   Eigen::Vector4d total = Eigen::Vector4d::Zero();
   for (int c = 0; c < used[2]; ++c) {
     double plain = 0, along_x = 0, along_y = 0;
     for (int b = 0; b < used[1]; ++b) {
       const double* line = coefficients_.data() + static_cast<std::size_t>(first[2] + c) * layer +
-                           static_cast<std::size_t>(first[1] + b) * row + static_cast<std::size_t>(first[0]);
+                           static_cast<std::size_t>(first[1] + b) * row +
+                           static_cast<std::size_t>(first[0]);
       double sum = 0, slope = 0;
       for (int a = 0; a < used[0]; ++a) sum += values[0][a] * line[a];
       plain += values[1][b] * sum;

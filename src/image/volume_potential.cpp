@@ -44,14 +44,18 @@ void make_unit(std::array<VolumeImage, 3>& flow) {
   }
 }
 
-Expected<VolumeImage> distance_from(const VolumeImage& volume, const std::optional<VolumeImage>& mask) {
-  if (!mask) return input_error("there is no mask to be near", "mask", "give one, or leave out distance");
-  if (auto checked = check_volume(*mask); !checked) return std::unexpected(checked.error().within("mask"));
+Expected<VolumeImage> distance_from(const VolumeImage& volume,
+                                    const std::optional<VolumeImage>& mask) {
+  if (!mask)
+    return input_error("there is no mask to be near", "mask", "give one, or leave out distance");
+  if (auto checked = check_volume(*mask); !checked)
+    return std::unexpected(checked.error().within("mask"));
   if (mask->size != volume.size) {
     const auto [ax, ay, az] = mask->size;
     const auto [bx, by, bz] = volume.size;
-    return input_error(fmt::format("it has {} x {} x {} voxels, the volume {} x {} x {}", ax, ay, az, bx, by, bz),
-                       "mask", "give one of the same size");
+    return input_error(
+        fmt::format("it has {} x {} x {} voxels, the volume {} x {} x {}", ax, ay, az, bx, by, bz),
+        "mask", "give one of the same size");
   }
   if (!volume.frame.orthogonal()) {
     return input_error("the steps between voxels are not perpendicular", "distance",
@@ -68,10 +72,12 @@ Expected<VolumeImage> distance_from(const VolumeImage& volume, const std::option
 
 }  // namespace
 
-Expected<VolumePotential> VolumePotential::create(const VolumeImage& volume, const ImagePotentialSettings& settings,
+Expected<VolumePotential> VolumePotential::create(const VolumeImage& volume,
+                                                  const ImagePotentialSettings& settings,
                                                   const std::optional<VolumeImage>& mask) {
   if (auto checked = check_volume(volume); !checked) return std::unexpected(checked.error());
-  if (auto checked = check_potential_settings(settings); !checked) return std::unexpected(checked.error());
+  if (auto checked = check_potential_settings(settings); !checked)
+    return std::unexpected(checked.error());
   const VolumeImage smooth = gaussian(volume, settings.smoothing);
   const bool flows = settings.flow != 0;
   VolumeImage q = smooth;
@@ -89,7 +95,8 @@ Expected<VolumePotential> VolumePotential::create(const VolumeImage& volume, con
     add(*distance, -settings.distance);
   }
   Fields fields{settings, volume.size, volume.frame, volume.frame.directions.inverse()};
-  if (settings.line != 0 || settings.edge != 0 || settings.termination != 0 || settings.distance != 0) {
+  if (settings.line != 0 || settings.edge != 0 || settings.termination != 0 ||
+      settings.distance != 0) {
     fields.potential.emplace(q);
   }
   if (settings.region != 0) {
@@ -110,7 +117,9 @@ const std::array<int, 3>& VolumePotential::size() const { return fields_->size; 
 const VolumeFrame& VolumePotential::frame() const { return fields_->frame; }
 double VolumePotential::total_intensity() const { return fields_->total; }
 
-Point VolumePotential::voxel(const Point& place) const { return fields_->to_voxels * (place - fields_->frame.origin); }
+Point VolumePotential::voxel(const Point& place) const {
+  return fields_->to_voxels * (place - fields_->frame.origin);
+}
 
 double VolumePotential::value(const Point& place) const {
   return fields_->potential ? fields_->potential->value(voxel(place)) : 0;

@@ -27,7 +27,8 @@ Expected<SurfaceStart> start_of(const VolumeSnakeStart& from, double h) {
 }
 
 /// What counts as black and white.
-Expected<std::array<double, 2>> grey_window(const VolumeImage& volume, const VolumeSnakeScript& script) {
+Expected<std::array<double, 2>> grey_window(const VolumeImage& volume,
+                                            const VolumeSnakeScript& script) {
   if (script.grey) {
     const auto [black, white] = *script.grey;
     if (std::isfinite(black) && std::isfinite(white) && black < white) return *script.grey;
@@ -38,7 +39,8 @@ Expected<std::array<double, 2>> grey_window(const VolumeImage& volume, const Vol
 }
 
 /// The settings of one of its surfaces, with places in lengths of the step h.
-SurfaceSnakeSettings settings_in_steps(const VolumeSnakeScript& script, const VolumeSnakeStart& start, double h) {
+SurfaceSnakeSettings settings_in_steps(const VolumeSnakeScript& script,
+                                       const VolumeSnakeStart& start, double h) {
   SurfaceSnakeSettings settings = script.settings;
   settings.springs = start.springs;
   if (start.control_points) settings.control_points = *start.control_points;
@@ -53,8 +55,9 @@ SurfaceSnakeSettings settings_in_steps(const VolumeSnakeScript& script, const Vo
 }  // namespace
 
 std::span<const Choice> choices(SurfaceForm) {
-  static constexpr Choice list[] = {{"sphere", SurfaceForm::sphere, "or an ellipsoid where the radii differ"},
-                                    {"torus", SurfaceForm::torus, "radii: the ring's and the tube's"}};
+  static constexpr Choice list[] = {
+      {"sphere", SurfaceForm::sphere, "or an ellipsoid where the radii differ"},
+      {"torus", SurfaceForm::torus, "radii: the ring's and the tube's"}};
   return list;
 }
 
@@ -63,12 +66,12 @@ void describe(VolumeSnakeStart& s, Fields& fields) {
   fields.add("shape", s.shape);
   fields.add("centre", s.centre, {.help = "in space", .presence = Presence::required});
   fields.add("axis", s.axis, {.help = "through the poles, or through the hole"});
-  fields.add(
-      "radii", s.radii,
-      {.help = "in space: one or three of a sphere, the last along the axis; of a torus the ring's and the tube's",
-       .range = above(0),
-       .presence = Presence::required,
-       .uniform = true});
+  fields.add("radii", s.radii,
+             {.help = "in space: one or three of a sphere, the last along the axis; of a torus the "
+                      "ring's and the tube's",
+              .range = above(0),
+              .presence = Presence::required,
+              .uniform = true});
   fields.add("control_points", s.control_points, {.fallback = "those of `settings`"});
   fields.add("springs", s.springs);
 }
@@ -78,7 +81,8 @@ void describe(VolumeSnakeScript& s, Fields& fields) {
   fields.add("knead", s.version, {.help = "version of the script", .presence = Presence::required});
   fields.add("image", s.image);
   fields.add("grey", s.grey,
-             {.help = "values that count as black and as white, 0 and 1", .fallback = "the least and the largest"});
+             {.help = "values that count as black and as white, 0 and 1",
+              .fallback = "the least and the largest"});
   fields.add("mask", s.mask, {.help = "file of the mask that `distance` counts from"});
   fields.add("settings", s.settings);
   fields.add("snakes", s.snakes, {.presence = Presence::required});
@@ -108,7 +112,8 @@ VolumeSnakeScript default_volume_snake_script(const VolumeImage& volume) {
   script.settings.motion = 0.03;
   script.settings.refine = 0.5;
   const Point middle =
-      volume.frame.origin + volume.frame.directions * Point((volume.size[0] - 1) / 2.0, (volume.size[1] - 1) / 2.0,
+      volume.frame.origin + volume.frame.directions * Point((volume.size[0] - 1) / 2.0,
+                                                            (volume.size[1] - 1) / 2.0,
                                                             (volume.size[2] - 1) / 2.0);
   const Eigen::Vector3d spacing = volume.frame.spacing();
   VolumeSnakeStart start;
@@ -122,8 +127,9 @@ VolumeSnakeScript default_volume_snake_script(const VolumeImage& volume) {
   return script;
 }
 
-Expected<std::vector<SurfaceSnakeResult>> run_volume_snakes(const VolumeImage& volume, const VolumeSnakeScript& script,
-                                                            const std::optional<VolumeImage>& mask) {
+Expected<std::vector<SurfaceSnakeResult>> run_volume_snakes(
+    const VolumeImage& volume, const VolumeSnakeScript& script,
+    const std::optional<VolumeImage>& mask) {
   if (auto checked = check_volume(volume); !checked) return std::unexpected(checked.error());
   const double h = volume.frame.spacing().minCoeff();
   auto window = grey_window(volume, script);

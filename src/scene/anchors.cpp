@@ -27,7 +27,9 @@ bool holds_more_than_edges(const SceneSurface& s) {
 }  // namespace
 
 bool holds_its_place(const SceneSurface& s) {
-  if (!s.visible || !s.visible->edges.empty() || !holds_trims(s.constraints) || holds_more_than_edges(s)) return false;
+  if (!s.visible || !s.visible->edges.empty() || !holds_trims(s.constraints) ||
+      holds_more_than_edges(s))
+    return false;
   for (std::size_t d = 0; d < 2; ++d) {
     if (!s.visible->closed[d] && !(s.visible->poles[d][0] && s.visible->poles[d][1])) return false;
   }
@@ -37,13 +39,15 @@ bool holds_its_place(const SceneSurface& s) {
 bool holds_anything(const SceneSurface& s) {
   if (holds_more_than_edges(s) || holds_its_place(s)) return true;
   if (!s.visible) return false;
-  return std::ranges::any_of(trim_orders(s.constraints, *s.visible), [](int order) { return order >= 0; });
+  return std::ranges::any_of(trim_orders(s.constraints, *s.visible),
+                             [](int order) { return order >= 0; });
 }
 
 namespace {
 
 /// \param scalings of the selected surfaces
-Expected<std::vector<PointForce>> anchors_of(const Scene& scene, std::span<const DomainScaling<2>> scalings,
+Expected<std::vector<PointForce>> anchors_of(const Scene& scene,
+                                             std::span<const DomainScaling<2>> scalings,
                                              const Points& points) {
   double stiffest = usual_stiffness;
   for (const Tool& tool : scene.tools) stiffest = std::max(stiffest, tool.stiffness);
@@ -70,9 +74,11 @@ Expected<std::vector<PointForce>> anchors_of(const Scene& scene, std::span<const
 
 }  // namespace
 
-Expected<std::vector<PointForce>> anchors(const Scene& scene, const ActiveSurface& model, const Points& points) {
+Expected<std::vector<PointForce>> anchors(const Scene& scene, const ActiveSurface& model,
+                                          const Points& points) {
   std::vector<DomainScaling<2>> scalings;
-  for (int k = 0; k < static_cast<int>(scene.selection().size()); ++k) scalings.push_back(model.scaling(k));
+  for (int k = 0; k < static_cast<int>(scene.selection().size()); ++k)
+    scalings.push_back(model.scaling(k));
   return anchors_of(scene, scalings, points);
 }
 

@@ -28,11 +28,11 @@ enum class EdgeChoice { all, u0, u1, v0, v1 };
 using Components = std::array<bool, 3>;
 inline constexpr Components all_components = {true, true, true};
 
-// Constraints that hold a shape. Each is stored with the shape when it was requested (`KeptConstraintOf`): what is held
-// stays where it was then.
+// Constraints that hold a shape. Each is stored with the shape when it was requested
+// (`KeptConstraintOf`): what is held stays where it was then.
 
-/// An edge of a surface, with the first `order` derivatives across it: 0 its position, 1 also its tangent planes, 2
-/// also its curvatures.
+/// An edge of a surface, with the first `order` derivatives across it: 0 its position, 1 also its
+/// tangent planes, 2 also its curvatures.
 struct EdgeHold {
   SurfaceEdge edge = SurfaceEdge::u0;
   int order = 0;
@@ -81,12 +81,13 @@ struct EdgeSymmetry {
 
 /// A whole surface that stays its own mirror image.
 struct MirrorSymmetry {
-  int direction = 0;                      ///< 0: S(u, v) and S(a + b − u, v) are partners; 1 likewise in v
+  int direction = 0;  ///< 0: S(u, v) and S(a + b − u, v) are partners; 1 likewise in v
   std::optional<MirrorPlane> plane = {};  ///< left out: the best one
   friend bool operator==(const MirrorSymmetry&, const MirrorSymmetry&) = default;
 };
 
-/// All edges of the faces on the surface, with the first `order` derivatives across them, as `EdgeHold`.
+/// All edges of the faces on the surface, with the first `order` derivatives across them, as
+/// `EdgeHold`.
 struct TrimHolds {
   int order = 0;  ///< −1: they are free on purpose, and may open
   friend bool operator==(const TrimHolds&, const TrimHolds&) = default;
@@ -107,7 +108,8 @@ struct ConstraintKinds {  // of curves and volumes
 };
 template <>
 struct ConstraintKinds<2> {
-  using type = std::variant<EdgeHold, PointPin, Freeze, Keep, EdgeSymmetry, MirrorSymmetry, TrimHolds, TrimEdgeHold>;
+  using type = std::variant<EdgeHold, PointPin, Freeze, Keep, EdgeSymmetry, MirrorSymmetry,
+                            TrimHolds, TrimEdgeHold>;
 };
 }  // namespace detail
 
@@ -125,11 +127,14 @@ struct KeptConstraintOf {
 };
 using KeptConstraint = KeptConstraintOf<2>;
 
-/// The plane of a mirror symmetry of this surface: as given, or the best one. Errors: those of `mirror_plane`.
-[[nodiscard]] Expected<MirrorPlane> plane_of(const MirrorSymmetry& symmetry, const Surface& surface);
+/// The plane of a mirror symmetry of this surface: as given, or the best one. Errors: those of
+/// `mirror_plane`.
+[[nodiscard]] Expected<MirrorPlane> plane_of(const MirrorSymmetry& symmetry,
+                                             const Surface& surface);
 
 /// The control point that is the mirror image of control point (i, j) of a net.
-[[nodiscard]] std::array<int, 2> mirror_image(const MirrorSymmetry& symmetry, const std::array<int, 2>& net,
+[[nodiscard]] std::array<int, 2> mirror_image(const MirrorSymmetry& symmetry,
+                                              const std::array<int, 2>& net,
                                               const std::array<int, 2>& point);
 
 }  // namespace knead

@@ -44,16 +44,18 @@ Expected<std::vector<std::vector<double>>> display_settings(
     const auto found = std::ranges::find(display.settings, name, &DisplaySetting::name);
     const std::string where = "settings." + name;
     if (found == display.settings.end()) {
-      return std::unexpected(Error{ErrorKind::usage,
-                                   "the display \"" + std::string(display.name) + "\" has no such setting", where,
-                                   "its settings: " + names_of(display.settings)});
+      return std::unexpected(Error{
+          ErrorKind::usage, "the display \"" + std::string(display.name) + "\" has no such setting",
+          where, "its settings: " + names_of(display.settings)});
     }
     const std::size_t count = found->value.size();
-    if (value.size() != count || !std::ranges::all_of(value, [](double x) { return std::isfinite(x); })) {
+    if (value.size() != count ||
+        !std::ranges::all_of(value, [](double x) { return std::isfinite(x); })) {
       return std::unexpected(
           Error{ErrorKind::usage,
-                "this is not " + (count == 1 ? std::string("a number") : std::to_string(count) + " numbers"), where,
-                std::string(found->help)});
+                "this is not " +
+                    (count == 1 ? std::string("a number") : std::to_string(count) + " numbers"),
+                where, std::string(found->help)});
     }
     values[static_cast<std::size_t>(found - display.settings.begin())] = value;
   }

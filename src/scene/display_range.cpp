@@ -21,13 +21,14 @@ std::vector<std::size_t> sampled(std::size_t count) {
 std::vector<double> widths(const std::vector<double>& u, const std::vector<std::size_t>& lines) {
   std::vector<double> result;
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    result.push_back((u[lines[std::min(k + 1, lines.size() - 1)]] - u[lines[k == 0 ? 0 : k - 1]]) / 2);
+    result.push_back((u[lines[std::min(k + 1, lines.size() - 1)]] - u[lines[k == 0 ? 0 : k - 1]]) /
+                     2);
   }
   return result;
 }
 
-/// For each pair of sampled lines whether their point is visible; kept, as it takes long and changes with the grid
-/// alone.
+/// For each pair of sampled lines whether their point is visible; kept, as it takes long and
+/// changes with the grid alone.
 const std::vector<bool>& visible_samples(const DisplayInput& input,
                                          const std::array<std::vector<std::size_t>, 2>& lines) {
   auto& kept = input.memory.visible;
@@ -69,11 +70,14 @@ void DisplayRangeFinder::add(const DisplayInput& input, std::span<const double> 
       samples_.push_back({values[at], a.cross(b).norm() * width[0][k] * width[1][l]});
     }
   }
-  const auto nearest = [](std::size_t line, std::size_t count) { return std::min((line + 1) / stride, count - 1); };
+  const auto nearest = [](std::size_t line, std::size_t count) {
+    return std::min((line + 1) / stride, count - 1);
+  };
   for (std::size_t k = 0; k < us.size(); ++k) {
     for (std::size_t l = 0; l < vs.size(); ++l) {
       const double x = values[k * vs.size() + l];
-      const std::size_t sample = nearest(k, lines[0].size()) * lines[1].size() + nearest(l, lines[1].size());
+      const std::size_t sample =
+          nearest(k, lines[0].size()) * lines[1].size() + nearest(l, lines[1].size());
       if (!visible[sample] || !std::isfinite(x)) continue;
       if (!extremes_) extremes_ = {x, x};
       auto& [least, greatest] = *extremes_;
@@ -92,14 +96,14 @@ std::optional<DisplayRange> DisplayRangeFinder::range(const Display& display) co
   } else {
     std::vector<Sample> sorted = samples_;
     std::ranges::sort(sorted, {}, &Sample::value);
-    const double whole =
-        std::accumulate(sorted.begin(), sorted.end(), 0.0, [](double sum, const Sample& s) { return sum + s.area; });
+    const double whole = std::accumulate(sorted.begin(), sorted.end(), 0.0,
+                                         [](double sum, const Sample& s) { return sum + s.area; });
     for (const int end : {0, 1}) {
       const double share = display.percentiles[static_cast<std::size_t>(end)];
       if (share == end || sorted.empty()) continue;  // the extreme itself
       double below = 0;
-      const auto found =
-          std::ranges::find_if(sorted, [&](const Sample& s) { return (below += s.area) >= share * whole; });
+      const auto found = std::ranges::find_if(
+          sorted, [&](const Sample& s) { return (below += s.area) >= share * whole; });
       ends[static_cast<std::size_t>(end)] = (found == sorted.end() ? sorted.back() : *found).value;
     }
     const double upper = display.share * std::max(std::abs(ends[0]), std::abs(ends[1]));

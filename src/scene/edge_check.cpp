@@ -11,8 +11,8 @@
 namespace knead {
 namespace {
 
-/// A face along an edge: its points, its unit normals, zero where there is no tangent plane, and its shape operators,
-/// empty where they are not known.
+/// A face along an edge: its points, its unit normals, zero where there is no tangent plane, and
+/// its shape operators, empty where they are not known.
 struct FaceSide {
   std::vector<Point> points, normals;
   std::vector<Eigen::Matrix3d> bending;
@@ -44,8 +44,10 @@ Expected<FaceSide> side_of(const EdgeContactFace& face, const Surface& surface) 
     side.points.emplace_back(jet->points().row(k).transpose());
     const bool regular = normal.norm() > 1e-9 * (u.squaredNorm() + v.squaredNorm());
     side.normals.emplace_back(regular ? Point(normal.normalized()) : Point(Point::Zero()));
-    const FundamentalForms forms(u, v, derivative(2, 0), derivative(1, 1), derivative(0, 2), side.normals.back());
-    side.bending.push_back(regular ? shape_operator(u, v, forms) : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
+    const FundamentalForms forms(u, v, derivative(2, 0), derivative(1, 1), derivative(0, 2),
+                                 side.normals.back());
+    side.bending.push_back(regular ? shape_operator(u, v, forms)
+                                   : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
   }
   return side;
 }
@@ -59,7 +61,8 @@ Expected<void> meet(const FaceSide& a, const FaceSide& b, Meeting& meeting) {
   for (std::size_t k = 0; k < a.points.size(); ++k) {
     meeting.gap = std::max(meeting.gap, (a.points[k] - b.points[k]).norm());
     if (a.normals[k].isZero() || b.normals[k].isZero()) continue;
-    const double angle = std::atan2(a.normals[k].cross(b.normals[k]).norm(), a.normals[k].dot(b.normals[k]));
+    const double angle =
+        std::atan2(a.normals[k].cross(b.normals[k]).norm(), a.normals[k].dot(b.normals[k]));
     meeting.angle = std::max(meeting.angle.value_or(0), angle);
     if (angle > tangent_angle || a.bending.empty() || b.bending.empty()) continue;
     const auto difference = detail::symmetric_eigenvalues(a.bending[k] - b.bending[k]);
@@ -78,14 +81,16 @@ Expected<Meeting> meeting_of(const Scene& scene, const EdgeContact& contact, boo
       continue;
     }
     const auto s = std::ranges::find(scene.surfaces, face.surface, &SceneSurface::id);
-    if (s == scene.surfaces.end()) return input_error("the surface is not in the scene", face.surface);
+    if (s == scene.surfaces.end())
+      return input_error("the surface is not in the scene", face.surface);
     auto side = side_of(face, opened ? *s->opened : *s->current);
     if (!side) return std::unexpected(side.error());
     sides.push_back(*std::move(side));
   }
   Meeting meeting;
   if (sides.size() == 1) {
-    const FaceSide still{contact.points, std::vector<Point>(contact.points.size(), Point::Zero()), {}};
+    const FaceSide still{
+        contact.points, std::vector<Point>(contact.points.size(), Point::Zero()), {}};
     if (auto met = meet(sides[0], still, meeting); !met) return std::unexpected(met.error());
   }
   for (std::size_t a = 0; a < sides.size(); ++a) {
@@ -98,7 +103,8 @@ Expected<Meeting> meeting_of(const Scene& scene, const EdgeContact& contact, boo
 
 }  // namespace
 
-Expected<std::vector<EdgeCheck>> check_edges(const Scene& scene, const std::vector<EdgeContact>& contacts) {
+Expected<std::vector<EdgeCheck>> check_edges(const Scene& scene,
+                                             const std::vector<EdgeContact>& contacts) {
   std::vector<EdgeCheck> result;
   for (const EdgeContact& contact : contacts) {
     EdgeCheck& check = result.emplace_back();

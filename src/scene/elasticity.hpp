@@ -9,8 +9,8 @@ namespace knead {
 
 // What resists when a shape of a scene is deformed: one of these at any time.
 
-/// The linear active model (thesis Eq. 4.8). Its coefficients are the shape's `material`, which the shape keeps while
-/// another elasticity stands in their place.
+/// The linear active model (thesis Eq. 4.8). Its coefficients are the shape's `material`, which the
+/// shape keeps while another elasticity stands in their place.
 struct LinearElasticity {
   friend bool operator==(const LinearElasticity&, const LinearElasticity&) = default;
 };
@@ -26,7 +26,8 @@ struct ElasticityOf<2> {
 };
 }  // namespace detail
 
-/// Of curves and volumes linear or by their fundamental forms (`FormEnergy`), of surfaces also that of a shell
+/// Of curves and volumes linear or by their fundamental forms (`FormEnergy`), of surfaces also that
+/// of a shell
 /// (`ShellEnergy`).
 template <int D>
 using Elasticity = typename detail::ElasticityOf<D>::type;

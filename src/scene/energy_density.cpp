@@ -8,7 +8,8 @@
 namespace knead {
 
 EnergyScalingInput energy_scaling_input(const Scene& scene, int surface) {
-  EnergyScalingInput input{scene.surfaces[static_cast<std::size_t>(surface)].reference, nullptr, scene.scaling};
+  EnergyScalingInput input{scene.surfaces[static_cast<std::size_t>(surface)].reference, nullptr,
+                           scene.scaling};
   if (std::ranges::find(scene.together, surface) != scene.together.end()) {
     input.first = scene.surfaces[static_cast<std::size_t>(*scene.selected)].reference;
   }
@@ -24,14 +25,15 @@ Expected<DomainScaling<2>> energy_scaling(const EnergyScalingInput& input) {
   return in_unit<2>(*own, first->length);
 }
 
-Expected<std::vector<double>> energy_density(const SceneSurface& surface, const DomainScaling<2>& scaling,
-                                             const std::array<std::span<const double>, 2>& parameters,
-                                             const std::array<const BasisTable*, 2>& tables) {
+Expected<std::vector<double>> energy_density(
+    const SceneSurface& surface, const DomainScaling<2>& scaling,
+    const std::array<std::span<const double>, 2>& parameters,
+    const std::array<const BasisTable*, 2>& tables) {
   // The displacement is a spline on the same basis.
-  auto field =
-      surface.mode == RestMode::none
-          ? Expected<Surface>(*surface.current)
-          : surface.current->with_control_points(surface.current->control_points() - surface.rest->control_points());
+  auto field = surface.mode == RestMode::none
+                   ? Expected<Surface>(*surface.current)
+                   : surface.current->with_control_points(surface.current->control_points() -
+                                                          surface.rest->control_points());
   if (!field) return std::unexpected(field.error());
   const auto jet = evaluate_grid<2>(*field, tables, 2);
   if (!jet) return std::unexpected(jet.error());
@@ -42,7 +44,8 @@ Expected<std::vector<double>> energy_density(const SceneSurface& surface, const 
   terms.insert(terms.end(), bend.begin(), bend.end());
   for (const FieldTerm<2>& term : terms) {
     double factor = term.factor * unit;
-    for (std::size_t d = 0; d < 2; ++d) factor *= std::pow(scaling.factors[d], -(term.a[d] + term.b[d]));
+    for (std::size_t d = 0; d < 2; ++d)
+      factor *= std::pow(scaling.factors[d], -(term.a[d] + term.b[d]));
     const Points &a = jet->at(term.a), &b = jet->at(term.b);
     if (const double* constant = std::get_if<double>(&term.coefficient)) {
       for (std::size_t k = 0; k < density.size(); ++k) {

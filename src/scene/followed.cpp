@@ -22,7 +22,8 @@ constexpr int coupled_per_span = 4, measured_per_span = 7;
 /// The number of the span at a fraction of the domain, and how far into it: continuous.
 double phase(const KnotVector& knots, double fraction) {
   const Interval domain = knots.domain();
-  const double u = std::clamp(domain.lower + fraction * domain.length(), domain.lower, domain.upper);
+  const double u =
+      std::clamp(domain.lower + fraction * domain.length(), domain.lower, domain.upper);
   const std::vector<int> spans = knots.spans();
   const int span = knots.find_span(u);
   const auto at = std::ranges::find(spans, span) - spans.begin();
@@ -30,7 +31,8 @@ double phase(const KnotVector& knots, double fraction) {
 }
 
 /// The samples of a course, with more between them wherever spans of these surfaces are short.
-std::vector<Sample> fine_samples(const SharedEdge& edge, std::span<const Surface* const> surfaces, int per_span) {
+std::vector<Sample> fine_samples(const SharedEdge& edge, std::span<const Surface* const> surfaces,
+                                 int per_span) {
   const std::vector<Sample>& given = edge.samples();
   std::vector<Sample> result = {given.front()};
   for (std::size_t k = 1; k < given.size(); ++k) {
@@ -38,14 +40,15 @@ std::vector<Sample> fine_samples(const SharedEdge& edge, std::span<const Surface
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       for (int d = 0; d < 2; ++d) {
         const KnotVector& knots = surfaces[s]->knots(d);
-        const double a = phase(knots, given[k - 1].feet[s][d]), b = phase(knots, given[k].feet[s][d]);
+        const double a = phase(knots, given[k - 1].feet[s][d]),
+                     b = phase(knots, given[k].feet[s][d]);
         parts = std::max(parts, std::ceil(std::abs(b - a) * per_span));
       }
     }
     const int count = static_cast<int>(std::min(parts, most_parts));
     for (int j = 1; j < count; ++j) {
-      result.push_back(edge.at(
-          std::lerp(given[k - 1].parameter, given[k].parameter, static_cast<double>(j) / static_cast<double>(count))));
+      result.push_back(edge.at(std::lerp(given[k - 1].parameter, given[k].parameter,
+                                         static_cast<double>(j) / static_cast<double>(count))));
     }
     result.push_back(given[k]);
   }
@@ -76,7 +79,8 @@ std::vector<FollowedInput> followed_inputs(const Scene& scene) {
   const std::vector<int> selection = scene.selection();
   std::unordered_map<std::string_view, int> place;  // in the selection
   for (std::size_t k = 0; k < selection.size(); ++k) {
-    place.try_emplace(scene.surfaces[static_cast<std::size_t>(selection[k])].id, static_cast<int>(k));
+    place.try_emplace(scene.surfaces[static_cast<std::size_t>(selection[k])].id,
+                      static_cast<int>(k));
   }
   for (const FollowedEdge& edge : scene.followed) {
     if (!edge.course) continue;
@@ -85,7 +89,8 @@ std::vector<FollowedInput> followed_inputs(const Scene& scene) {
       const auto found = place.find(id);
       if (found == place.end()) continue;
       const int surface = selection[static_cast<std::size_t>(found->second)];
-      if (follows(scene.surfaces[static_cast<std::size_t>(surface)], edge.id)) made.patches.push_back(found->second);
+      if (follows(scene.surfaces[static_cast<std::size_t>(surface)], edge.id))
+        made.patches.push_back(found->second);
     }
     if (made.patches.size() == edge.course->surfaces().size()) result.push_back(std::move(made));
   }
@@ -95,14 +100,18 @@ std::vector<FollowedInput> followed_inputs(const Scene& scene) {
 const SharedEdge* followed_at(const std::vector<FollowedInput>& followed, const Seam& seam) {
   const SharedEdge* result = nullptr;
   for (const FollowedInput& edge : followed) {
-    const auto has = [&](int patch) { return std::ranges::find(edge.patches, patch) != edge.patches.end(); };
+    const auto has = [&](int patch) {
+      return std::ranges::find(edge.patches, patch) != edge.patches.end();
+    };
     if (seam.a.patch == seam.b.patch || !has(seam.a.patch) || !has(seam.b.patch)) continue;
     if (result == nullptr || is_smooth(*edge.course)) result = edge.course.get();
   }
   return result;
 }
 
-bool is_smooth(const SharedEdge& edge) { return edge.surfaces().size() > 1 && edge.angle() <= smooth_angle; }
+bool is_smooth(const SharedEdge& edge) {
+  return edge.surfaces().size() > 1 && edge.angle() <= smooth_angle;
+}
 
 std::vector<CoupledEdge> coupled_edges(const std::vector<FollowedInput>& followed,
                                        std::span<const Surface* const> patches) {
@@ -112,7 +121,8 @@ std::vector<CoupledEdge> coupled_edges(const std::vector<FollowedInput>& followe
     const bool smooth = is_smooth(*edge.course);
     CoupledEdge made{"edge " + edge.course->id(), {}};
     std::vector<const Surface*> surfaces;
-    for (const int patch : edge.patches) surfaces.push_back(patches[static_cast<std::size_t>(patch)]);
+    for (const int patch : edge.patches)
+      surfaces.push_back(patches[static_cast<std::size_t>(patch)]);
     for (const Sample& sample : fine_samples(*edge.course, surfaces, coupled_per_span)) {
       SharedPoint point;
       for (std::size_t k = 0; k < surfaces.size(); ++k) {
@@ -123,7 +133,8 @@ std::vector<CoupledEdge> coupled_edges(const std::vector<FollowedInput>& followe
       made.across.emplace_back();
       for (std::size_t k = 0; k < sample.across.size(); ++k) {
         const Interval u = surfaces[k]->knots(0).domain(), v = surfaces[k]->knots(1).domain();
-        made.across.back().emplace_back(u.length() * sample.across[k].x(), v.length() * sample.across[k].y());
+        made.across.back().emplace_back(u.length() * sample.across[k].x(),
+                                        v.length() * sample.across[k].y());
       }
     }
     result.push_back(std::move(made));
@@ -133,10 +144,10 @@ std::vector<CoupledEdge> coupled_edges(const std::vector<FollowedInput>& followe
 
 namespace {
 
-/// Notes the angles between the tangent planes of shapes at a sample, of which the neighbour gives the edge's
-/// direction.
-Expected<void> look_for_kink(std::span<const Surface* const> now, const Sample& sample, const Sample& next,
-                             double may_bend, Parting& parting) {
+/// Notes the angles between the tangent planes of shapes at a sample, of which the neighbour gives
+/// the edge's direction.
+Expected<void> look_for_kink(std::span<const Surface* const> now, const Sample& sample,
+                             const Sample& next, double may_bend, Parting& parting) {
   const auto first = normal_at_foot(*now[0], sample.feet[0]);
   if (!first) return std::unexpected(first.error());
   if (first->isZero() || sample.across.empty()) return {};
@@ -151,7 +162,8 @@ Expected<void> look_for_kink(std::span<const Surface* const> now, const Sample& 
     if (!n) return std::unexpected(n.error());
     if (n->isZero()) continue;
     const double angle = angle_between_planes(*first, *n);
-    // Derivatives across that differ turn a plane about the edge; those along it, about what is perpendicular to it.
+    // Derivatives across that differ turn a plane about the edge; those along it, about what is
+    // perpendicular to it.
     const double share = std::min(1.0, std::abs(first->cross(*n).normalized().dot(along)));
     parting.kink_across = std::max(parting.kink_across, share * angle / asked);
     parting.kink_along = std::max(parting.kink_along, std::sqrt(1 - share * share) * angle / asked);

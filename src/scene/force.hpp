@@ -8,8 +8,8 @@
 
 namespace knead {
 
-// What acts on one point or one edge of a shape until it is removed (thesis Eq. 4.24). Points are fractions of the
-// domain, one for each direction.
+// What acts on one point or one edge of a shape until it is removed (thesis Eq. 4.24). Points are
+// fractions of the domain, one for each direction.
 
 /// Draws the point to a place: ψ = k/2 |S − to|².
 struct SpringForce {

@@ -19,9 +19,11 @@ constexpr int most_coefficients = 1 << 14;
 /// A formula on a surface; remembers the first value outside of the range.
 class FormulaOnSurface {
  public:
-  FormulaOnSurface(const Formula& formula, const Surface& surface, const std::optional<Interval>& range)
+  FormulaOnSurface(const Formula& formula, const Surface& surface,
+                   const std::optional<Interval>& range)
       : formula_(formula), surface_(surface), range_(range) {
-    for (std::size_t k = 2; k < std::size(formula_variables); ++k) places_ = places_ || formula.uses(k);
+    for (std::size_t k = 2; k < std::size(formula_variables); ++k)
+      places_ = places_ || formula.uses(k);
   }
 
   double operator()(const std::array<double, 2>& u) {
@@ -33,11 +35,14 @@ class FormulaOnSurface {
     if (places_) {
       const auto place = evaluate(surface_, Parameters<2>{{u[0], u[1]}});
       if (!place) return std::numeric_limits<double>::quiet_NaN();
-      for (std::size_t k = 0; k < 3; ++k) at[2 + k] = place->points()(0, static_cast<Eigen::Index>(k));
+      for (std::size_t k = 0; k < 3; ++k)
+        at[2 + k] = place->points()(0, static_cast<Eigen::Index>(k));
     }
     const double value = formula_(at);
     if (!range_ || !(value < range_->lower || value > range_->upper)) return value;
-    if (!outside_) outside_ = fmt::format("the formula is {:.6g} at s = {:.4g}, t = {:.4g}", value, at[0], at[1]);
+    if (!outside_)
+      outside_ =
+          fmt::format("the formula is {:.6g} at s = {:.4g}, t = {:.4g}", value, at[0], at[1]);
     return std::numeric_limits<double>::quiet_NaN();  // ends the fit
   }
 
@@ -58,8 +63,8 @@ double largest_value(FormulaOnSurface& f, const Surface& surface) {
   for (int i = 0; i <= intervals; ++i) {
     for (int j = 0; j <= intervals; ++j) {
       const Interval u = surface.knots()[0].domain(), v = surface.knots()[1].domain();
-      const double value = std::abs(
-          f({std::lerp(u.lower, u.upper, i / double(intervals)), std::lerp(v.lower, v.upper, j / double(intervals))}));
+      const double value = std::abs(f({std::lerp(u.lower, u.upper, i / double(intervals)),
+                                       std::lerp(v.lower, v.upper, j / double(intervals))}));
       largest = std::max(largest, std::isfinite(value) ? value : 0);
     }
   }
@@ -68,7 +73,8 @@ double largest_value(FormulaOnSurface& f, const Surface& surface) {
 
 }  // namespace
 
-Expected<SplineField<2>> formula_field(const std::string& text, const Surface& surface, std::optional<double> tolerance,
+Expected<SplineField<2>> formula_field(const std::string& text, const Surface& surface,
+                                       std::optional<double> tolerance,
                                        const std::optional<Interval>& range) {
   const auto formula = Formula::parse(text, formula_variables);
   if (!formula) return std::unexpected(formula.error().within("formula"));
@@ -87,8 +93,10 @@ Expected<SplineField<2>> formula_field(const std::string& text, const Surface& s
     if (!made) return std::unexpected(made.error());
     hint.push_back(std::move(*made));
   }
-  auto fit = fit_field<2>([&f](const std::array<double, 2>& u) { return f(u); }, {hint[0], hint[1]}, options);
-  if (f.outside()) return input_error(*f.outside(), "formula", fmt::format("values are {} or more", range->lower));
+  auto fit = fit_field<2>([&f](const std::array<double, 2>& u) { return f(u); }, {hint[0], hint[1]},
+                          options);
+  if (f.outside())
+    return input_error(*f.outside(), "formula", fmt::format("values are {} or more", range->lower));
   if (!fit) return std::unexpected(fit.error().within("formula"));
   return std::move(fit->field);
 }

@@ -21,9 +21,10 @@ struct HeldInput {
 
 [[nodiscard]] HeldInput held_input(const SceneSurface& surface);
 
-/// How each control point of a surface is held, over all kinds of constraint (`hold`, `pin`, `edge`, `freeze`, `keep`;
-/// not symmetries and seams): 0 free, 1 fixed, 2 coupled to others by a condition, as near a pinned surface point or a
-/// kept curve. Row i n + j. Cost: that of the constraints; for kept curves see `keep_curve`.
+/// How each control point of a surface is held, over all kinds of constraint (`hold`, `pin`,
+/// `edge`, `freeze`, `keep`; not symmetries and seams): 0 free, 1 fixed, 2 coupled to others by a
+/// condition, as near a pinned surface point or a kept curve. Row i n + j. Cost: that of the
+/// constraints; for kept curves see `keep_curve`.
 [[nodiscard]] Expected<std::vector<std::uint8_t>> held_points(const HeldInput& input);
 
 }  // namespace knead

@@ -13,12 +13,14 @@ constexpr double insertion_error = 1e-12;  // of weights that knots were inserte
 std::vector<double> greville_of(const KnotVector& knots) {
   const Interval domain = knots.domain();
   std::vector<double> result;
-  for (int i = 0; i < knots.count(); ++i) result.push_back(std::clamp(knots.greville(i), domain.lower, domain.upper));
+  for (int i = 0; i < knots.count(); ++i)
+    result.push_back(std::clamp(knots.greville(i), domain.lower, domain.upper));
   return result;
 }
 
 /// Mean, largest or smallest of the weights within the radius of every sample.
-std::vector<double> spread(const std::vector<double>& mask, const BrushSamples& at, MaskChange change, double radius) {
+std::vector<double> spread(const std::vector<double>& mask, const BrushSamples& at,
+                           MaskChange change, double radius) {
   std::vector<double> result(mask.size());
   for (std::size_t i = 0; i < mask.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -53,13 +55,15 @@ std::vector<bool> masked_points(const SceneSurface& surface) {
 
 Expected<Surface> mask_field(const SceneSurface& surface) {
   Points weights = Points::Zero(surface.current->size(), 3);
-  for (Eigen::Index i = 0; i < weights.rows(); ++i) weights(i, 0) = surface.mask[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < weights.rows(); ++i)
+    weights(i, 0) = surface.mask[static_cast<std::size_t>(i)];
   return surface.current->with_control_points(std::move(weights));
 }
 
 Expected<std::vector<double>> mask_on(const Surface& field, const Surface& shape) {
   const std::vector<double> us = greville_of(shape.knots(0)), vs = greville_of(shape.knots(1));
-  const auto values = evaluate_grid<2>(field, {std::span<const double>(us), std::span<const double>(vs)}, 0);
+  const auto values =
+      evaluate_grid<2>(field, {std::span<const double>(us), std::span<const double>(vs)}, 0);
   if (!values) return std::unexpected(values.error());
   std::vector<double> mask;
   for (Eigen::Index i = 0; i < values->points().rows(); ++i) {
@@ -72,7 +76,8 @@ Expected<std::vector<double>> mask_on(const Surface& field, const Surface& shape
 Expected<void> change_mask(SceneSurface& surface, MaskChange change, double radius) {
   std::vector<double>& mask = surface.mask;
   if (change == MaskChange::clear) mask.clear();
-  if (change == MaskChange::clear || (mask.empty() && change != MaskChange::fill && change != MaskChange::invert)) {
+  if (change == MaskChange::clear ||
+      (mask.empty() && change != MaskChange::fill && change != MaskChange::invert)) {
     return {};
   }
   const auto count = static_cast<std::size_t>(surface.current->size());

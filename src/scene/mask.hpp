@@ -10,8 +10,8 @@ namespace knead {
 /// The mask as a spline of its surface, in the first coordinate. Requires: there is one.
 [[nodiscard]] Expected<Surface> mask_field(const SceneSurface& surface);
 
-/// The mask of one shape on the net of another with the same domain: the weight of a control point is the value of the
-/// mask at its Greville abscissae. Errors: those of evaluation.
+/// The mask of one shape on the net of another with the same domain: the weight of a control point
+/// is the value of the mask at its Greville abscissae. Errors: those of evaluation.
 [[nodiscard]] Expected<std::vector<double>> mask_on(const Surface& field, const Surface& shape);
 
 /// What is done to a whole mask.
@@ -24,8 +24,8 @@ enum class MaskChange {
   shrink,  ///< the smallest within a radius
 };
 
-/// Changes the mask of a surface; `radius` is a length in space. Errors: those of evaluation. Cost: of blur, grow and
-/// shrink the square of the number of control points.
+/// Changes the mask of a surface; `radius` is a length in space. Errors: those of evaluation. Cost:
+/// of blur, grow and shrink the square of the number of control points.
 [[nodiscard]] Expected<void> change_mask(SceneSurface& surface, MaskChange change, double radius);
 
 }  // namespace knead

@@ -27,7 +27,8 @@ struct ShownSide {
 
 Points rows_of(const std::vector<Point>& points) {
   Points rows(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t k = 0; k < points.size(); ++k) rows.row(static_cast<Eigen::Index>(k)) = points[k].transpose();
+  for (std::size_t k = 0; k < points.size(); ++k)
+    rows.row(static_cast<Eigen::Index>(k)) = points[k].transpose();
   return rows;
 }
 
@@ -49,10 +50,13 @@ Expected<ShownSide> shown_side(const SceneSurface& s, const std::vector<Vector2d
   return ShownSide{*std::move(now), *std::move(then)};
 }
 
-/// The feet on the other side of the line where a closed surface meets itself, where they all lie on it.
+/// The feet on the other side of the line where a closed surface meets itself, where they all lie
+/// on it.
 std::optional<std::vector<Vector2d>> across_seam(const std::vector<Vector2d>& feet) {
   for (int d = 0; d < 2; ++d) {
-    const auto beside = [&](const Vector2d& foot) { return std::abs(foot[d] - std::round(foot[d])) <= on_seam; };
+    const auto beside = [&](const Vector2d& foot) {
+      return std::abs(foot[d] - std::round(foot[d])) <= on_seam;
+    };
     if (!std::ranges::all_of(feet, beside)) continue;
     std::vector<Vector2d> other = feet;
     for (Vector2d& foot : other) foot[d] = std::round(foot[d]) == 0 ? 1 : 0;
@@ -65,18 +69,21 @@ std::optional<std::vector<Vector2d>> across_seam(const std::vector<Vector2d>& fe
 class DistanceAtEdge {
  public:
   DistanceAtEdge(const Scene& scene, const EdgeContact& contact) : contact_(contact) {
-    followed_ = std::ranges::find(scene.followed, contact.id, &FollowedEdge::id) != scene.followed.end();
+    followed_ =
+        std::ranges::find(scene.followed, contact.id, &FollowedEdge::id) != scene.followed.end();
     result_.id = contact.id;
   }
 
   Expected<void> add(const Scene& scene, const EdgeContactFace& face) {
     result_.faces.push_back(face.id);
     if (face.surface.empty()) {
-      if (face.points.size() == contact_.points.size()) sides_.push_back({rows_of(face.points), rows_of(face.points)});
+      if (face.points.size() == contact_.points.size())
+        sides_.push_back({rows_of(face.points), rows_of(face.points)});
       return {};
     }
     const auto s = std::ranges::find(scene.surfaces, face.surface, &SceneSurface::id);
-    if (s == scene.surfaces.end()) return input_error("the surface is not in the scene", face.surface);
+    if (s == scene.surfaces.end())
+      return input_error("the surface is not in the scene", face.surface);
     result_.surfaces.push_back(s->id);
     result_.freed = result_.freed || may_open(s->constraints, contact_.id);
     size_ = std::max(size_, net_size(*s->opened));
@@ -99,15 +106,17 @@ class DistanceAtEdge {
       if (!followed_) meet(sides_[a], {curve, curve});
     }
     const double least = std::max(contact_.uncertainty, least_parting * size_);
-    result_.allowed = followed_ ? result_.opened + std::max(least, (more_than_opened - 1) * result_.opened)
-                                : std::max(least, more_than_opened * result_.opened);
+    result_.allowed =
+        followed_ ? result_.opened + std::max(least, (more_than_opened - 1) * result_.opened)
+                  : std::max(least, more_than_opened * result_.opened);
     return std::move(result_);
   }
 
  private:
   void meet(const ShownSide& a, const ShownSide& b) {
     for (Eigen::Index k = 0; k < a.now.rows(); ++k) {
-      const double now = (a.now.row(k) - b.now.row(k)).norm(), then = (a.then.row(k) - b.then.row(k)).norm();
+      const double now = (a.now.row(k) - b.now.row(k)).norm(),
+                   then = (a.then.row(k) - b.then.row(k)).norm();
       if (now > result_.distance) result_.place = contact_.points[static_cast<std::size_t>(k)];
       result_.distance = std::max(result_.distance, now);
       result_.opened = std::max(result_.opened, then);
@@ -130,11 +139,14 @@ std::string faces_in_words(const std::vector<std::string>& faces) {
   return text;
 }
 
-std::string place_in_words(const Point& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
+std::string place_in_words(const Point& p) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
+}
 
 }  // namespace
 
-Expected<std::vector<PartedEdge>> parted_edges(const Scene& scene, const std::vector<EdgeContact>& contacts) {
+Expected<std::vector<PartedEdge>> parted_edges(const Scene& scene,
+                                               const std::vector<EdgeContact>& contacts) {
   std::vector<PartedEdge> result;
   for (const EdgeContact& contact : contacts) {
     DistanceAtEdge distance(scene, contact);
@@ -161,22 +173,27 @@ Expected<void> check_parted(const std::vector<PartedEdge>& edges) {
       count == 1 ? "" : fmt::format("; {} other edge{} likewise", count - 1, count == 2 ? "" : "s");
   const std::string on = worst->surfaces.empty() ? "" : worst->surfaces.front();
   return numerical_error(
-      fmt::format(
-          "the edge {} would be left {:.3g} from {} at {}, {:.2g} as opened, and {:.2g} is allowed{}; nothing is "
-          "written",
-          worst->id, worst->distance, faces_in_words(worst->faces), place_in_words(worst->place), worst->opened,
-          worst->allowed, others),
+      fmt::format("the edge {} would be left {:.3g} from {} at {}, {:.2g} as opened, and {:.2g} is "
+                  "allowed{}; nothing is "
+                  "written",
+                  worst->id, worst->distance, faces_in_words(worst->faces),
+                  place_in_words(worst->place), worst->opened, worst->allowed, others),
       worst->id,
-      fmt::format(
-          R"(before it moves hold it, {{"do":"hold","mode":"trim"}}, or let it follow, {{"do":"edge","edge":"{}","hold":"follow"}}; or let it open: {{"do":"select","surface":"{}"}}, {{"do":"hold","mode":"free"}})",
-          worst->id, on),
+      fmt::format(R"(before it moves hold it, {{"do":"hold","mode":"trim"}}, or let it follow, )"
+                  R"({{"do":"edge","edge":"{}","hold":"follow"}}; or let it open: )"
+                  R"({{"do":"select","surface":"{}"}}, {{"do":"hold","mode":"free"}})",
+                  worst->id, on),
       {ErrorCode::edge_left_open,
-       {{"edge", worst->id}, {"surface", on}, {"faces", worst->faces}, {"distance", worst->distance}}});
+       {{"edge", worst->id},
+        {"surface", on},
+        {"faces", worst->faces},
+        {"distance", worst->distance}}});
 }
 
 std::string note_on(const PartedEdge& edge) {
-  return fmt::format("the edge {}, which was freed, is open: it is up to {:.3g} from {}, at {}", edge.id, edge.distance,
-                     faces_in_words(edge.faces), place_in_words(edge.place));
+  return fmt::format("the edge {}, which was freed, is open: it is up to {:.3g} from {}, at {}",
+                     edge.id, edge.distance, faces_in_words(edge.faces),
+                     place_in_words(edge.place));
 }
 
 }  // namespace knead

@@ -7,19 +7,21 @@
 namespace knead {
 
 template <int D>
-Expected<std::array<double, D>> parameters_at(const Spline<D>& spline, std::span<const double> at, const char* where) {
+Expected<std::array<double, D>> parameters_at(const Spline<D>& spline, std::span<const double> at,
+                                              const char* where) {
   if (at.size() != D) {
-    return input_error(
-        fmt::format("{} number{} for {} direction{}", at.size(), at.size() == 1 ? "" : "s", D, D == 1 ? "" : "s"),
-        where,
-        D == 1   ? "give [s]"
-        : D == 2 ? "give [s, t]"
-                 : "give [s, t, r]");
+    return input_error(fmt::format("{} number{} for {} direction{}", at.size(),
+                                   at.size() == 1 ? "" : "s", D, D == 1 ? "" : "s"),
+                       where,
+                       D == 1   ? "give [s]"
+                       : D == 2 ? "give [s, t]"
+                                : "give [s, t, r]");
   }
   std::array<double, D> u;
   for (std::size_t d = 0; d < D; ++d) {
     if (!(at[d] >= 0 && at[d] <= 1)) {
-      return input_error(fmt::format("{} is not a fraction of the domain", at[d]), where, "use numbers from 0 to 1");
+      return input_error(fmt::format("{} is not a fraction of the domain", at[d]), where,
+                         "use numbers from 0 to 1");
     }
     const Interval domain = spline.knots()[d].domain();
     u[d] = std::min(domain.lower + at[d] * domain.length(), domain.upper);
@@ -27,11 +29,15 @@ Expected<std::array<double, D>> parameters_at(const Spline<D>& spline, std::span
   return u;
 }
 
-template Expected<std::array<double, 1>> parameters_at<1>(const Curve&, std::span<const double>, const char*);
-template Expected<std::array<double, 2>> parameters_at<2>(const Surface&, std::span<const double>, const char*);
-template Expected<std::array<double, 3>> parameters_at<3>(const Volume&, std::span<const double>, const char*);
+template Expected<std::array<double, 1>> parameters_at<1>(const Curve&, std::span<const double>,
+                                                          const char*);
+template Expected<std::array<double, 2>> parameters_at<2>(const Surface&, std::span<const double>,
+                                                          const char*);
+template Expected<std::array<double, 3>> parameters_at<3>(const Volume&, std::span<const double>,
+                                                          const char*);
 
-Expected<std::array<double, 2>> parameters_at(const Surface& surface, const Fractions& at, const char* where) {
+Expected<std::array<double, 2>> parameters_at(const Surface& surface, const Fractions& at,
+                                              const char* where) {
   return parameters_at<2>(surface, at, where);
 }
 

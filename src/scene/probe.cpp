@@ -18,9 +18,11 @@ Expected<ProbeReading> read_probe(const Scene& scene, const Probe& probe) {
   ProbeReading reading;
   reading.point = jet->points().row(0).transpose();
   reading.displacement = reading.point - *opened;
-  const Point along_u = jet->at({1, 0}).row(0).transpose(), along_v = jet->at({0, 1}).row(0).transpose();
+  const Point along_u = jet->at({1, 0}).row(0).transpose(),
+              along_v = jet->at({0, 1}).row(0).transpose();
   const Point normal = along_u.cross(along_v);
-  if (normal.norm() > 1e-9 * (along_u.squaredNorm() + along_v.squaredNorm())) reading.normal = normal.normalized();
+  if (normal.norm() > 1e-9 * (along_u.squaredNorm() + along_v.squaredNorm()))
+    reading.normal = normal.normalized();
   if (const auto bent = curvature(*s.current, *u); bent && !reading.normal.isZero())
     reading.curvature = bent->principal;
   return reading;

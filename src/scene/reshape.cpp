@@ -13,7 +13,8 @@ namespace {
 
 using Shape2 = std::shared_ptr<const Surface>;
 
-/// All shapes on the present basis except `opened`: those of the surface and those of its constraints.
+/// All shapes on the present basis except `opened`: those of the surface and those of its
+/// constraints.
 std::vector<Shape2*> shapes_of(SceneSurface& surface) {
   std::vector<Shape2*> shapes = {&surface.reference, &surface.rest, &surface.current};
   for (KeptConstraint& kept : surface.constraints) shapes.push_back(&kept.where);
@@ -36,8 +37,8 @@ Expected<void> replace(const std::vector<Shape2*>& shapes, const SurfaceChange& 
 
 Expected<void> check_pins(const SceneSurface& surface) {
   if (surface.pins.empty()) return {};
-  return input_error("control points are pinned by their numbers, which change with the net", surface.id,
-                     "release them first, or pin surface points (at) instead",
+  return input_error("control points are pinned by their numbers, which change with the net",
+                     surface.id, "release them first, or pin surface points (at) instead",
                      {ErrorCode::pins_by_number, {{"surface", surface.id}}});
 }
 
@@ -122,14 +123,16 @@ Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
   return done;
 }
 
-Expected<Lattice> lattice_around(const std::vector<std::shared_ptr<const Surface>>& surfaces, double margin,
-                                 const std::array<int, 3>& degree, const std::array<int, 3>& net) {
+Expected<Lattice> lattice_around(const std::vector<std::shared_ptr<const Surface>>& surfaces,
+                                 double margin, const std::array<int, 3>& degree,
+                                 const std::array<int, 3>& net) {
   if (surfaces.empty()) return input_error("no surface is selected", "surface", "select one");
   BoundingBox box;
   bool first = true;
   for (const auto& surface : surfaces) {
     const Points& points = surface->control_points();
-    const Point lower = points.colwise().minCoeff().transpose(), upper = points.colwise().maxCoeff().transpose();
+    const Point lower = points.colwise().minCoeff().transpose(),
+                upper = points.colwise().maxCoeff().transpose();
     box.lower = first ? lower : Point(box.lower.cwiseMin(lower));
     box.upper = first ? upper : Point(box.upper.cwiseMax(upper));
     first = false;
@@ -137,7 +140,8 @@ Expected<Lattice> lattice_around(const std::vector<std::shared_ptr<const Surface
   return Lattice::create(box, margin, degree, net);
 }
 
-Expected<Lattice> lattice_around_selection(const Scene& scene, double margin, const std::array<int, 3>& degree,
+Expected<Lattice> lattice_around_selection(const Scene& scene, double margin,
+                                           const std::array<int, 3>& degree,
                                            const std::array<int, 3>& net) {
   std::vector<Shape2> surfaces;
   for (const int index : scene.selection()) {
@@ -146,11 +150,13 @@ Expected<Lattice> lattice_around_selection(const Scene& scene, double margin, co
   return lattice_around(surfaces, margin, degree, net);
 }
 
-const PulledLattice* lattice_to_pull_on(const Scene& scene, double margin, const std::array<int, 3>& degree,
+const PulledLattice* lattice_to_pull_on(const Scene& scene, double margin,
+                                        const std::array<int, 3>& degree,
                                         const std::array<int, 3>& net) {
   if (!scene.lattice) return nullptr;
   const PulledLattice& lattice = *scene.lattice;
-  const bool same_block = lattice.margin == margin && lattice.degree == degree && lattice.net == net;
+  const bool same_block =
+      lattice.margin == margin && lattice.degree == degree && lattice.net == net;
   if (!same_block || lattice.surfaces != scene.selection()) return nullptr;
   for (std::size_t k = 0; k < lattice.surfaces.size(); ++k) {
     const Surface &left = *lattice.after[k],

@@ -13,9 +13,11 @@ template <int D>
 std::vector<const SceneShape<D>*> selected_shapes(const Scene& scene) {
   std::vector<const SceneShape<D>*> shapes;
   if constexpr (D == 2) {
-    for (const int k : scene.selection()) shapes.push_back(&scene.surfaces[static_cast<std::size_t>(k)]);
+    for (const int k : scene.selection())
+      shapes.push_back(&scene.surfaces[static_cast<std::size_t>(k)]);
   } else if (scene.body) {
-    const auto* shape = std::get_if<SceneShape<D>>(&scene.bodies[static_cast<std::size_t>(*scene.body)]);
+    const auto* shape =
+        std::get_if<SceneShape<D>>(&scene.bodies[static_cast<std::size_t>(*scene.body)]);
     if (shape != nullptr) shapes.push_back(shape);
   }
   return shapes;
@@ -26,7 +28,8 @@ template std::vector<const SceneSurface*> selected_shapes<2>(const Scene&);
 template std::vector<const SceneVolume*> selected_shapes<3>(const Scene&);
 
 const SceneSurface* find_surface(const Scene& scene, const std::string& id, std::size_t likely) {
-  if (likely < scene.surfaces.size() && scene.surfaces[likely].id == id) return &scene.surfaces[likely];
+  if (likely < scene.surfaces.size() && scene.surfaces[likely].id == id)
+    return &scene.surfaces[likely];
   const auto found = std::ranges::find(scene.surfaces, id, &SceneSurface::id);
   return found == scene.surfaces.end() ? nullptr : &*found;
 }

@@ -38,7 +38,8 @@ struct Load {
   Vector3 gravity = {0, 0, 0};          ///< acceleration, multiplied by the mass
   double pressure = 0;                  ///< force per area along the normal S_u × S_v
   Vector3 wind = {0, 0, 0};             ///< velocity of the air
-  /// Samples of a force per area on a grid over the domain, last direction fastest, linear in between.
+  /// Samples of a force per area on a grid over the domain, last direction fastest, linear in
+  /// between.
   std::array<int, 2> counts = {0, 0};
   std::vector<Vector3> samples = {};  ///< empty: none
   /// A force per area as three formulas (`formula_field`), to a tolerance.
@@ -69,7 +70,7 @@ struct EvolutionPolicy {
 struct SeamPolicy {
   bool couple = true;
   std::optional<double> tolerance = {};  ///< a length; left out: 1e-4 of the diagonal
-  bool smooth = false;                   ///< tangent planes stay common wherever they are, not only at a fixed ratio
+  bool smooth = false;  ///< tangent planes stay common wherever they are, not only at a fixed ratio
 
   friend bool operator==(const SeamPolicy&, const SeamPolicy&) = default;
 };
@@ -77,8 +78,8 @@ struct SeamPolicy {
 /// The units in which the model is computed.
 enum class ScalingMode { normalised, raw };
 
-/// Whether actions on a scene may refine nets, without changing shapes: always, never, or only to leave something free
-/// between a tool and the held edges of a face.
+/// Whether actions on a scene may refine nets, without changing shapes: always, never, or only to
+/// leave something free between a tool and the held edges of a face.
 enum class RefinePermission { automatic, never, trims };
 
 /// A named point of a surface whose position reports give, wherever it moves.
@@ -91,7 +92,8 @@ struct Probe {
   friend bool operator==(const Probe&, const Probe&) = default;
 };
 
-/// A stroke whose tool is still down. Rows are the control points of the selected surfaces, stacked.
+/// A stroke whose tool is still down. Rows are the control points of the selected surfaces,
+/// stacked.
 struct OpenStroke {
   /// The shapes of one selected surface before the stroke, on the present net.
   struct Before {
@@ -108,7 +110,7 @@ struct OpenStroke {
   std::vector<Before> before;  ///< per selected surface
   Points history;              ///< largest displacement so far at the Chebyshev sites, file units
   Points last = {};            ///< displacement of the last place; empty: none
-  double share = 1;            ///< of all this that is shown and stays: less where more would fold a face
+  double share = 1;  ///< of all this that is shown and stays: less where more would fold a face
 };
 
 /// A point of the path of a brush.
@@ -124,13 +126,15 @@ struct BrushPoint {
 struct OpenBrush {
   Brush brush;
   std::vector<BrushImage> images;  ///< copies of the stroke, besides itself
-  double rope = 0;                 ///< length of the rope by which the pointer draws the brush, file units; 0: none
-  SharedList<BrushPoint> path;     ///< all that it was given by
+  /// Length of the rope by which the pointer draws the brush, file units; 0: none.
+  double rope = 0;
+  SharedList<BrushPoint> path;             ///< all that it was given by
   std::vector<OpenStroke::Before> before;  ///< per selected surface
   std::vector<std::vector<double>> masks;  ///< likewise, from before the stroke
 };
 
-/// A block of space round surfaces as the hand has pulled it, which may be pulled on (`lattice_to_pull_on`).
+/// A block of space round surfaces as the hand has pulled it, which may be pulled on
+/// (`lattice_to_pull_on`).
 struct PulledLattice {
   std::array<int, 3> net = {}, degree = {};  ///< along x, y, z
   double margin = 0;                         ///< of the diagonal of what it was put round
@@ -140,9 +144,10 @@ struct PulledLattice {
   std::vector<std::shared_ptr<const Surface>> before, after;
 };
 
-/// The angle, in radians, that tangent planes at a smooth edge that follows may come to differ by; and the one that is
-/// accepted where less would leave the edge too little freedom.
-inline constexpr double asked_angle = 1e-3 * std::numbers::pi / 180, accepted_angle = 0.05 * std::numbers::pi / 180;
+/// The angle, in radians, that tangent planes at a smooth edge that follows may come to differ by;
+/// and the one that is accepted where less would leave the edge too little freedom.
+inline constexpr double asked_angle = 1e-3 * std::numbers::pi / 180,
+                        accepted_angle = 0.05 * std::numbers::pi / 180;
 
 /// An edge of faces that has followed them, or does.
 struct FollowedEdge {
@@ -158,7 +163,8 @@ struct Scene {
   std::vector<Tool> tools = {};  ///< lengths in file units; oriented by `PlacedShape::placement`
   SharedItems<SceneForce> forces = {};
   Load load = {};
-  std::optional<double> limit = {};  ///< no point may be further than this from the surface as opened, file units
+  /// No point may be further than this from the surface as opened, file units.
+  std::optional<double> limit = {};
   EvolutionPolicy evolution = {};
   ScalingMode scaling = ScalingMode::normalised;
   SeamPolicy seams = {};
@@ -166,21 +172,26 @@ struct Scene {
   std::vector<Probe> probes = {};
   std::vector<FollowedEdge> followed = {};  ///< written anew where their faces have moved them
   CouplingTolerance coupling = {};          ///< at which they are coupled, as in `couple_edges`
-  double bend = asked_angle;              ///< radians by which smooth ones among them may open, up to `accepted_angle`
-  std::optional<OpenStroke> stroke = {};  ///< a tool that is down; every other command lifts it first
-  std::optional<OpenBrush> brush = {};    ///< a stroke of a brush; every other command ends it
-  std::vector<SceneBody> bodies = {};     ///< curves and volumes
-  std::optional<int> body = {};           ///< the one that commands act on; then no surface is selected
+  /// Radians by which smooth ones among them may open, up to `accepted_angle`.
+  double bend = asked_angle;
+  std::optional<OpenStroke> stroke =
+      {};                               ///< a tool that is down; every other command lifts it first
+  std::optional<OpenBrush> brush = {};  ///< a stroke of a brush; every other command ends it
+  std::vector<SceneBody> bodies = {};   ///< curves and volumes
+  std::optional<int> body = {};  ///< the one that commands act on; then no surface is selected
   std::optional<PulledLattice> lattice = {};  ///< the last one that was pulled by hand
 
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;
 };
 
-/// The surface of this id; null: there is none. \param likely an index at which it is looked for first
-[[nodiscard]] const SceneSurface* find_surface(const Scene& scene, const std::string& id, std::size_t likely = 0);
+/// The surface of this id; null: there is none. \param likely an index at which it is looked for
+/// first
+[[nodiscard]] const SceneSurface* find_surface(const Scene& scene, const std::string& id,
+                                               std::size_t likely = 0);
 
-/// The selected shapes of so many directions, the first one first: surfaces, or the curve or volume, or none.
+/// The selected shapes of so many directions, the first one first: surfaces, or the curve or
+/// volume, or none.
 template <int D>
 [[nodiscard]] std::vector<const SceneShape<D>*> selected_shapes(const Scene& scene);
 
@@ -193,12 +204,13 @@ struct ProbeReading {
   Point point = Point::Zero();         ///< S(u, v)
   Point displacement = Point::Zero();  ///< from the surface as opened
   Point normal = Point::Zero();        ///< unit normal S_u × S_v; zero where undefined
-  /// Principal curvatures κ₁ >= κ₂, 1/length, positive where the surface bends towards the normal; none where the
-  /// normal is undefined.
+  /// Principal curvatures κ₁ >= κ₂, 1/length, positive where the surface bends towards the normal;
+  /// none where the normal is undefined.
   std::optional<std::array<double, 2>> curvature = {};
 };
 
-/// Errors: a place outside the domain (input), a rational denominator that is not positive (numerical).
+/// Errors: a place outside the domain (input), a rational denominator that is not positive
+/// (numerical).
 [[nodiscard]] Expected<ProbeReading> read_probe(const Scene& scene, const Probe& probe);
 
 }  // namespace knead

@@ -13,7 +13,8 @@ namespace knead {
 
 /// How steps are made. `detail`: `detail_of` its tools.
 template <int D>
-void set_evolution(const EvolutionPolicy& evolution, ScalingMode scaling, double detail, ActiveSettings<D>& settings) {
+void set_evolution(const EvolutionPolicy& evolution, ScalingMode scaling, double detail,
+                   ActiveSettings<D>& settings) {
   settings.evolution = evolution.mode;
   settings.weight = evolution.weight;
   settings.lambda = evolution.lambda;
@@ -29,8 +30,9 @@ void set_evolution(const EvolutionPolicy& evolution, ScalingMode scaling, double
 /// What is worth telling about how steps are solved.
 inline void note_engine(const StepEngine& engine, std::vector<std::string>& notes) {
   if (engine.usual) return;
-  notes.push_back((engine.iterative ? "steps are solved by iteration: " : "steps are solved by a factor: ") +
-                  engine.reason);
+  notes.push_back(
+      (engine.iterative ? "steps are solved by iteration: " : "steps are solved by a factor: ") +
+      engine.reason);
 }
 
 /// A spring or a volcano on the point Σ R X of these terms.

@@ -17,7 +17,8 @@ std::vector<double> samples_of(const KnotVector& knots) {
   std::vector<double> places;
   const int count = knots.degree() + 2;
   for (const int span : knots.spans()) {
-    for (int k = 0; k < count; ++k) places.push_back(knots[span] + (knots[span + 1] - knots[span]) * k / count);
+    for (int k = 0; k < count; ++k)
+      places.push_back(knots[span] + (knots[span + 1] - knots[span]) * k / count);
   }
   places.push_back(knots.domain().upper);
   return places;
@@ -29,7 +30,8 @@ double largest_norm_at_samples(const Spline<D>& field) {
   std::array<std::span<const double>, D> at;
   for (std::size_t d = 0; d < D; ++d) at[d] = places[d] = samples_of(field.knots()[d]);
   const auto values = evaluate_grid<D>(field, at);
-  return values ? values->points().rowwise().norm().maxCoeff() : std::numeric_limits<double>::quiet_NaN();
+  return values ? values->points().rowwise().norm().maxCoeff()
+                : std::numeric_limits<double>::quiet_NaN();
 }
 
 template <int D>
@@ -44,8 +46,8 @@ Expected<std::shared_ptr<const Spline<D>>> halved(const Spline<D>& spline) {
 template <int D>
 Expected<void> halve(SceneShape<D>& s) {
   if (!s.pins.empty()) {
-    return input_error("control points are pinned by their numbers, which change with the net", s.id,
-                       "release them first, or pin points (at) instead",
+    return input_error("control points are pinned by their numbers, which change with the net",
+                       s.id, "release them first, or pin points (at) instead",
                        {ErrorCode::pins_by_number, {{"surface", s.id}}});
   }
   if (s.velocity.rows() > 0) {  // a spline on the present basis, as the shapes are
@@ -55,7 +57,8 @@ Expected<void> halve(SceneShape<D>& s) {
     if (!finer) return std::unexpected(finer.error());
     s.velocity = (*finer)->control_points();
   }
-  std::vector<std::shared_ptr<const Spline<D>>*> shapes = {&s.opened, &s.reference, &s.rest, &s.current};
+  std::vector<std::shared_ptr<const Spline<D>>*> shapes = {&s.opened, &s.reference, &s.rest,
+                                                           &s.current};
   for (KeptConstraintOf<D>& kept : s.constraints) shapes.push_back(&kept.where);
   std::vector<std::pair<std::shared_ptr<const Spline<D>>, std::shared_ptr<const Spline<D>>>> made;
   for (auto* shape : shapes) {
@@ -74,7 +77,9 @@ Expected<void> halve(SceneShape<D>& s) {
 
 }  // namespace
 
-const char* kind_of(int directions) { return directions == 1 ? "curve" : directions == 2 ? "surface" : "volume"; }
+const char* kind_of(int directions) {
+  return directions == 1 ? "curve" : directions == 2 ? "surface" : "volume";
+}
 
 const char* kind_of(const SceneBody& body) {
   return std::visit([]<int D>(const SceneShape<D>&) { return kind_of(D); }, body);
@@ -104,7 +109,8 @@ std::vector<int> net_of(const SceneBody& body) {
 }
 
 const Points& control_points_of(const SceneBody& body) {
-  return std::visit([](const auto& shapes) -> const Points& { return shapes.current->control_points(); }, body);
+  return std::visit(
+      [](const auto& shapes) -> const Points& { return shapes.current->control_points(); }, body);
 }
 
 double diagonal_of(const SceneBody& body) {
@@ -120,8 +126,8 @@ double largest_displacement(const SceneBody& body) {
   return std::visit(
       [](const auto& shapes) {
         if (shapes.current == shapes.opened) return 0.0;
-        const auto field =
-            shapes.current->with_control_points(shapes.current->control_points() - shapes.opened->control_points());
+        const auto field = shapes.current->with_control_points(shapes.current->control_points() -
+                                                               shapes.opened->control_points());
         return field ? largest_norm_at_samples(*field) : std::numeric_limits<double>::quiet_NaN();
       },
       body);
@@ -130,10 +136,12 @@ double largest_displacement(const SceneBody& body) {
 int moved_control_points(const SceneBody& body) {
   return std::visit(
       [](const auto& shapes) {
-        const Points &opened = shapes.opened->control_points(), &current = shapes.current->control_points();
+        const Points &opened = shapes.opened->control_points(),
+                     &current = shapes.current->control_points();
         int moved = 0;
         for (Eigen::Index i = 0; i < current.rows(); ++i) {
-          moved += std::memcmp(opened.row(i).data(), current.row(i).data(), 3 * sizeof(double)) != 0;
+          moved +=
+              std::memcmp(opened.row(i).data(), current.row(i).data(), 3 * sizeof(double)) != 0;
         }
         return moved;
       },
@@ -155,8 +163,8 @@ Expected<std::vector<Surface>> sides_of(const Volume& volume) {
                          "clamp its knots: repeat the end knots p + 1 times");
     }
     for (const bool upper : {false, true}) {
-      // The other directions in cyclic order: their tangents' cross product points along the third; swapped at the
-      // lower end, so that it points outward.
+      // The other directions in cyclic order: their tangents' cross product points along the third;
+      // swapped at the lower end, so that it points outward.
       int first = (direction + 1) % 3, second = (direction + 2) % 3;
       if (!upper) std::swap(first, second);
       const int m = net[static_cast<std::size_t>(first)], n = net[static_cast<std::size_t>(second)];
@@ -173,7 +181,8 @@ Expected<std::vector<Surface>> sides_of(const Volume& volume) {
           if (volume.rational()) weights.push_back(volume.weights()[static_cast<std::size_t>(row)]);
         }
       }
-      auto side = Surface::create({volume.knots(first), volume.knots(second)}, std::move(points), std::move(weights));
+      auto side = Surface::create({volume.knots(first), volume.knots(second)}, std::move(points),
+                                  std::move(weights));
       if (!side) return std::unexpected(side.error());
       sides.push_back(*std::move(side));
     }

@@ -26,9 +26,10 @@ using OfSurfaces = std::conditional_t<D == 2, T, Nothing>;
 
 /// The lasting deformation that tools leave in a surface.
 struct PlasticPolicy {
-  bool along = false;    ///< strokes leave a groove along their path; else the shape when the tool is lifted remains
-  double share = 1;      ///< of a displacement beyond the yield that remains
-  double yield = 0;      ///< up to this displacement nothing remains
+  bool along = false;  ///< strokes leave a groove along their path; else the shape when the tool is
+                       ///< lifted remains
+  double share = 1;    ///< of a displacement beyond the yield that remains
+  double yield = 0;    ///< up to this displacement nothing remains
   double locality = 0;   ///< how far a dent extends; 0: as far as the evolution lets it
   bool in_radii = true;  ///< yield and locality count sizes of the tool; false: file units
 
@@ -43,11 +44,13 @@ struct ShapeCommon {
   int hold_rows = 0;  ///< outer layers of control points that do not move
 };
 
-/// Its shapes, what resists in them, and what is held. `reference`, `rest` and `current` share their knots and weights,
-/// as does `opened` unless they were edited since; the domain is always the same.
+/// Its shapes, what resists in them, and what is held. `reference`, `rest` and `current` share
+/// their knots and weights, as does `opened` unless they were edited since; the domain is always
+/// the same.
 template <int D>
 struct ShapeOf {
-  std::shared_ptr<const Spline<D>> opened;     ///< as opened or made, on the present net if it has the present basis
+  std::shared_ptr<const Spline<D>>
+      opened;  ///< as opened or made, on the present net if it has the present basis
   std::shared_ptr<const Spline<D>> reference;  ///< defines the units of the model
   std::shared_ptr<const Spline<D>> rest;       ///< displacements are measured from it
   std::shared_ptr<const Spline<D>> current;
@@ -61,8 +64,8 @@ struct ShapeOf {
 struct SurfaceOwn {
   bool smooth_knot_lines = true, smooth_poles = true;
   PlasticPolicy plastic = {};
-  /// Of each control point the share by which strokes and brushes move it less, 0 to 1; what has 1 is held. Empty:
-  /// none.
+  /// Of each control point the share by which strokes and brushes move it less, 0 to 1; what has 1
+  /// is held. Empty: none.
   std::vector<double> mask = {};
   /// The part of it that faces show, in fractions of its domain; null until first needed.
   std::shared_ptr<const VisibleRegion> visible = {};
@@ -87,7 +90,8 @@ template <int D>
   return shape;
 }
 
-/// A curve or a volume. Each is sculpted alone: seams, faces, strokes and brushes are those of surfaces.
+/// A curve or a volume. Each is sculpted alone: seams, faces, strokes and brushes are those of
+/// surfaces.
 using SceneBody = std::variant<SceneCurve, SceneVolume>;
 
 /// "curve", "surface", "volume".
@@ -103,19 +107,20 @@ using SceneBody = std::variant<SceneCurve, SceneVolume>;
 /// The diagonal of the box of the control points of its reference shape.
 [[nodiscard]] double diagonal_of(const SceneBody& body);
 
-/// The largest displacement from the body as it was made, at p + 3 places per span and direction, file units.
+/// The largest displacement from the body as it was made, at p + 3 places per span and direction,
+/// file units.
 [[nodiscard]] double largest_displacement(const SceneBody& body);
 
 /// Number of control points that are not where they were, bit for bit.
 [[nodiscard]] int moved_control_points(const SceneBody& body);
 
-/// Every span halved in each direction, the shapes unchanged. Errors (input): control points are pinned by their
-/// numbers, which change with the net.
+/// Every span halved in each direction, the shapes unchanged. Errors (input): control points are
+/// pinned by their numbers, which change with the net.
 [[nodiscard]] Expected<void> halve_spans(SceneBody& body);
 
-/// The six sides of a volume as surfaces, exact: u0, u1, v0, v1, w0, w1, parametrised by the other two directions such
-/// that S_u × S_v points outward where the volume's Jacobian is positive. Errors (input): an end that is not clamped,
-/// with what to do.
+/// The six sides of a volume as surfaces, exact: u0, u1, v0, v1, w0, w1, parametrised by the other
+/// two directions such that S_u × S_v points outward where the volume's Jacobian is positive.
+/// Errors (input): an end that is not clamped, with what to do.
 [[nodiscard]] Expected<std::vector<Surface>> sides_of(const Volume& volume);
 
 }  // namespace knead

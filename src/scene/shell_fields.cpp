@@ -10,24 +10,30 @@
 
 namespace knead {
 
-Expected<std::optional<ShellPointResults>> read_shell(const Scene& scene, int surface, const Fractions& at) {
+Expected<std::optional<ShellPointResults>> read_shell(const Scene& scene, int surface,
+                                                      const Fractions& at) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   const auto* shell = std::get_if<ShellMaterial>(&s.elasticity);
   if (shell == nullptr) return std::optional<ShellPointResults>();
   const auto u = parameters_at(*s.current, at);
   if (!u) return std::unexpected(u.error());
-  const auto results = shell_results(*s.rest, *s.current, *shell, (Parameters<2>(1, 2) << (*u)[0], (*u)[1]).finished());
+  const auto results = shell_results(*s.rest, *s.current, *shell,
+                                     (Parameters<2>(1, 2) << (*u)[0], (*u)[1]).finished());
   if (!results) return std::unexpected(results.error());
   return std::optional(results->front());
 }
 
 namespace {
 
-GridField vectors(const std::string& name, const Points& x) { return {name, 3, {x.data(), x.data() + x.size()}}; }
+GridField vectors(const std::string& name, const Points& x) {
+  return {name, 3, {x.data(), x.data() + x.size()}};
+}
 
 /// The same spline with other control points, at parameters.
-Expected<Points> values_at(const Surface& like, const Points& coefficients, const Parameters<2>& at) {
-  const auto field = Surface::create(like.knots(), coefficients, {like.weights().begin(), like.weights().end()});
+Expected<Points> values_at(const Surface& like, const Points& coefficients,
+                           const Parameters<2>& at) {
+  const auto field =
+      Surface::create(like.knots(), coefficients, {like.weights().begin(), like.weights().end()});
   if (!field) return std::unexpected(field.error());
   const auto values = evaluate<2>(*field, at);
   if (!values) return std::unexpected(values.error());
@@ -43,19 +49,22 @@ void append_results(const std::vector<ShellPointResults>& results, std::vector<G
     von_mises.values.insert(von_mises.values.end(), r.von_mises.begin(), r.von_mises.end());
     bending.values.push_back(r.bending_strain);
   }
-  for (GridField* field : {&membrane, &moment, &von_mises, &bending}) fields.push_back(std::move(*field));
+  for (GridField* field : {&membrane, &moment, &von_mises, &bending})
+    fields.push_back(std::move(*field));
 }
 
 }  // namespace
 
 Expected<FieldGrid> result_grid(const SceneSurface& s, int samples,
                                 std::span<const std::pair<std::string, Points>> shapes) {
-  if (samples < 2) return input_error(fmt::format("{} samples make no grid", samples), "samples", "use 2 or more");
+  if (samples < 2)
+    return input_error(fmt::format("{} samples make no grid", samples), "samples", "use 2 or more");
   const Interval u = s.current->knots(0).domain(), v = s.current->knots(1).domain();
   Parameters<2> at(static_cast<Eigen::Index>(samples) * samples, 2);
   for (int i = 0; i < samples; ++i) {
     for (int j = 0; j < samples; ++j) {
-      const double a = static_cast<double>(i) / (samples - 1), b = static_cast<double>(j) / (samples - 1);
+      const double a = static_cast<double>(i) / (samples - 1),
+                   b = static_cast<double>(j) / (samples - 1);
       at.row(static_cast<Eigen::Index>(i) * samples + j) << std::lerp(u.lower, u.upper, a),
           std::lerp(v.lower, v.upper, b);
     }

@@ -26,9 +26,10 @@ bool closes(const Surface& s, int direction) {
   return true;
 }
 
-/// Σ N_i(u) N_j(v) P_ij over the control points of a span, rational where there are weights, at all u and v given by
-/// their basis functions.
-std::vector<Point> contracted(const Surface& s, std::array<int, 2> first, const std::array<Eigen::MatrixXd, 2>& basis) {
+/// Σ N_i(u) N_j(v) P_ij over the control points of a span, rational where there are weights, at all
+/// u and v given by their basis functions.
+std::vector<Point> contracted(const Surface& s, std::array<int, 2> first,
+                              const std::array<Eigen::MatrixXd, 2>& basis) {
   const Eigen::Index a = basis[0].cols(), b = basis[1].cols();
   Eigen::MatrixXd net(a * b, 4);
   for (Eigen::Index i = 0; i < a; ++i) {
@@ -51,18 +52,23 @@ std::vector<Point> contracted(const Surface& s, std::array<int, 2> first, const 
   return result;
 }
 
-/// By which the triangles of a grid of points may miss the surface: h²/8 of the second derivative in each direction,
-/// and the twist of a square between its two diagonals.
+/// By which the triangles of a grid of points may miss the surface: h²/8 of the second derivative
+/// in each direction, and the twist of a square between its two diagonals.
 double sag_of(const std::vector<Point>& p) {
   constexpr int n = SpanGrid::cells + 1;
   std::array<double, 3> most = {0, 0, 0};
-  const auto at = [&](int i, int j) -> const Point& { return p[static_cast<std::size_t>(i * n + j)]; };
+  const auto at = [&](int i, int j) -> const Point& {
+    return p[static_cast<std::size_t>(i * n + j)];
+  };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
-      if (i > 0 && i + 1 < n) most[0] = std::max(most[0], (at(i - 1, j) - 2 * at(i, j) + at(i + 1, j)).norm());
-      if (j > 0 && j + 1 < n) most[1] = std::max(most[1], (at(i, j - 1) - 2 * at(i, j) + at(i, j + 1)).norm());
+      if (i > 0 && i + 1 < n)
+        most[0] = std::max(most[0], (at(i - 1, j) - 2 * at(i, j) + at(i + 1, j)).norm());
+      if (j > 0 && j + 1 < n)
+        most[1] = std::max(most[1], (at(i, j - 1) - 2 * at(i, j) + at(i, j + 1)).norm());
       if (i + 1 < n && j + 1 < n) {
-        most[2] = std::max(most[2], (at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1)).norm());
+        most[2] =
+            std::max(most[2], (at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1)).norm());
       }
     }
   }
@@ -73,7 +79,8 @@ double sag_of(const std::vector<Point>& p) {
 
 std::optional<SpanGrid> SpanGrid::create(Motion motion) {
   assert(same_basis(*motion.from, *motion.to));
-  if (std::ranges::any_of(motion.from->weights(), [](double w) { return !(w > 0); })) return std::nullopt;
+  if (std::ranges::any_of(motion.from->weights(), [](double w) { return !(w > 0); }))
+    return std::nullopt;
   SpanGrid result(std::move(motion));
   for (const int d : {0, 1}) {
     result.spans_[static_cast<std::size_t>(d)] = result.motion_.from->knots(d).spans();
@@ -86,7 +93,8 @@ std::optional<SpanGrid> SpanGrid::create(Motion motion) {
 /// One direction after the other.
 void SpanGrid::make_boxes() {
   const Surface &from = *motion_.from, &to = *motion_.to;
-  const int m = from.net()[0], n = from.net()[1], p = from.knots(0).degree(), q = from.knots(1).degree();
+  const int m = from.net()[0], n = from.net()[1], p = from.knots(0).degree(),
+            q = from.knots(1).degree();
   const auto columns = static_cast<int>(spans_[1].size());
   const auto index = [columns](int i, int j) { return static_cast<std::size_t>(i * columns + j); };
   std::vector<Box> lines(index(m, 0));
@@ -95,7 +103,8 @@ void SpanGrid::make_boxes() {
     for (int j = 0; j < columns; ++j) {
       const int last = spans_[1][static_cast<std::size_t>(j)];
       for (int k = last - q; k <= last; ++k) {
-        const Point a = from.control_points().row(i * n + k), b = to.control_points().row(i * n + k);
+        const Point a = from.control_points().row(i * n + k),
+                    b = to.control_points().row(i * n + k);
         lines[index(i, j)].extend(a).extend(b);
         moved[index(i, j)] |= static_cast<char>(a != b);
       }
@@ -174,7 +183,8 @@ double SpanGrid::cell_of(int direction, double u) const {
   return cells * (static_cast<double>(k) + (u - knots[s]) / (knots[s + 1] - knots[s]));
 }
 
-double SpanGrid::cells_between(const std::array<double, 2>& a, const std::array<double, 2>& b) const {
+double SpanGrid::cells_between(const std::array<double, 2>& a,
+                               const std::array<double, 2>& b) const {
   double most = 0;
   for (const std::size_t d : {0U, 1U}) {
     const auto direction = static_cast<int>(d);

@@ -13,7 +13,8 @@
 
 namespace knead {
 
-/// A surface that moves from S₀ to S₁, both on the same knots and weights: S(u, t) = (1 − t) S₀(u) + t S₁(u).
+/// A surface that moves from S₀ to S₁, both on the same knots and weights: S(u, t) = (1 − t) S₀(u)
+/// + t S₁(u).
 struct Motion {
   std::shared_ptr<const Surface> from, to;
 
@@ -28,15 +29,15 @@ struct Patch {
   double sag = 0;  ///< about how far the triangles may be from what they stand for
 };
 
-/// The spans of a moving surface, each with a box that holds it wherever it is on its way: that of the (p + 1)(q + 1)
-/// control points which affect it, at the beginning and the end. Weights must be positive, so that a surface lies in
-/// the hull of its net.
+/// The spans of a moving surface, each with a box that holds it wherever it is on its way: that of
+/// the (p + 1)(q + 1) control points which affect it, at the beginning and the end. Weights must be
+/// positive, so that a surface lies in the hull of its net.
 class SpanGrid {
  public:
   static constexpr int cells = 4;  ///< of the patch of a span, in each direction
 
-  /// None where some weight is not positive. Requires: the same knots and weights (asserted). Cost: O(p + q) per
-  /// control point.
+  /// None where some weight is not positive. Requires: the same knots and weights (asserted). Cost:
+  /// O(p + q) per control point.
   [[nodiscard]] static std::optional<SpanGrid> create(Motion motion);
 
   [[nodiscard]] const Motion& motion() const { return motion_; }
@@ -47,26 +48,30 @@ class SpanGrid {
   [[nodiscard]] bool moves(std::size_t span) const { return moves_[span] != 0; }
   /// The tree of the boxes, made at the first call.
   [[nodiscard]] const BoxTree& tree();
-  /// cells × cells squares of two triangles each, made at the first call. Its sag is estimated by second differences.
+  /// cells × cells squares of two triangles each, made at the first call. Its sag is estimated by
+  /// second differences.
   [[nodiscard]] const Patch& patch(std::size_t span);
   /// Calls `visit(p0, p1)` for every control point of a span, where it is at first and at the end.
   template <class Visit>
   void net_of(std::size_t span, const Visit& visit) const {
     const auto columns = spans_[1].size();
     const int s = spans_[0][span / columns], t = spans_[1][span % columns];
-    const int p = motion_.from->knots(0).degree(), q = motion_.from->knots(1).degree(), n = motion_.from->net()[1];
+    const int p = motion_.from->knots(0).degree(), q = motion_.from->knots(1).degree(),
+              n = motion_.from->net()[1];
     for (int i = s - p; i <= s; ++i) {
       for (int j = t - q; j <= t; ++j) {
-        visit(motion_.from->control_points().row(i * n + j), motion_.to->control_points().row(i * n + j));
+        visit(motion_.from->control_points().row(i * n + j),
+              motion_.to->control_points().row(i * n + j));
       }
     }
   }
-  /// How many cells lie between two places, in the direction in which there are more; across the seam of a closed
-  /// surface, where that is shorter.
-  [[nodiscard]] double cells_between(const std::array<double, 2>& a, const std::array<double, 2>& b) const;
-  /// False only where normals of the net, before and after, are all on one side of a plane: such a surface does not
-  /// come to itself unless its sides cross (Volino and Magnenat-Thalmann, "Efficient self-collision detection on
-  /// smoothly discretized surface animations", 1994).
+  /// How many cells lie between two places, in the direction in which there are more; across the
+  /// seam of a closed surface, where that is shorter.
+  [[nodiscard]] double cells_between(const std::array<double, 2>& a,
+                                     const std::array<double, 2>& b) const;
+  /// False only where normals of the net, before and after, are all on one side of a plane: such a
+  /// surface does not come to itself unless its sides cross (Volino and Magnenat-Thalmann,
+  /// "Efficient self-collision detection on smoothly discretized surface animations", 1994).
   [[nodiscard]] bool may_meet_itself() const;
 
  private:

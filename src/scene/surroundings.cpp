@@ -7,7 +7,8 @@
 
 namespace knead {
 
-std::vector<std::shared_ptr<const VisibleRegion>> shown_regions(std::span<const SurfaceTrim> trims) {
+std::vector<std::shared_ptr<const VisibleRegion>> shown_regions(
+    std::span<const SurfaceTrim> trims) {
   std::vector<std::shared_ptr<const VisibleRegion>> result;
   for (const SurfaceTrim& trim : trims) {
     auto& shown = result.emplace_back();
@@ -19,8 +20,8 @@ std::vector<std::shared_ptr<const VisibleRegion>> shown_regions(std::span<const 
   return result;
 }
 
-std::shared_ptr<const Surroundings> surroundings(const brep::Model& model,
-                                                 std::span<const std::shared_ptr<const VisibleRegion>> visible) {
+std::shared_ptr<const Surroundings> surroundings(
+    const brep::Model& model, std::span<const std::shared_ptr<const VisibleRegion>> visible) {
   constexpr double fine = 2.5e-4;
   auto result = std::make_shared<Surroundings>();
   if (auto faces = context_faces(model, fine)) result->faces = std::move(faces->faces);

@@ -6,7 +6,8 @@
 namespace knead {
 
 std::optional<PlaneMeeting> meeting(const Point& from, const Point& to, const Patch& of,
-                                    const std::array<std::uint32_t, 3>& corners, double tolerance, const Reach& reach) {
+                                    const std::array<std::uint32_t, 3>& corners, double tolerance,
+                                    const Reach& reach) {
   const auto height = [&corners](const std::vector<Point>& p, const Point& x) {
     const Point &a = p[corners[0]], normal = (p[corners[1]] - a).cross(p[corners[2]] - a);
     return normal.dot(x - a) / normal.norm();
@@ -14,9 +15,12 @@ std::optional<PlaneMeeting> meeting(const Point& from, const Point& to, const Pa
   const double first = height(of.from, from), apart = std::abs(first);
   if (!(apart > reach.nearest)) return std::nullopt;
   const double last = height(of.to, to), closing = apart - (first > 0 ? last : -last);
-  if (!(closing > tolerance && apart - tolerance - std::min(reach.along, closing) <= closing)) return std::nullopt;
+  if (!(closing > tolerance && apart - tolerance - std::min(reach.along, closing) <= closing))
+    return std::nullopt;
   PlaneMeeting result{apart / closing, closing, {}};
-  const auto then = [time = result.time](const Point& a, const Point& b) { return Point((1 - time) * a + time * b); };
+  const auto then = [time = result.time](const Point& a, const Point& b) {
+    return Point((1 - time) * a + time * b);
+  };
   const Point hit = then(from, to);
   std::array<Point, 3> p;
   for (std::size_t k = 0; k < 3; ++k) p[k] = then(of.from[corners[k]], of.to[corners[k]]);
@@ -50,7 +54,8 @@ std::vector<Point> normals_of(const Patch& patch) {
   return normals;
 }
 
-bool faces_away(const Patch& patch, const std::array<std::uint32_t, 3>& corners, const Point& normal) {
+bool faces_away(const Patch& patch, const std::array<std::uint32_t, 3>& corners,
+                const Point& normal) {
   const Point& a = patch.from[corners[0]];
   return (patch.from[corners[1]] - a).cross(patch.from[corners[2]] - a).dot(normal) < 0;
 }

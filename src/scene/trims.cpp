@@ -19,7 +19,8 @@ constexpr double least_tolerance = 1e-7;  // of the size
 /// |S_current − S_opened| at fractions, which may be off by a turn on closed surfaces.
 Expected<double> deviation_at(const SceneSurface& s, Eigen::Vector2d at) {
   for (int d = 0; d < 2; ++d) {
-    if (s.visible->closed[static_cast<std::size_t>(d)] && (at[d] < 0 || at[d] > 1)) at[d] -= std::floor(at[d]);
+    if (s.visible->closed[static_cast<std::size_t>(d)] && (at[d] < 0 || at[d] > 1))
+      at[d] -= std::floor(at[d]);
   }
   const auto now = evaluate_point<2>(*s.current, parameters_of(*s.current, at));
   const auto then = evaluate_point<2>(*s.opened, parameters_of(*s.opened, at));
@@ -33,7 +34,8 @@ Expected<double> deviation_at(const SceneSurface& s, Eigen::Vector2d at) {
 bool holds_trims(const std::vector<KeptConstraint>& constraints) {
   return std::ranges::any_of(constraints, [](const KeptConstraint& kept) {
     const auto* all = std::get_if<TrimHolds>(&kept.constraint);
-    return (all != nullptr && all->order >= 0) || std::holds_alternative<TrimEdgeHold>(kept.constraint);
+    return (all != nullptr && all->order >= 0) ||
+           std::holds_alternative<TrimEdgeHold>(kept.constraint);
   });
 }
 
@@ -49,10 +51,12 @@ bool may_open(const std::vector<KeptConstraint>& constraints, const std::string&
 }
 
 bool touches_visible(const Scene& scene) {
-  return std::ranges::any_of(scene.tools, [](const Tool& t) { return t.touches == ToolTouch::visible; });
+  return std::ranges::any_of(scene.tools,
+                             [](const Tool& t) { return t.touches == ToolTouch::visible; });
 }
 
-std::vector<int> trim_orders(const std::vector<KeptConstraint>& constraints, const VisibleRegion& region) {
+std::vector<int> trim_orders(const std::vector<KeptConstraint>& constraints,
+                             const VisibleRegion& region) {
   int all = -1;
   for (const KeptConstraint& kept : constraints) {
     if (const auto* trims = std::get_if<TrimHolds>(&kept.constraint)) all = trims->order;
@@ -71,7 +75,8 @@ double trim_tolerance(const Surface& surface, const VisibleRegion& region) {
   return std::max(region.uncertainty, least_tolerance * net_size(surface));
 }
 
-Expected<TrimHold> hold_face_edges(const Surface& reference, const std::vector<KeptConstraint>& constraints,
+Expected<TrimHold> hold_face_edges(const Surface& reference,
+                                   const std::vector<KeptConstraint>& constraints,
                                    const VisibleRegion& region, ConstraintList& list) {
   const std::vector<int> orders = trim_orders(constraints, region);
   if (region.edges.empty()) return TrimHold{{}, reference.size(), reference.size()};
@@ -81,7 +86,8 @@ Expected<TrimHold> hold_face_edges(const Surface& reference, const std::vector<K
 Expected<std::optional<TrimContact>> trim_contact(const SceneSurface& s, const Tool& tool) {
   const ModelTool probe(tool, Point::Zero(), 1);
   const Points& net = s.current->control_points();
-  const Point lower = net.colwise().minCoeff().transpose(), upper = net.colwise().maxCoeff().transpose();
+  const Point lower = net.colwise().minCoeff().transpose(),
+              upper = net.colwise().maxCoeff().transpose();
   if (!probe.may_reach(lower, upper)) return std::nullopt;
   const VisibleRegion everything;
   const VisibleRegion& region = s.visible ? *s.visible : everything;
@@ -102,8 +108,9 @@ Expected<std::optional<TrimContact>> trim_contact(const SceneSurface& s, const T
   };
   TrimContact contact{parameters_of(*s.current, (*best)->at), distance((*best)->at)};
   if (contact.distance < -(*best)->distance) {
-    best = visible_least(*s.current, region,
-                         [&](const Point& p) { return std::max(entry(p), -region.distance(p, held)); });
+    best = visible_least(*s.current, region, [&](const Point& p) {
+      return std::max(entry(p), -region.distance(p, held));
+    });
     if (!best) return std::unexpected(best.error());
     contact = {parameters_of(*s.current, (*best)->at), distance((*best)->at)};
   }
@@ -118,8 +125,8 @@ Expected<std::optional<Eigen::Vector2d>> first_fold(const Surface& before, const
     const KnotVector& knots = after.knots(d);
     for (const int span : knots.spans()) {
       for (int k = 0; k < per_span; ++k) {
-        grid[static_cast<std::size_t>(d)].push_back(knots[span] +
-                                                    (knots[span + 1] - knots[span]) * (k + 0.5) / per_span);
+        grid[static_cast<std::size_t>(d)].push_back(knots[span] + (knots[span + 1] - knots[span]) *
+                                                                      (k + 0.5) / per_span);
       }
     }
   }
@@ -175,7 +182,8 @@ double turn_at(const Evaluation<2>& before, const Evaluation<2>& after, Eigen::I
 }  // namespace
 
 Expected<std::vector<MovedTrim>> moved_trims(const Surface& before, const Surface& after,
-                                             const std::vector<int>& orders, const VisibleRegion& region) {
+                                             const std::vector<int>& orders,
+                                             const VisibleRegion& region) {
   std::vector<MovedTrim> result;
   const double tolerance = trim_tolerance(before, region);
   for (std::size_t e = 0; e < orders.size(); ++e) {
@@ -199,7 +207,8 @@ Expected<std::vector<MovedTrim>> moved_trims(const Surface& before, const Surfac
       moved.distance = std::max(moved.distance, distance);
     }
     if (moved.distance <= tolerance) moved.place = turned;
-    if (moved.distance > tolerance || moved.turn > accepted_angle) result.push_back(std::move(moved));
+    if (moved.distance > tolerance || moved.turn > accepted_angle)
+      result.push_back(std::move(moved));
   }
   return result;
 }
@@ -228,7 +237,8 @@ Expected<TrimReport> trim_report(const SceneSurface& s) {
       };
       if (auto done = measure(edge.course[k]); !done) return std::unexpected(done.error());
       if (k == 0) continue;
-      if (auto done = measure(0.5 * (edge.course[k - 1] + edge.course[k])); !done) return std::unexpected(done.error());
+      if (auto done = measure(0.5 * (edge.course[k - 1] + edge.course[k])); !done)
+        return std::unexpected(done.error());
     }
     if (!made.follows) report.largest = std::max(report.largest, made.deviation);
   }

@@ -15,7 +15,7 @@ namespace {
 constexpr double first_length = 1. / 16;            // of a path at its first place, in radii
 constexpr int fewest_of_plane = 6;                  // samples
 constexpr double most_lean = std::numbers::pi / 3;  // of a pen's axis, from the normal
-constexpr double opposed = 0.1;                     // mean of normals below which they say nothing of a direction
+constexpr double opposed = 0.1;  // mean of normals below which they say nothing of a direction
 
 /// Half the way to the neighbours on both sides.
 std::vector<double> cells_of(const std::vector<double>& at) {
@@ -35,13 +35,14 @@ Point stamped(const Brush& brush, const BrushPlace& place, const Point& normal, 
   const Point e = (place.along - place.along.dot(normal) * normal).stableNormalized();
   Point f = normal.cross(e);
   if (f.dot(place.across) < 0) f = -f;
-  const double c = std::cos(brush.angle), s = std::sin(brush.angle), half = brush.radius / std::numbers::sqrt2;
+  const double c = std::cos(brush.angle), s = std::sin(brush.angle),
+               half = brush.radius / std::numbers::sqrt2;
   const double xi = off.dot(c * e + s * f) / half, eta = off.dot(c * f - s * e) / half;
   return brush.height * stamp_rim(xi, eta, brush.core) * brush.pattern.at(xi, eta) * normal;
 }
 
-/// Of the radius: what is as near to it is outside, so that samples which lie exactly there are so on both sides of a
-/// mirror, however they are rounded. Profiles are below 1e-18 there.
+/// Of the radius: what is as near to it is outside, so that samples which lie exactly there are so
+/// on both sides of a mirror, however they are rounded. Profiles are below 1e-18 there.
 constexpr double rim = 1e-9;
 
 /// The profile across a crease, a cusp.
@@ -71,7 +72,8 @@ bool leans(BrushKind kind) {
   }
 }
 
-/// The direction of a pen's axis, on the side of the normal and no farther from it than pens may lean.
+/// The direction of a pen's axis, on the side of the normal and no farther from it than pens may
+/// lean.
 Point leaned(const Point& normal, const Point& axis) {
   const Point along = axis.dot(normal) * normal, aside = axis - along;
   const double up = along.norm(), out = aside.norm();
@@ -93,19 +95,22 @@ double depth_of(const Brush& brush, double pressure) {
 }  // namespace
 
 bool acts_about_one_place(BrushKind kind) {
-  return kind == BrushKind::grab || kind == BrushKind::twist || kind == BrushKind::scale || kind == BrushKind::stamp;
+  return kind == BrushKind::grab || kind == BrushKind::twist || kind == BrushKind::scale ||
+         kind == BrushKind::stamp;
 }
 
 double brush_falloff(double distance, double radius, double core) {
-  const double t =
-      (1 - distance / radius) / (1 - core);  // from the rim inwards, where it is small without cancellation
+  const double t = (1 - distance / radius) /
+                   (1 - core);  // from the rim inwards, where it is small without cancellation
   if (t >= 1) return 1;
   return t <= rim ? 0 : t * t * t * (10 - t * (15 - 6 * t));
 }
 
-Expected<void> BrushSamples::append(const Surface& shape, const SiteValues<2>& values, double side) {
+Expected<void> BrushSamples::append(const Surface& shape, const SiteValues<2>& values,
+                                    double side) {
   const std::array<const std::vector<double>*, 2> at = {&values.abscissae(0), &values.abscissae(1)};
-  const auto jet = evaluate_grid<2>(shape, {std::span<const double>(*at[0]), std::span<const double>(*at[1])}, 1);
+  const auto jet = evaluate_grid<2>(
+      shape, {std::span<const double>(*at[0]), std::span<const double>(*at[1])}, 1);
   if (!jet) return std::unexpected(jet.error());
   const std::vector<double> us = cells_of(*at[0]), vs = cells_of(*at[1]);
   const Eigen::Index first = points.rows(), count = shape.size();
@@ -118,13 +123,15 @@ Expected<void> BrushSamples::append(const Surface& shape, const SiteValues<2>& v
     const double area = across.norm();
     const bool regular = area > 1e-9 * (u.squaredNorm() + v.squaredNorm());
     normals.row(first + k) = regular ? Point(side * across / area) : Point(Point::Zero());
-    areas[first + k] = area * us[static_cast<std::size_t>(k) / vs.size()] * vs[static_cast<std::size_t>(k) % vs.size()];
+    areas[first + k] = area * us[static_cast<std::size_t>(k) / vs.size()] *
+                       vs[static_cast<std::size_t>(k) % vs.size()];
   }
   return {};
 }
 
 BrushImage BrushImage::mirror(const Point& point, const Point& normal) {
-  return {Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose(), 2 * normal.dot(point) * normal};
+  return {Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose(),
+          2 * normal.dot(point) * normal};
 }
 
 BrushImage BrushImage::turn(const Point& point, const Point& direction, double angle) {
@@ -146,19 +153,24 @@ BrushPlace BrushImage::of(const BrushPlace& place) const {
 
 Brush BrushImage::of(Brush brush) const {
   brush.by = Point(linear * brush.by);
-  const bool framed = brush.kind == BrushKind::stamp;  // its angle is in a frame that is mirrored itself
+  // Its angle is in a frame that is mirrored itself.
+  const bool framed = brush.kind == BrushKind::stamp;
   if (linear.determinant() < 0 && !framed) brush.angle = -brush.angle;
   return brush;
 }
 
 BrushHistory::BrushHistory(Eigen::Index samples)
-    : weight_(Eigen::VectorXd::Zero(samples)), total_(Eigen::VectorXd::Zero(samples)), sum_(Points::Zero(samples, 3)) {}
+    : weight_(Eigen::VectorXd::Zero(samples)),
+      total_(Eigen::VectorXd::Zero(samples)),
+      sum_(Points::Zero(samples, 3)) {}
 
-BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSamples& samples, const BrushPlace& place) {
+BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSamples& samples,
+                                           const BrushPlace& place) {
   Frame frame{place, place.at, place.normal};
   const double radius = radius_of(brush, place.pen.pressure), reach = radius * radius;
   const auto lean = [&] {
-    if (leans(brush.kind) && !place.pen.axis.isZero(0)) frame.normal = leaned(frame.normal, place.pen.axis);
+    if (leans(brush.kind) && !place.pen.axis.isZero(0))
+      frame.normal = leaned(frame.normal, place.pen.axis);
     return frame;
   };
   Point normal = Point::Zero(), middle = Point::Zero();
@@ -191,8 +203,8 @@ BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSample
 }
 
 /// d at full weight, of the kinds that have a mean along the path.
-Point BrushHistory::asked_at(const Frame& frame, const Brush& brush, const BrushSamples& samples, Eigen::Index g,
-                             const Points& fair) {
+Point BrushHistory::asked_at(const Frame& frame, const Brush& brush, const BrushSamples& samples,
+                             Eigen::Index g, const Points& fair) {
   const Point n = samples.normals.row(g);
   switch (brush.kind) {
     case BrushKind::push:
@@ -212,13 +224,14 @@ Point BrushHistory::asked_at(const Frame& frame, const Brush& brush, const Brush
   }
 }
 
-void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Frame& from, const Frame& to,
-                       double length, const Points& fair) {
+void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Frame& from,
+                       const Frame& to, double length, const Points& fair) {
   const Point piece = to.place.at - from.place.at;
   const double square = piece.squaredNorm();
   for (Eigen::Index g = 0; g < samples.points.rows(); ++g) {
     const Point x = samples.points.row(g);
-    const double share = square > 0 ? std::clamp((x - from.place.at).dot(piece) / square, 0., 1.) : 1;
+    const double share =
+        square > 0 ? std::clamp((x - from.place.at).dot(piece) / square, 0., 1.) : 1;
     const Point nearest = from.place.at + share * piece;
     const double distance = (x - nearest).norm();
     if (distance >= brush.radius) continue;
@@ -226,11 +239,12 @@ void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Fr
     const double pressure = from.place.pen.towards(to.place.pen, share).pressure;
     const double radius = radius_of(brush, pressure);
     if (distance >= radius) continue;
-    const double profile =
-        depth_of(brush, pressure) *
-        (is_sharp(brush.kind) ? cusp(distance, radius) : brush_falloff(distance, radius, brush.core));
+    const double profile = depth_of(brush, pressure) *
+                           (is_sharp(brush.kind) ? cusp(distance, radius)
+                                                 : brush_falloff(distance, radius, brush.core));
     if (brush.kind == BrushKind::pinch) {
-      const double near = brush_falloff(distance, brush.radius, brush.core);  // however it is pressed
+      // However it is pressed.
+      const double near = brush_falloff(distance, brush.radius, brush.core);
       if (near < total_[g] || (near == total_[g] && profile <= weight_[g])) continue;
       total_[g] = near;
       weight_[g] = profile;
@@ -240,7 +254,8 @@ void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Fr
     }
     weight_[g] = std::max(weight_[g], profile);
     for (const Frame* end : {&from, &to}) {  // the trapezoidal rule
-      const double reach = radius_of(brush, end->place.pen.pressure), off = (x - end->place.at).norm();
+      const double reach = radius_of(brush, end->place.pen.pressure),
+                   off = (x - end->place.at).norm();
       if (off >= reach) continue;
       const double w = brush_falloff(off, reach, brush.core) * 0.5 * length;
       if (w == 0) continue;
@@ -250,7 +265,8 @@ void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Fr
   }
 }
 
-void BrushHistory::go_to(const Brush& brush, const BrushSamples& samples, const BrushPlace& place, const Points& fair) {
+void BrushHistory::go_to(const Brush& brush, const BrushSamples& samples, const BrushPlace& place,
+                         const Points& fair) {
   assert(samples.points.rows() == weight_.size());
   if (!begun_) {
     begun_ = true;

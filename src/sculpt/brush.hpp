@@ -52,24 +52,28 @@ struct PenHold {
 /// A brush. Lengths in file units.
 struct Brush {
   BrushKind kind = BrushKind::push;
-  double radius = 1;          ///< R > 0
-  double height = 0.25;       ///< h of push, pull, inflate, crease, ridge and stamp; of either sign
-  double strength = 1;        ///< a, 0 to 1, of flatten, smooth, pinch, mask and unmask
-  double core = 0;            ///< share of the radius (of a stamp's half side) within which the falloff is 1; 0 to < 1
-  Point by = Point::Zero();   ///< grab: where the point goes, from where it is
-  double angle = 0;           ///< twist, stamp: about the normal, counterclockwise, radians
-  double factor = 1;          ///< scale: > 0
-  StampPattern pattern = {};  ///< stamp: over the square about the place whose corners are on the radius
-  PressureUse pressure = PressureUse::depth;  ///< what the pen's pressure scales at each place of a path
+  double radius = 1;     ///< R > 0
+  double height = 0.25;  ///< h of push, pull, inflate, crease, ridge and stamp; of either sign
+  double strength = 1;   ///< a, 0 to 1, of flatten, smooth, pinch, mask and unmask
+  /// Share of the radius (of a stamp's half side) within which the falloff is 1; 0 to < 1.
+  double core = 0;
+  Point by = Point::Zero();  ///< grab: where the point goes, from where it is
+  double angle = 0;          ///< twist, stamp: about the normal, counterclockwise, radians
+  double factor = 1;         ///< scale: > 0
+  StampPattern pattern =
+      {};  ///< stamp: over the square about the place whose corners are on the radius
+  PressureUse pressure =
+      PressureUse::depth;  ///< what the pen's pressure scales at each place of a path
 
   friend bool operator==(const Brush&, const Brush&) = default;
 };
 
-/// The falloff w(r): 1 up to the core c, 0 from the radius R, in between 1 − s³(10 − 15s + 6s²) with
-/// s = (r/R − c)/(1 − c): twice continuously differentiable.
+/// The falloff w(r): 1 up to the core c, 0 from the radius R, in between 1 − s³(10 − 15s + 6s²)
+/// with s = (r/R − c)/(1 − c): twice continuously differentiable.
 [[nodiscard]] double brush_falloff(double distance, double radius, double core);
 
-/// The shape before a stroke at the Greville abscissae of its control points, row by row those of all patches.
+/// The shape before a stroke at the Greville abscissae of its control points, row by row those of
+/// all patches.
 struct BrushSamples {
   Points points;          ///< x
   Points normals;         ///< n = S_u × S_v / |S_u × S_v|; zero where undefined
@@ -77,13 +81,15 @@ struct BrushSamples {
 
   /// `side`: 1 or −1, by which the normals are multiplied.
   /// Errors: those of evaluation. Cost: that of an evaluation of first order at all abscissae.
-  [[nodiscard]] Expected<void> append(const Surface& shape, const SiteValues<2>& values, double side = 1);
+  [[nodiscard]] Expected<void> append(const Surface& shape, const SiteValues<2>& values,
+                                      double side = 1);
 };
 
 /// A point of the surface on the path of a brush.
 struct BrushPlace {
   Point at = Point::Zero(), normal = Point::Zero();
-  Point along = Point::Zero(), across = Point::Zero();  ///< where a stamp's ξ and η grow; they span the tangent plane
+  Point along = Point::Zero(),
+        across = Point::Zero();  ///< where a stamp's ξ and η grow; they span the tangent plane
   PenHold pen = {};
 };
 
@@ -106,33 +112,38 @@ struct BrushImage {
 
 /// What a brush has asked of every sample so far, along one path.
 ///
-/// The path is a polyline through its places in space, from which every sample has a distance. With the weight
-/// ŵ(g), the largest falloff on the path, and a mean along it weighed by the falloff,
+/// The path is a polyline through its places in space, from which every sample has a distance. With
+/// the weight ŵ(g), the largest falloff on the path, and a mean along it weighed by the falloff,
 ///
 ///   u(g) = a ŵ(g) · ∫ w(g, l) d(g, l) dl / ∫ w(g, l) dl
 ///
-/// where d(g, l) is what the brush would do to the sample at full weight at the place l: so u depends on the path and
-/// not on the number of places by which it was given, or on how often a place was passed. Pinch takes d at the
-/// nearest place.
+/// where d(g, l) is what the brush would do to the sample at full weight at the place l: so u
+/// depends on the path and not on the number of places by which it was given, or on how often a
+/// place was passed. Pinch takes d at the nearest place.
 ///
-/// A pen's pressure p, linear between places, makes ŵ the largest p w on the path (PressureUse::depth), or the radius
-/// of a place p R (size). Its axis leans the direction of push, pull, crease, ridge and stamp, and the plane of flatten
-/// and pinch, from the normal by up to 60°; the others have no direction of their own. Pressure that changes at one
-/// place counts as R/16 of path for a change by 1. At p = 1 without an axis all bits are those without a pen. A value.
+/// A pen's pressure p, linear between places, makes ŵ the largest p w on the path
+/// (PressureUse::depth), or the radius of a place p R (size). Its axis leans the direction of push,
+/// pull, crease, ridge and stamp, and the plane of flatten and pinch, from the normal by up to 60°;
+/// the others have no direction of their own. Pressure that changes at one place counts as R/16 of
+/// path for a change by 1. At p = 1 without an axis all bits are those without a pen. A value.
 class BrushHistory {
  public:
   explicit BrushHistory(Eigen::Index samples);
 
   /// Goes on to a place. `fair` is the displacement to the fair shape, for `smooth` alone.
-  /// Cost: O(samples); the mean along the path is a sum over the places, which should be R/8 apart or nearer.
-  void go_to(const Brush& brush, const BrushSamples& samples, const BrushPlace& place, const Points& fair);
+  /// Cost: O(samples); the mean along the path is a sum over the places, which should be R/8 apart
+  /// or nearer.
+  void go_to(const Brush& brush, const BrushSamples& samples, const BrushPlace& place,
+             const Points& fair);
 
   /// u, one row per sample; exactly zero from the radius on.
   [[nodiscard]] Points displacement(const Brush& brush, const BrushSamples& samples) const;
   /// Whether a sample was within the radius, however lightly a pen was pressed.
   [[nodiscard]] bool reaches() const { return reaches_; }
   /// a ŵ.
-  [[nodiscard]] Eigen::VectorXd weights(const Brush& brush) const { return brush.strength * weight_; }
+  [[nodiscard]] Eigen::VectorXd weights(const Brush& brush) const {
+    return brush.strength * weight_;
+  }
 
  private:
   /// A place with the plane that the samples near it lie about.
@@ -140,11 +151,13 @@ class BrushHistory {
     BrushPlace place;
     Point middle = Point::Zero(), normal = Point::Zero();
   };
-  [[nodiscard]] static Frame frame_at(const Brush& brush, const BrushSamples& samples, const BrushPlace& place);
-  [[nodiscard]] static Point asked_at(const Frame& frame, const Brush& brush, const BrushSamples& samples,
-                                      Eigen::Index g, const Points& fair);
-  void add(const Brush& brush, const BrushSamples& samples, const Frame& from, const Frame& to, double length,
-           const Points& fair);
+  [[nodiscard]] static Frame frame_at(const Brush& brush, const BrushSamples& samples,
+                                      const BrushPlace& place);
+  [[nodiscard]] static Point asked_at(const Frame& frame, const Brush& brush,
+                                      const BrushSamples& samples, Eigen::Index g,
+                                      const Points& fair);
+  void add(const Brush& brush, const BrushSamples& samples, const Frame& from, const Frame& to,
+           double length, const Points& fair);
   [[nodiscard]] Point about_first(const Brush& brush, const Point& x) const;
 
   bool begun_ = false, reaches_ = false;
@@ -153,8 +166,8 @@ class BrushHistory {
   Points sum_;                      // ∫ w d dl
 };
 
-/// One displacement of those of several copies of a stroke, Σ |u|² u / Σ |u|²: the one there is where they do not
-/// overlap, and symmetric where they do.
+/// One displacement of those of several copies of a stroke, Σ |u|² u / Σ |u|²: the one there is
+/// where they do not overlap, and symmetric where they do.
 [[nodiscard]] Points blended(std::span<const Points> copies);
 
 }  // namespace knead

@@ -12,8 +12,8 @@ namespace knead {
 
 constexpr std::int64_t max_lattice_size = 1000000;
 
-Expected<Lattice> Lattice::create(const BoundingBox& box, double margin, const std::array<int, 3>& degree,
-                                  const std::array<int, 3>& net) {
+Expected<Lattice> Lattice::create(const BoundingBox& box, double margin,
+                                  const std::array<int, 3>& degree, const std::array<int, 3>& net) {
   if (!box.lower.allFinite() || !box.upper.allFinite() || !(box.diagonal() > 0)) {
     return input_error("the box has no size", "lattice");
   }
@@ -30,7 +30,8 @@ Expected<Lattice> Lattice::create(const BoundingBox& box, double margin, const s
     knots.push_back(std::move(*made));
   }
   const Eigen::Index size = static_cast<Eigen::Index>(net[0]) * net[1] * net[2];
-  const Point lower = box.lower.array() - margin * box.diagonal(), upper = box.upper.array() + margin * box.diagonal();
+  const Point lower = box.lower.array() - margin * box.diagonal(),
+              upper = box.upper.array() + margin * box.diagonal();
   Points points(size, 3);
   Eigen::Index row = 0;
   for (int i = 0; i < net[0]; ++i) {
@@ -53,7 +54,8 @@ Expected<Points> Lattice::deformed(const Points& points, const Points& control_p
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Point u = (points.row(i).transpose() - lower_).cwiseQuotient(size_);
     if (!((u.array() >= 0).all() && (u.array() <= 1).all())) {
-      return input_error("the point is outside of the lattice", fmt::format("point {}", i), "make the lattice larger");
+      return input_error("the point is outside of the lattice", fmt::format("point {}", i),
+                         "make the lattice larger");
     }
     parameters.row(i) = u.transpose();
   }
@@ -69,7 +71,8 @@ Expected<std::vector<bool>> Lattice::faces(std::span<const std::string> names, i
   for (const std::string& name : names) {
     const auto* const found = std::ranges::find(known, name);
     if (found == std::end(known)) {
-      return input_error(fmt::format("\"{}\" is not a face", name), "hold", "the faces are: u0, u1, v0, v1, w0, w1");
+      return input_error(fmt::format("\"{}\" is not a face", name), "hold",
+                         "the faces are: u0, u1, v0, v1, w0, w1");
     }
     const auto face = static_cast<std::size_t>(found - known), d = face / 2;
     std::size_t row = 0;

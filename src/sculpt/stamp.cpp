@@ -9,9 +9,10 @@
 namespace knead {
 namespace {
 
-constexpr int stamp_nodes = 97;       // per direction, of a shape
-constexpr int most_ray_steps = 1000;  // down one ray; one that grazes the shape for so long has met it
-constexpr double seen_share = 1e-9;   // of the size: a ray that comes so near has met the shape
+constexpr int stamp_nodes = 97;  // per direction, of a shape
+// Down one ray; one that grazes the shape for so long has met it.
+constexpr int most_ray_steps = 1000;
+constexpr double seen_share = 1e-9;  // of the size: a ray that comes so near has met the shape
 
 /// Where a ray downwards at (x, y) meets the shape; −∞ where it misses it.
 double seen_from_above(const PlacedShape& shape, double x, double y, double top, double bottom) {
@@ -31,8 +32,11 @@ double StampPattern::at(double xi, double eta) const {
   if (empty() || std::abs(xi) > 1 || std::abs(eta) > 1) return 0;
   const int rows = static_cast<int>(heights.size()) / columns;
   const double x = 0.5 * (xi + 1) * (columns - 1), y = 0.5 * (1 - eta) * (rows - 1);
-  const int l = std::clamp(static_cast<int>(x), 0, columns - 2), k = std::clamp(static_cast<int>(y), 0, rows - 2);
-  const auto node = [&](int row, int column) { return heights[static_cast<std::size_t>(row * columns + column)]; };
+  const int l = std::clamp(static_cast<int>(x), 0, columns - 2),
+            k = std::clamp(static_cast<int>(y), 0, rows - 2);
+  const auto node = [&](int row, int column) {
+    return heights[static_cast<std::size_t>(row * columns + column)];
+  };
   const double s = x - l, t = y - k;
   return (1 - t) * ((1 - s) * node(k, l) + s * node(k, l + 1)) +
          t * ((1 - s) * node(k + 1, l) + s * node(k + 1, l + 1));
@@ -57,8 +61,9 @@ Expected<StampPattern> stamp_of(const Shape& shape, double width) {
   for (int k = 0; k < stamp_nodes; ++k) {
     for (int l = 0; l < stamp_nodes; ++l) {
       const double xi = -1 + 2. * l / (stamp_nodes - 1), eta = 1 - 2. * k / (stamp_nodes - 1);
-      pattern.heights.push_back(seen_from_above(*placed, middle.x() + half * xi, middle.y() + half * eta,
-                                                box.upper.z() + margin, box.lower.z() - margin));
+      pattern.heights.push_back(seen_from_above(*placed, middle.x() + half * xi,
+                                                middle.y() + half * eta, box.upper.z() + margin,
+                                                box.lower.z() - margin));
     }
   }
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -68,7 +73,8 @@ Expected<StampPattern> stamp_of(const Shape& shape, double width) {
     highest = std::max(highest, z);
   }
   const bool level = !(highest - lowest > 1e-6 * half);
-  for (double& z : pattern.heights) z = !std::isfinite(z) ? 0 : level ? 1 : (z - lowest) / (highest - lowest);
+  for (double& z : pattern.heights)
+    z = !std::isfinite(z) ? 0 : level ? 1 : (z - lowest) / (highest - lowest);
   return pattern;
 }
 

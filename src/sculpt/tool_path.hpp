@@ -6,10 +6,12 @@
 
 namespace knead {
 
-/// A path of straight pieces, taken at places of the same distance along it, however many points it was given by.
+/// A path of straight pieces, taken at places of the same distance along it, however many points it
+/// was given by.
 ///
-/// The places are the first point and then one at every `spacing` of arc length; what is left over of one piece counts
-/// for the next. A path that is given in several parts has the places of the whole, to the last bit. A value.
+/// The places are the first point and then one at every `spacing` of arc length; what is left over
+/// of one piece counts for the next. A path that is given in several parts has the places of the
+/// whole, to the last bit. A value.
 struct ToolPath {
   double spacing = 1;         ///< > 0
   double rest = 0;            ///< way from the last place to the end, less than `spacing`

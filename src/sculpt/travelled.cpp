@@ -24,8 +24,9 @@ struct SampledShape {
     Eigen::Index nearest = 0;
     (points.rowwise() - x.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
     const auto columns = static_cast<Eigen::Index>(values.abscissae(1).size());
-    const std::array<double, 2> start = {values.abscissae(0)[static_cast<std::size_t>(nearest / columns)],
-                                         values.abscissae(1)[static_cast<std::size_t>(nearest % columns)]};
+    const std::array<double, 2> start = {
+        values.abscissae(0)[static_cast<std::size_t>(nearest / columns)],
+        values.abscissae(1)[static_cast<std::size_t>(nearest % columns)]};
     return closest_point_from<2>(shape, x, start).parameters;
   }
 
@@ -46,7 +47,8 @@ struct Motion {
 
 std::optional<Motion> motion_of(const SampledShape& on, const Travel& travel) {
   const std::array<double, 2> from = on.foot(travel.from), to = on.foot(travel.to);
-  const SurfaceJet a = surface_jet(on.shape, from[0], from[1]), b = surface_jet(on.shape, to[0], to[1]);
+  const SurfaceJet a = surface_jet(on.shape, from[0], from[1]),
+                   b = surface_jet(on.shape, to[0], to[1]);
   const Point normal_a = a.d[1].cross(a.d[2]), normal_b = b.d[1].cross(b.d[2]);
   if (!(normal_a.norm() > 0 && normal_b.norm() > 0)) return std::nullopt;
   Motion motion;
@@ -65,12 +67,14 @@ std::optional<Motion> motion_of(const SampledShape& on, const Travel& travel) {
 }
 
 /// The displacement, moved, at the abscissae.
-std::optional<Points> moved(const SampledShape& on, const Surface& displacement, const Motion& motion) {
+std::optional<Points> moved(const SampledShape& on, const Surface& displacement,
+                            const Motion& motion) {
   std::array<std::vector<double>, 2> at;
   for (std::size_t d = 0; d < 2; ++d) {
     const Interval domain = on.shape.knots()[d].domain();
     at[d] = on.values.abscissae(static_cast<int>(d));
-    for (double& u : at[d]) u = std::clamp(u - motion.way[static_cast<Eigen::Index>(d)], domain.lower, domain.upper);
+    for (double& u : at[d])
+      u = std::clamp(u - motion.way[static_cast<Eigen::Index>(d)], domain.lower, domain.upper);
   }
   const std::array<std::span<const double>, 2> grid = {at[0], at[1]};
   const auto there = evaluate_grid<2>(displacement, grid);
@@ -86,7 +90,8 @@ Points travelled(const Surface& shape, const SiteValues<2>& values, const Points
   if (!field || travels.empty()) return displacement;
   const SampledShape on{shape, values, values.values(shape.control_points())};
   Points result(shape.size(), 3);
-  Eigen::VectorXd distances = Eigen::VectorXd::Constant(shape.size(), std::numeric_limits<double>::infinity());
+  Eigen::VectorXd distances =
+      Eigen::VectorXd::Constant(shape.size(), std::numeric_limits<double>::infinity());
   for (const Travel& travel : travels) {
     const auto motion = motion_of(on, travel);
     const auto there = motion ? moved(on, *field, *motion) : std::nullopt;

@@ -17,17 +17,19 @@ bool travels(const Command& command) { return is_one_of<UndoCommand, RedoCommand
 
 /// Whether all that it can change is compared by `same_scene`.
 bool may_change_nothing(const Command& command) {
-  if (const auto* material = fields_of<MaterialCommand>(command)) return !material->region && !material->coefficient;
-  return is_one_of<StepCommand, EvolveCommand, LoadCommand, HoldCommand, SelectCommand, LimitCommand, SeamsCommand>(
-      command);
+  if (const auto* material = fields_of<MaterialCommand>(command))
+    return !material->region && !material->coefficient;
+  return is_one_of<StepCommand, EvolveCommand, LoadCommand, HoldCommand, SelectCommand,
+                   LimitCommand, SeamsCommand>(command);
 }
 
 }  // namespace
 
 Session::Before Session::before(std::span<const Command> commands, bool joined) const {
-  // As far back as the act can reach: what it joins, what it undoes. An entry is not copied for less.
-  const auto undone = static_cast<std::size_t>(
-      std::ranges::count_if(commands, [](const Command& c) { return fields_of<UndoCommand>(c) != nullptr; }));
+  // As far back as the act can reach: what it joins, what it undoes. An entry is not copied for
+  // less.
+  const auto undone = static_cast<std::size_t>(std::ranges::count_if(
+      commands, [](const Command& c) { return fields_of<UndoCommand>(c) != nullptr; }));
   Before before;
   before.position = position_;
   before.first = position_ - std::min(position_ - floor_, undone + (joined ? 1 : 0));
@@ -45,8 +47,8 @@ void Session::go_back(Before before) {
   position_ = before.position;
 }
 
-Expected<bool> Session::act(std::span<const Command> commands, const ActOptions& options, const Progress& progress,
-                            const GoOn& go_on) {
+Expected<bool> Session::act(std::span<const Command> commands, const ActOptions& options,
+                            const Progress& progress, const GoOn& go_on) {
   Before before = this->before(commands, options.join);
   bool joins = options.join;
   for (const Command& command : commands) {
@@ -62,7 +64,8 @@ Expected<bool> Session::act(std::span<const Command> commands, const ActOptions&
       joins = true;
     }
   }
-  if (options.join || options.keep || !std::ranges::all_of(commands, may_change_nothing)) return true;
+  if (options.join || options.keep || !std::ranges::all_of(commands, may_change_nothing))
+    return true;
   if (!same_scene(*before.states[before.position - before.first], state())) return true;
   go_back(std::move(before));
   return false;

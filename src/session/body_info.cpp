@@ -17,9 +17,11 @@ void describe(BodyInfo& b, Fields& fields) {
   fields.add("degree", b.degree, {.help = "in each direction"});
   fields.add("net", b.net, {.help = "control points in each direction; the last one is fastest"});
   fields.add("rational", b.rational);
-  fields.add("lower", b.lower, {.help = "corner of the control points' bounding box", .unit = Unit::length});
+  fields.add("lower", b.lower,
+             {.help = "corner of the control points' bounding box", .unit = Unit::length});
   fields.add("upper", b.upper, {.help = "the opposite corner", .unit = Unit::length});
-  fields.add("alpha", b.alpha, {.help = "coefficients 11 of a curve, 11, 12, 13, 22, 23, 33 of a volume"});
+  fields.add("alpha", b.alpha,
+             {.help = "coefficients 11 of a curve, 11, 12, 13, 22, 23, 33 of a volume"});
   fields.add("beta", b.beta, {.help = "likewise"});
   fields.add("mass", b.mass);
   fields.add("damping", b.damping);
@@ -27,7 +29,8 @@ void describe(BodyInfo& b, Fields& fields) {
   fields.add("w2", b.w2, {.help = "weight of a curve's curvature"});
   fields.add("hold", b.hold, {.help = "outer layers of control points that do not move"});
   fields.add("pins", b.pins, {.help = "numbers of pinned control points"});
-  fields.add("sides", b.sides, {.help = "which of them are held: `u0`, `u1` of a curve, to `w1` of a volume"});
+  fields.add("sides", b.sides,
+             {.help = "which of them are held: `u0`, `u1` of a curve, to `w1` of a volume"});
   fields.add("holds", b.holds, {.help = "how many sides and points are held besides"});
   fields.add("moved", b.moved, {.help = "number of control points that are not as they were made"});
   fields.add("displacement", b.displacement, {.help = "the largest", .unit = Unit::length});
@@ -63,7 +66,8 @@ BodyInfo info_of(const SceneShape<D>& s, const SceneBody& body) {
     info.pins.push_back(number);
   }
   for (const KeptConstraintOf<D>& kept : s.constraints) {
-    if (const auto* hold = std::get_if<SideHold>(&kept.constraint)) info.sides.push_back(side_name(hold->side));
+    if (const auto* hold = std::get_if<SideHold>(&kept.constraint))
+      info.sides.push_back(side_name(hold->side));
   }
   info.holds = static_cast<int>(s.constraints.size());
   info.moved = moved_control_points(body);

@@ -14,11 +14,13 @@ Expected<void> set_material(SceneShape<D>& s, const MaterialCommand& c) {
   MaterialOf<D> next = s.material.constants();
   const double mass = c.mass.value_or(std::get<double>(s.material.mass));
   const double damping = c.damping.value_or(std::get<double>(s.material.damping));
-  const auto set = [](const std::optional<std::vector<double>>& given, auto& to, const char* field) -> Expected<void> {
+  const auto set = [](const std::optional<std::vector<double>>& given, auto& to,
+                      const char* field) -> Expected<void> {
     if (!given) return {};
     if (given->size() != to.size()) {
-      return input_error(fmt::format("{} numbers for a {}", given->size(), D == 1 ? "curve" : "volume"), field,
-                         D == 1 ? "give [11]" : "give [11, 12, 13, 22, 23, 33]");
+      return input_error(
+          fmt::format("{} numbers for a {}", given->size(), D == 1 ? "curve" : "volume"), field,
+          D == 1 ? "give [11]" : "give [11, 12, 13, 22, 23, 33]");
     }
     std::ranges::copy(*given, to.begin());
     return {};
@@ -34,13 +36,15 @@ Expected<void> set_material(SceneShape<D>& s, const MaterialCommand& c) {
 template <int D>
 Expected<void> set_elasticity(const MaterialCommand& c, Elasticity<D>& elasticity) {
   if (c.model == MaterialModel::shell || c.model == MaterialModel::plate) {
-    return input_error(fmt::format("a {} is no {}", kind_of(D), c.model == MaterialModel::shell ? "shell" : "plate"),
+    return input_error(fmt::format("a {} is no {}", kind_of(D),
+                                   c.model == MaterialModel::shell ? "shell" : "plate"),
                        "model", R"(use "linear" or "fundamental")");
   }
   const bool keeps = c.model ? *c.model == MaterialModel::fundamental : is_nonlinear(elasticity);
   if (!keeps) {
     if (c.w1 || c.w2) {
-      return input_error("only fundamental forms have weights w1 and w2", "model", R"(add "model":"fundamental")");
+      return input_error("only fundamental forms have weights w1 and w2", "model",
+                         R"(add "model":"fundamental")");
     }
     elasticity = LinearElasticity{};
     return {};
@@ -50,11 +54,13 @@ Expected<void> set_elasticity(const MaterialCommand& c, Elasticity<D>& elasticit
   }
   const auto* before = std::get_if<FormWeights>(&elasticity);
   FormWeights next = before != nullptr ? *before : FormWeights{};
-  for (const auto& [given, to, field] : {std::tuple{&c.w1, &next.w1, "w1"}, std::tuple{&c.w2, &next.w2, "w2"}}) {
+  for (const auto& [given, to, field] :
+       {std::tuple{&c.w1, &next.w1, "w1"}, std::tuple{&c.w2, &next.w2, "w2"}}) {
     if (!*given) continue;
     const std::array<double, 3>& w = **given;
     if (w[0] != w[1] || w[1] != w[2]) {
-      return input_error(fmt::format("a {} has one weight of each form", kind_of(D)), field, "give one number");
+      return input_error(fmt::format("a {} has one weight of each form", kind_of(D)), field,
+                         "give one number");
     }
     *to = w[0];
   }
@@ -79,7 +85,8 @@ Expected<void> set_body_material(Act& act, const MaterialCommand& c) {
     if (given) return of_surfaces(act, name, "use alpha, beta, mass and damping");
   }
   if (!c.alpha && !c.beta && !c.mass && !c.damping && !c.model && !c.w1 && !c.w2 && !c.reset) {
-    return input_error("no field is given", "alpha", "give alpha, beta, mass, damping, a model, or reset");
+    return input_error("no field is given", "alpha",
+                       "give alpha, beta, mass, damping, a model, or reset");
   }
   const auto set = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
     if (c.reset) reset_material(s);

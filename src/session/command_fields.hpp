@@ -32,7 +32,8 @@ template <class C>
   return ActsOn::surfaces;
 }
 
-/// What a command that moves surfaces may do where they come to another face of their model (`meet_faces`).
+/// What a command that moves surfaces may do where they come to another face of their model
+/// (`meet_faces`).
 enum class ThroughAllowance { through, nothing };
 
 std::span<const Choice> choices(ThroughAllowance);

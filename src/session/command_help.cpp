@@ -10,7 +10,8 @@ std::string command_help() {
   std::string text;
   for (const Type* command : type_of<CommandVariant>().variants) {
     const std::string fields = brief_help(*command);
-    text += fmt::format("  {:<11} {}\n{}{}", command->name, command->help, fields, fields.empty() ? "" : "\n");
+    text += fmt::format("  {:<11} {}\n{}{}", command->name, command->help, fields,
+                        fields.empty() ? "" : "\n");
   }
   return text;
 }

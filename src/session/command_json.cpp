@@ -18,8 +18,8 @@ const Type& type_of<CommandVariant>() {
 
 namespace {
 
-/// The same with the fields that its texts stand for (`text_forms`). Error (input): such a field is given beside the
-/// text.
+/// The same with the fields that its texts stand for (`text_forms`). Error (input): such a field is
+/// given beside the text.
 Expected<Json> spelled_out(Json json) {
   const Type& commands = type_of<CommandVariant>();
   const Json* const name = json.find(commands.name);
@@ -28,13 +28,14 @@ Expected<Json> spelled_out(Json json) {
   const Type& command = *commands.variants[static_cast<std::size_t>(k)];
   for (const TextForm& form : text_forms) {
     if (command.find(form.field) == nullptr || command.find(form.stands_for) == nullptr) continue;
-    const auto at = std::ranges::find(json.members, form.field, [](const auto& member) { return member.first; });
+    const auto at = std::ranges::find(json.members, form.field,
+                                      [](const auto& member) { return member.first; });
     if (at == json.members.end() || !at->second.is(Json::Kind::text)) continue;
     const std::string& text = at->second.text;
     if (form.begins ? !text.starts_with(form.text) : text != form.text) continue;
     if (json.find(form.stands_for) != nullptr) {
-      return input_error(fmt::format("\"{}\": {} says it already", form.field, shown(at->second)), form.stands_for,
-                         "leave one of them out");
+      return input_error(fmt::format("\"{}\": {} says it already", form.field, shown(at->second)),
+                         form.stands_for, "leave one of them out");
     }
     at->first = form.stands_for;
     if (!form.begins) at->second = {.kind = Json::Kind::boolean, .boolean = true};
@@ -50,8 +51,9 @@ Expected<void> check_version(const Json& json, const char* form) {
   const bool number = version != nullptr && version->is(Json::Kind::number);
   if (number && version->number == script_version) return {};
   if (number && version->number == 1) {
-    return input_error("scripts of version 1 are not read any more", "knead",
-                       "translate it to version 2: \"Scripts of version 1\" in docs/scripts.md says how");
+    return input_error(
+        "scripts of version 1 are not read any more", "knead",
+        "translate it to version 2: \"Scripts of version 1\" in docs/scripts.md says how");
   }
   return input_error("the version of the script is not 2", "knead", form);
 }
@@ -86,7 +88,8 @@ Command hold_nothing() {
 /// One per line.
 std::string list_json(std::span<const Command> commands) {
   std::string text = "[";
-  for (std::size_t k = 0; k < commands.size(); ++k) text += (k == 0 ? "\n  " : ",\n  ") + to_json(commands[k]);
+  for (std::size_t k = 0; k < commands.size(); ++k)
+    text += (k == 0 ? "\n  " : ",\n  ") + to_json(commands[k]);
   return text + (commands.empty() ? "]" : "\n]");
 }
 
@@ -118,9 +121,12 @@ Expected<std::vector<Command>> parse_commands(std::string_view text) {
   return commands;
 }
 
-std::string to_json(const Command& command) { return to_json(type_of<CommandVariant>(), &command.any().fields); }
+std::string to_json(const Command& command) {
+  return to_json(type_of<CommandVariant>(), &command.any().fields);
+}
 
-Expected<std::vector<Command>> parse_script(std::string_view text, const std::string& name, std::size_t* before) {
+Expected<std::vector<Command>> parse_script(std::string_view text, const std::string& name,
+                                            std::size_t* before) {
   const auto fail = [&name](Error error) {
     error.file = name;
     return std::unexpected(std::move(error));
@@ -128,10 +134,12 @@ Expected<std::vector<Command>> parse_script(std::string_view text, const std::st
   const auto json = parse_json(text);
   if (!json) return fail(json.error());
   constexpr const char* form = R"(write {"knead": 2, "commands": [...]})";
-  if (!json->is(Json::Kind::object)) return fail({ErrorKind::input, "a script must be an object", {}, form});
+  if (!json->is(Json::Kind::object))
+    return fail({ErrorKind::input, "a script must be an object", {}, form});
   for (const auto& [member, value] : json->members) {
     if (member != "knead" && member != "commands") {
-      return fail({ErrorKind::input, "a script has no such field", member, "the fields are: knead, commands"});
+      return fail({ErrorKind::input, "a script has no such field", member,
+                   "the fields are: knead, commands"});
     }
   }
   if (auto version = check_version(*json, form); !version) return fail(version.error());
@@ -145,14 +153,17 @@ Expected<std::vector<Command>> parse_script(std::string_view text, const std::st
   return commands;
 }
 
-std::string commands_json(const std::vector<Command>& commands) { return list_json(commands) + "\n"; }
+std::string commands_json(const std::vector<Command>& commands) {
+  return list_json(commands) + "\n";
+}
 
 std::string script_json(const std::vector<Command>& commands) {
   std::vector<Command> listed = commands;
   if (!listed.empty() && is_default_hold(listed.front())) {
     listed.erase(listed.begin());
   } else if (!listed.empty() && fields_of<NewCommand>(listed.front()) == nullptr) {
-    listed.insert(listed.begin(), hold_nothing());  // a document that begins with `new` has no faces to hold
+    listed.insert(listed.begin(),
+                  hold_nothing());  // a document that begins with `new` has no faces to hold
   }
   return fmt::format("{{\"knead\": {}, \"commands\": {}}}\n", script_version, list_json(listed));
 }
@@ -164,9 +175,12 @@ Command default_hold() {
   return make_command(hold);
 }
 
-Command::Command(AnyCommand command) : any_(std::make_shared<const AnyCommand>(std::move(command))) {}
+Command::Command(AnyCommand command)
+    : any_(std::make_shared<const AnyCommand>(std::move(command))) {}
 
-std::string_view Command::name() const { return type_of<CommandVariant>().variants[any_->fields.index()]->name; }
+std::string_view Command::name() const {
+  return type_of<CommandVariant>().variants[any_->fields.index()]->name;
+}
 
 std::vector<std::string> command_names() {
   std::vector<std::string> names;

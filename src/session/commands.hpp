@@ -48,16 +48,16 @@
 
 namespace knead {
 
-/// All commands, in the order of the help. Lengths are in file units unless a command says `relative`;
-/// (s, t) are fractions 0 to 1 of the parameter domain.
-using CommandVariant =
-    std::variant<NewCommand, SelectCommand, ConvertCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand,
-                 PinCommand, EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand,
-                 ReleaseCommand, ToolCommand, EditToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand,
-                 ForceCommand, LoadCommand, LimitCommand, EvolveCommand, StepCommand, StrokeCommand, BrushCommand,
-                 MaskCommand, DragCommand, RelaxCommand, LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand,
-                 RefineCommand, ElevateCommand, CoarsenCommand, MeasureCommand, ModesCommand, BucklingCommand,
-                 UndoCommand, RedoCommand>;
+/// All commands, in the order of the help. Lengths are in file units unless a command says
+/// `relative`; (s, t) are fractions 0 to 1 of the parameter domain.
+using CommandVariant = std::variant<
+    NewCommand, SelectCommand, ConvertCommand, MaterialCommand, RestCommand, ScalingCommand,
+    HoldCommand, PinCommand, EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand,
+    SmoothCommand, SeamsCommand, ReleaseCommand, ToolCommand, EditToolCommand, RemoveCommand,
+    MoveCommand, TurnCommand, ScaleCommand, ForceCommand, LoadCommand, LimitCommand, EvolveCommand,
+    StepCommand, StrokeCommand, BrushCommand, MaskCommand, DragCommand, RelaxCommand,
+    LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand, RefineCommand, ElevateCommand,
+    CoarsenCommand, MeasureCommand, ModesCommand, BucklingCommand, UndoCommand, RedoCommand>;
 
 template <>
 const Type& type_of<CommandVariant>();
@@ -72,14 +72,16 @@ struct AnyCommand {
 
 enum class Through;
 
-/// What a command may do where surfaces come to other faces; none: it moves no surface. `stops`: what it does where it
-/// does not say, instead of noting it.
+/// What a command may do where surfaces come to other faces; none: it moves no surface. `stops`:
+/// what it does where it does not say, instead of noting it.
 [[nodiscard]] std::optional<Through> through_of(const Command& command, bool stops);
 /// The same command, which stops at other faces whoever carries it out.
 [[nodiscard]] Command that_stops(const Command& command);
 
 /// A command with these fields.
-[[nodiscard]] inline Command make_command(CommandVariant fields) { return Command(AnyCommand{std::move(fields)}); }
+[[nodiscard]] inline Command make_command(CommandVariant fields) {
+  return Command(AnyCommand{std::move(fields)});
+}
 
 /// The fields of a command of this kind; null if it is of another.
 template <class C>

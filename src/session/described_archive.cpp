@@ -27,8 +27,8 @@ const Type& held_type(const Type& variant, const void* value) {
   return *variant.variants[static_cast<std::size_t>(variant.value(value))];
 }
 
-/// Whether f(type, a's part, b's part) holds for all that two values directly consist of, which are the same in number
-/// and kind.
+/// Whether f(type, a's part, b's part) holds for all that two values directly consist of, which are
+/// the same in number and kind.
 template <class F>
 bool all_parts(const Type& type, const void* a, const void* b, const F& f) {
   switch (type.kind) {
@@ -37,11 +37,13 @@ bool all_parts(const Type& type, const void* a, const void* b, const F& f) {
     case Kind::array: {
       const std::size_t count = type.count(a);
       bool all = count == type.count(b);
-      for (std::size_t k = 0; k < count && all; ++k) all = f(*type.element, type.part(a, k), type.part(b, k));
+      for (std::size_t k = 0; k < count && all; ++k)
+        all = f(*type.element, type.part(a, k), type.part(b, k));
       return all;
     }
     case Kind::record:
-      return std::ranges::all_of(type.fields, [&](const Field& x) { return f(*x.type, x.of(a), x.of(b)); });
+      return std::ranges::all_of(type.fields,
+                                 [&](const Field& x) { return f(*x.type, x.of(a), x.of(b)); });
     case Kind::variant:
       return type.value(a) == type.value(b) && f(held_type(type, a), type.part(a), type.part(b));
     default:
@@ -55,16 +57,20 @@ bool same_bits(const void* a, const void* b, std::size_t doubles) {
 
 template <int D>
 bool same_spline(const Spline<D>& a, const Spline<D>& b) {
-  return a.knots() == b.knots() && a.weights().size() == b.weights().size() && a.size() == b.size() &&
+  return a.knots() == b.knots() && a.weights().size() == b.weights().size() &&
+         a.size() == b.size() &&
          same_bits(a.weights().data(), b.weights().data(), a.weights().size()) &&
-         same_bits(a.control_points().data(), b.control_points().data(), 3 * static_cast<std::size_t>(a.size()));
+         same_bits(a.control_points().data(), b.control_points().data(),
+                   3 * static_cast<std::size_t>(a.size()));
 }
 
 bool same_opaque(const Type& type, const void* a, const void* b, bool deep) {
-  if (type.form != nullptr) return same(*type.form, type.to_form(a).get(), type.to_form(b).get(), deep);
+  if (type.form != nullptr)
+    return same(*type.form, type.to_form(a).get(), type.to_form(b).get(), deep);
   const void *const x = type.shared(a), *const y = type.shared(b);
   return x == y || (deep && with_directions(type, [&]<int D>() {
-                      return same_spline<D>(*static_cast<const Spline<D>*>(x), *static_cast<const Spline<D>*>(y));
+                      return same_spline<D>(*static_cast<const Spline<D>*>(x),
+                                            *static_cast<const Spline<D>*>(y));
                     }));
 }
 
@@ -83,7 +89,9 @@ std::optional<std::array<KnotVector, D>> knots_of(std::vector<KnotForm>&& form) 
     if (made) knots.push_back(*std::move(made));
   }
   if (knots.size() != form.size() || knots.size() != D) return std::nullopt;
-  return [&]<std::size_t... d>(std::index_sequence<d...>) { return std::array<KnotVector, D>{std::move(knots[d])...}; }
+  return [&]<std::size_t... d>(std::index_sequence<d...>) {
+    return std::array<KnotVector, D>{std::move(knots[d])...};
+  }
   (std::make_index_sequence<D>());
 }
 
@@ -107,16 +115,21 @@ bool same(const Type& type, const void* a, const void* b, bool deep) {
     case Kind::opaque:
       return same_opaque(type, a, b, deep);
     default:
-      if (const std::size_t n = type.element != nullptr ? doubles_in(*type.element) * type.count(a) : 0; n > 0) {
+      if (const std::size_t n =
+              type.element != nullptr ? doubles_in(*type.element) * type.count(a) : 0;
+          n > 0) {
         return type.count(b) == type.count(a) && same_bits(type.part(a), type.part(b), n);
       }
-      return all_parts(type, a, b, [deep](const Type& t, const void* x, const void* y) { return same(t, x, y, deep); });
+      return all_parts(type, a, b, [deep](const Type& t, const void* x, const void* y) {
+        return same(t, x, y, deep);
+      });
   }
 }
 
 bool all_finite(const Type& type, const void* value) {
   if (type.kind == Kind::number) return std::isfinite(*static_cast<const double*>(value));
-  return all_parts(type, value, value, [](const Type& t, const void* x, const void*) { return all_finite(t, x); });
+  return all_parts(type, value, value,
+                   [](const Type& t, const void* x, const void*) { return all_finite(t, x); });
 }
 
 std::size_t Weight::of(const Type& type, const void* value) {
@@ -129,7 +142,8 @@ std::size_t Weight::of(const Type& type, const void* value) {
     return with_directions(type, [&]<int D>() {
       const Spline<D>& spline = *static_cast<const Spline<D>*>(object);
       for (const KnotVector& knots : spline.knots()) sum += knots.knots().size();
-      return sizeof(double) * (sum + static_cast<std::size_t>(spline.size()) * (spline.rational() ? 4 : 3));
+      return sizeof(double) *
+             (sum + static_cast<std::size_t>(spline.size()) * (spline.rational() ? 4 : 3));
     });
   }
   if (type.shared_by > 0) return of_shared(type, value);
@@ -149,12 +163,14 @@ std::size_t Weight::of_shared(const Type& list, const void* value) {
     sum += sizeof(std::shared_ptr<void>);
     if (!seen_.insert(list.part(value, k)).second) continue;
     const std::size_t end = std::min(count, k + list.shared_by);
-    for (std::size_t j = k; j < end; ++j) sum += list.weight + of(*list.element, list.part(value, j));
+    for (std::size_t j = k; j < end; ++j)
+      sum += list.weight + of(*list.element, list.part(value, j));
   }
   return sum;
 }
 
-// --- writing -------------------------------------------------------------------------------------------------------
+// --- writing
+// -----------------------------------------------------------------------------------------------
 
 void StateWriter::write(const Type& type, const void* value, const void* other) {
   switch (type.kind) {
@@ -170,7 +186,8 @@ void StateWriter::write(const Type& type, const void* value, const void* other) 
       return name(type.choice(type.value(value))->name);
     case Kind::optional:
       if (type.count(value) == 0) return simple(cbor::null);
-      return write(*type.element, type.part(value), type.count(other) > 0 ? type.part(other) : type.element->initial);
+      return write(*type.element, type.part(value),
+                   type.count(other) > 0 ? type.part(other) : type.element->initial);
     case Kind::list:
     case Kind::array:
       return write_list(type, value, other);
@@ -190,7 +207,8 @@ void StateWriter::write(const Type& type, const void* value, const void* other) 
       const Type& held = held_type(type, value);
       head(Major::map, 1);
       name(held.name);
-      return write(held, type.part(value), type.value(value) == type.value(other) ? type.part(other) : held.initial);
+      return write(held, type.part(value),
+                   type.value(value) == type.value(other) ? type.part(other) : held.initial);
     }
     case Kind::opaque:
       return write_opaque(type, value, other);
@@ -220,7 +238,8 @@ void StateWriter::write_list(const Type& type, const void* value, const void* ot
 }
 
 void StateWriter::write_opaque(const Type& type, const void* value, const void* other) {
-  if (type.form != nullptr) return write(*type.form, type.to_form(value).get(), type.to_form(other).get());
+  if (type.form != nullptr)
+    return write(*type.form, type.to_form(value).get(), type.to_form(other).get());
   const void* const object = type.shared(value);
   const auto [at, fresh] = splines_.try_emplace(object, splines_.size());
   if (!fresh) return head(Major::count, at->second);
@@ -229,12 +248,14 @@ void StateWriter::write_opaque(const Type& type, const void* value, const void* 
 
 template <int D>
 void StateWriter::write_spline(const Spline<D>& spline) {
-  const SplineForm form{
-      form_of<D>(spline.knots()), spline.control_points(), {spline.weights().begin(), spline.weights().end()}};
+  const SplineForm form{form_of<D>(spline.knots()),
+                        spline.control_points(),
+                        {spline.weights().begin(), spline.weights().end()}};
   write(type_of<SplineForm>(), &form, type_of<SplineForm>().initial);
 }
 
-// --- reading -------------------------------------------------------------------------------------------------------
+// --- reading
+// -----------------------------------------------------------------------------------------------
 
 void StateReader::read(const Type& type, void* value) {
   switch (type.kind) {
@@ -277,7 +298,8 @@ void StateReader::read_list(const Type& type, void* value) {
   if (const std::size_t doubles = doubles_in(*type.element); doubles > 0) {
     const std::string_view numbers = string(Major::bytes);
     const std::size_t all = numbers.size() / (8 * doubles);
-    if (8 * doubles * all != numbers.size() || (fixed && all != type.length)) return static_cast<void>(fail());
+    if (8 * doubles * all != numbers.size() || (fixed && all != type.length))
+      return static_cast<void>(fail());
     if (!fixed) type.resize(value, all);
     if (all > 0) std::memcpy(type.at(value, 0), numbers.data(), numbers.size());
     return;
@@ -311,7 +333,8 @@ void StateReader::read_record(const Type& type, void* value) {
 
 void StateReader::read_opaque(const Type& type, void* value) {
   if (type.form == nullptr) {
-    return with_directions(type, [&]<int D>() { read_spline(*static_cast<SplinePointer<D>*>(value)); });
+    return with_directions(type,
+                           [&]<int D>() { read_spline(*static_cast<SplinePointer<D>*>(value)); });
   }
   const std::shared_ptr<void> form = type.to_form(value);
   read(*type.form, form.get());
@@ -325,7 +348,8 @@ void StateReader::read_spline(SplinePointer<D>& spline) {
     read(type_of<SplineForm>(), &form);
     auto knots = knots_of<D>(std::move(form.knots));
     if (bad() || !knots) return static_cast<void>(fail());
-    auto made = Spline<D>::create(*std::move(knots), std::move(form.points), std::move(form.weights));
+    auto made =
+        Spline<D>::create(*std::move(knots), std::move(form.points), std::move(form.weights));
     if (!made) return static_cast<void>(fail());
     spline = std::make_shared<const Spline<D>>(*std::move(made));
     splines_.emplace_back(D, spline);

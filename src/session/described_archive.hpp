@@ -8,8 +8,9 @@
 
 namespace knead {
 
-// Described values as CBOR, each by what differs from another one of its type: from the value before it, or from the
-// initial value of its type. What is not written is as it was there, so that a new field is a default to older bytes.
+// Described values as CBOR, each by what differs from another one of its type: from the value
+// before it, or from the initial value of its type. What is not written is as it was there, so that
+// a new field is a default to older bytes.
 
 /// A pointer to a spline; values with the same one share it again when they are read.
 template <int D>
@@ -31,21 +32,23 @@ void describe(SplineForm& s, Fields& fields);
 template <int D>
 [[nodiscard]] std::vector<KnotForm> form_of(const std::array<KnotVector, D>& knots) {
   std::vector<KnotForm> form;
-  for (const KnotVector& k : knots) form.push_back({k.degree(), {k.knots().begin(), k.knots().end()}});
+  for (const KnotVector& k : knots)
+    form.push_back({k.degree(), {k.knots().begin(), k.knots().end()}});
   return form;
 }
 /// Nothing if these are no knots of so many directions.
 template <int D>
 [[nodiscard]] std::optional<std::array<KnotVector, D>> knots_of(std::vector<KnotForm>&& form);
 
-/// Whether two values are the same to the last bit in all that is described; splines are if they are shared, or with
-/// `deep` if their numbers are.
+/// Whether two values are the same to the last bit in all that is described; splines are if they
+/// are shared, or with `deep` if their numbers are.
 [[nodiscard]] bool same(const Type& type, const void* a, const void* b, bool deep = false);
 
 /// Whether all numbers of a value, at any depth, are finite.
 [[nodiscard]] bool all_finite(const Type& type, const void* value);
 
-/// Bytes of memory that copies of values take besides themselves. What copies share is counted once.
+/// Bytes of memory that copies of values take besides themselves. What copies share is counted
+/// once.
 class Weight {
  public:
   [[nodiscard]] std::size_t of(const Type& type, const void* value);
@@ -59,10 +62,11 @@ class StateWriter : public cbor::Writer {
  public:
   using Writer::Writer;
 
-  /// Writes a value as far as it differs from the other one. Records are maps of those fields, variants a map of the
-  /// name to the record, choices their names. Numbers, and lists of nothing else, keep their bits: as byte strings,
-  /// little-endian. Other lists are an array: how many elements are the same at the beginning, then each further one,
-  /// undefined if it is the same as the other one's there. A spline is written once, and the k-th is k afterwards.
+  /// Writes a value as far as it differs from the other one. Records are maps of those fields,
+  /// variants a map of the name to the record, choices their names. Numbers, and lists of nothing
+  /// else, keep their bits: as byte strings, little-endian. Other lists are an array: how many
+  /// elements are the same at the beginning, then each further one, undefined if it is the same as
+  /// the other one's there. A spline is written once, and the k-th is k afterwards.
   void write(const Type& type, const void* value, const void* other);
 
  private:
@@ -78,8 +82,8 @@ class StateReader : public cbor::Reader {
   /// It becomes bad where the values need more than so many bytes of memory.
   StateReader(std::string_view bytes, std::size_t memory) : Reader(bytes), memory_(memory) {}
 
-  /// Reads what `write` wrote into the value that was the other one. Unknown names, and pointers left null, make it
-  /// bad.
+  /// Reads what `write` wrote into the value that was the other one. Unknown names, and pointers
+  /// left null, make it bad.
   void read(const Type& type, void* value);
   /// Counts memory.
   void takes_memory(std::size_t size) {
@@ -106,7 +110,8 @@ struct TypeMaker<Eigen::Matrix<double, Eigen::Dynamic, N, Eigen::RowMajor>> {
     return {.kind = Kind::list,
             .element = &type_of<std::array<double, N>>(),
             .count = [](const void* v) { return static_cast<std::size_t>(as<Rows>(v).rows()); },
-            .resize = [](void* v, std::size_t n) { as<Rows>(v).resize(static_cast<Eigen::Index>(n), N); },
+            .resize = [](void* v,
+                         std::size_t n) { as<Rows>(v).resize(static_cast<Eigen::Index>(n), N); },
             .at = [](void* v, std::size_t k) -> void* { return as<Rows>(v).data() + N * k; },
             .weight = N * sizeof(double)};
   }

@@ -5,8 +5,8 @@
 
 namespace knead {
 
-/// Its document is left out, as are the parts of surfaces that faces show and the courses of edges, which follow from
-/// it.
+/// Its document is left out, as are the parts of surfaces that faces show and the courses of edges,
+/// which follow from it.
 template <>
 const Type& type_of<Scene>();
 template <>

@@ -29,9 +29,9 @@ void describe(ErrorInfo& e, Fields& fields) {
   fields.add("kind", e.kind, {.help = "usage, input or numerical"});
   fields.add("what", e.what);
   fields.add("where", e.where);
-  fields.add(
-      "place", e.place,
-      {.help = "`where`, unless that names a field of a command and what is wrong with it is stated without it"});
+  fields.add("place", e.place,
+             {.help = "`where`, unless that names a field of a command and what is wrong with it "
+                      "is stated without it"});
   fields.add("remedy", e.remedy);
   fields.add("message", e.message, {.help = "all of it as one line"});
   fields.add("code", e.code);
@@ -47,7 +47,8 @@ DiagnosticValues values_of(const Diagnostic& diagnostic) {
     assert(field != nullptr);
     void* const member = field->of(&values);
     const auto assign = [member]<class T>(const T& value) {
-      using Member = std::conditional_t<std::is_same_v<T, std::vector<std::string>>, T, std::optional<T>>;
+      using Member =
+          std::conditional_t<std::is_same_v<T, std::vector<std::string>>, T, std::optional<T>>;
       *static_cast<Member*>(member) = value;
     };
     std::visit(assign, named.value);
@@ -76,7 +77,8 @@ namespace {
 /// Whether this is a name, "radius", or one of an array, "path[2]".
 bool names_field(std::string_view where) {
   const std::string_view name = where.substr(0, where.find('['));
-  return std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+  return std::ranges::all_of(name,
+                             [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
 }
 
 /// Fills what an error and a note have in common.
@@ -104,7 +106,9 @@ std::string note_json(const Note& note) { return json_of(info_of(note)); }
 
 std::string error_json(const Error& error) {
   ErrorInfo info;
-  info.kind = error.kind == ErrorKind::numerical ? "numerical" : error.kind == ErrorKind::usage ? "usage" : "input";
+  info.kind = error.kind == ErrorKind::numerical ? "numerical"
+              : error.kind == ErrorKind::usage   ? "usage"
+                                                 : "input";
   info.what = error.what;
   info.where = error.where;
   info.remedy = error.remedy;

@@ -14,7 +14,8 @@ namespace knead {
 
 /// All values that codes have.
 struct DiagnosticValues {
-  std::optional<std::string> surface, body, edge, face, form, tool, hold, permission, first, second, other, reason;
+  std::optional<std::string> surface, body, edge, face, form, tool, hold, permission, first, second,
+      other, reason;
   std::vector<std::string> surfaces, others, edges, faces;
   std::optional<double> rows, point, distance, limit, angle, size, sizes, depth, x, y, z;
 };

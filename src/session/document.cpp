@@ -57,35 +57,42 @@ Expected<Document> Document::with_splines(std::span<const std::string> surfaces)
 namespace {
 
 bool same_bits(std::span<const double> a, std::span<const double> b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
 bool same_bits(const Surface& a, const Surface& b) {
   const auto coordinates = [](const Surface& s) {
-    return std::span<const double>(s.control_points().data(), static_cast<std::size_t>(s.control_points().size()));
+    return std::span<const double>(s.control_points().data(),
+                                   static_cast<std::size_t>(s.control_points().size()));
   };
   for (int d = 0; d < 2; ++d) {
-    if (a.knots(d).degree() != b.knots(d).degree() || !same_bits(a.knots(d).knots(), b.knots(d).knots())) return false;
+    if (a.knots(d).degree() != b.knots(d).degree() ||
+        !same_bits(a.knots(d).knots(), b.knots(d).knots()))
+      return false;
   }
   return same_bits(coordinates(a), coordinates(b)) && same_bits(a.weights(), b.weights());
 }
 
 }  // namespace
 
-Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, std::span<const std::string> followed,
+Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces,
+                                     std::span<const std::string> followed,
                                      std::span<const DocumentBody> bodies) const {
   if (source_) {
     std::vector<std::shared_ptr<const Surface>> present;
     const auto& opened = source_->surfaces();
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
-      // What has come back to what it was keeps its bytes, such as a surface that was refined and coarsened.
+      // What has come back to what it was keeps its bytes, such as a surface that was refined and
+      // coarsened.
       const bool back = k < opened.size() && same_bits(*surfaces[k].surface, *opened[k].surface);
       present.push_back(back ? opened[k].surface : surfaces[k].surface);
     }
     std::vector<std::shared_ptr<const Curve>> curves;
     for (const SourceCurve& c : source_->curves()) {
       const auto body = std::ranges::find(bodies, c.id, &DocumentBody::id);
-      const auto* curve = body == bodies.end() ? nullptr : std::get_if<std::shared_ptr<const Curve>>(&body->shape);
+      const auto* curve =
+          body == bodies.end() ? nullptr : std::get_if<std::shared_ptr<const Curve>>(&body->shape);
       curves.push_back(curve != nullptr ? *curve : c.curve);
     }
     return source_->save(present, followed, curves);
@@ -93,17 +100,23 @@ Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, 
   return save_as(*find_format("step"), surfaces, bodies);
 }
 
-Expected<std::string> Document::save_as(const Format& format, std::span<const DocumentSurface> surfaces,
-                                        std::span<const DocumentBody> bodies, SaveOptions options) const {
+Expected<std::string> Document::save_as(const Format& format,
+                                        std::span<const DocumentSurface> surfaces,
+                                        std::span<const DocumentBody> bodies,
+                                        SaveOptions options) const {
   if (model() != nullptr) {
-    return input_error(fmt::format("a new file would lose the faces of this {} file", source_->format()), {},
-                       "write it in its own format");
+    return input_error(
+        fmt::format("a new file would lose the faces of this {} file", source_->format()), {},
+        "write it in its own format");
   }
   if (format.save == nullptr)
-    return input_error(fmt::format("new {} files cannot be written", format.name), {}, "write STEP");
+    return input_error(fmt::format("new {} files cannot be written", format.name), {},
+                       "write STEP");
   std::vector<NamedSurface> made;
   for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface, {}, s.id});
-  options.unit = !surfaces.empty() ? surfaces.front().unit : !bodies.empty() ? bodies.front().unit : unit_;
+  options.unit = !surfaces.empty() ? surfaces.front().unit
+                 : !bodies.empty() ? bodies.front().unit
+                                   : unit_;
   for (const DocumentBody& body : bodies) {
     if (const auto* curve = std::get_if<std::shared_ptr<const Curve>>(&body.shape)) {
       options.curves.push_back({body.name, **curve, body.id});

@@ -8,9 +8,10 @@
 
 namespace knead {
 
-/// What is visible of the surfaces of a document: what faces show of them, of surfaces without faces all within their
-/// sides (`region_of_sides`). Surfaces that are not of the document, such as those that commands have made, are visible
-/// everywhere and have no edges. `document` must outlive it.
+/// What is visible of the surfaces of a document: what faces show of them, of surfaces without
+/// faces all within their sides (`region_of_sides`). Surfaces that are not of the document, such as
+/// those that commands have made, are visible everywhere and have no edges. `document` must outlive
+/// it.
 class DocumentRegions {
  public:
   explicit DocumentRegions(const Document& document) : document_(&document) {}

@@ -13,7 +13,8 @@ void describe(EdgeInfo& e, Fields& fields) {
   fields.add("id", e.id);
   fields.add("faces", e.faces, {.help = "that meet there"});
   fields.add("deviation", e.deviation,
-             {.help = "of the surface from its original position, the largest along the edge", .unit = Unit::length});
+             {.help = "of the surface from its original position, the largest along the edge",
+              .unit = Unit::length});
 }
 
 void describe(EdgesInfo& e, Fields& fields) {
@@ -29,12 +30,16 @@ void describe(CheckedEdgeInfo& e, Fields& fields) {
   fields.name("checked edge info", "How the faces at an edge meet; the largest values along it.");
   fields.add("id", e.id);
   fields.add("faces", e.faces, {.help = "that meet there"});
-  fields.add("gap", e.gap, {.help = "between them; of one face alone from the edge's curve", .unit = Unit::length});
+  fields.add(
+      "gap", e.gap,
+      {.help = "between them; of one face alone from the edge's curve", .unit = Unit::length});
   fields.add("opened_gap", e.opened_gap, {.help = "as it was opened", .unit = Unit::length});
-  fields.add("angle", e.angle, {.help = "between their normals, degrees; null where there is one face"});
+  fields.add("angle", e.angle,
+             {.help = "between their normals, degrees; null where there is one face"});
   fields.add("opened_angle", e.opened_angle, {.help = "as it was opened"});
-  fields.add("curvature", e.curvature,
-             {.help = "by which they differ where they are tangent, per length; null where they are not"});
+  fields.add(
+      "curvature", e.curvature,
+      {.help = "by which they differ where they are tangent, per length; null where they are not"});
   fields.add("opened_curvature", e.opened_curvature, {.help = "as it was opened"});
   fields.add("unknown", e.unknown, {.help = "why nothing is known of it"});
 }
@@ -56,7 +61,8 @@ std::vector<EdgesInfo> edges_info(const Session& session) {
     if (s.visible && s.visible->edges.empty()) continue;
     EdgesInfo& info = infos.emplace_back();
     info.surface = s.id;
-    const auto report = known ? trim_report(s) : Expected<TrimReport>(std::unexpected(known.error()));
+    const auto report =
+        known ? trim_report(s) : Expected<TrimReport>(std::unexpected(known.error()));
     if (!report) {
       info.unknown = report.error().message();
       continue;
@@ -95,8 +101,8 @@ Expected<std::string> checked_edges_json(const Session& session, std::size_t sur
     return angle ? std::optional(*angle * 180 / std::numbers::pi) : std::nullopt;
   };
   for (const EdgeCheck& e : *checks) {
-    infos.push_back({e.id, e.faces, e.gap, e.opened_gap, degrees(e.angle), degrees(e.opened_angle), e.curvature,
-                     e.opened_curvature, e.unknown});
+    infos.push_back({e.id, e.faces, e.gap, e.opened_gap, degrees(e.angle), degrees(e.opened_angle),
+                     e.curvature, e.opened_curvature, e.unknown});
   }
   return json_of(infos);
 }

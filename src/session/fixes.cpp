@@ -24,11 +24,19 @@ Command with(Field C::*field, Value&& value) {
 }
 
 Command held_by(HoldMode mode) { return with(&HoldCommand::mode, mode); }
-Command permitting(RefinePermission permission) { return with(&RefineCommand::permission, permission); }
-Command released(const char* what) { return with(&ReleaseCommand::what, std::vector<std::string>{what}); }
+Command permitting(RefinePermission permission) {
+  return with(&RefineCommand::permission, permission);
+}
+Command released(const char* what) {
+  return with(&ReleaseCommand::what, std::vector<std::string>{what});
+}
 Command selected(const std::string& surface) { return with(&SelectCommand::surface, surface); }
-Command selected_together(const std::vector<std::string>& ids) { return with(&SelectCommand::surfaces, ids); }
-Command converted(const std::vector<std::string>& surfaces) { return with(&ConvertCommand::surfaces, surfaces); }
+Command selected_together(const std::vector<std::string>& ids) {
+  return with(&SelectCommand::surfaces, ids);
+}
+Command converted(const std::vector<std::string>& surfaces) {
+  return with(&ConvertCommand::surfaces, surfaces);
+}
 
 Command without_seams() {
   SeamsCommand command;
@@ -48,7 +56,8 @@ std::vector<Fix> fixes_at_edges(ErrorCode code, const DiagnosticValues& v) {
   for (const std::string& id : v.edges) follow.push_back(let_edge(id, EdgeCondition::follow));
   switch (code) {
     case ErrorCode::step_folds_beside_edge:
-      if (v.hold == "follow") return {{FixCode::let_follow, {let_edge(edge, EdgeCondition::follow)}}};
+      if (v.hold == "follow")
+        return {{FixCode::let_follow, {let_edge(edge, EdgeCondition::follow)}}};
       return {{FixCode::let_go, {let_edge(edge, EdgeCondition::free)}}};
     case ErrorCode::edge_would_open:
     case ErrorCode::edge_would_turn:
@@ -58,13 +67,16 @@ std::vector<Fix> fixes_at_edges(ErrorCode code, const DiagnosticValues& v) {
     case ErrorCode::seam_would_open:
       return {{FixCode::let_part, {without_seams()}}};
     case ErrorCode::edges_unknown:
-      return {{FixCode::hold_rows, {make_command(HoldCommand{})}}, {FixCode::let_open, {held_by(HoldMode::free)}}};
+      return {{FixCode::hold_rows, {make_command(HoldCommand{})}},
+              {FixCode::let_open, {held_by(HoldMode::free)}}};
     case ErrorCode::edge_face_not_spline:
       if (v.others.empty()) return {};
       return {{FixCode::convert_and_follow,
-               {converted(v.others), selected_together(v.surfaces), let_edge(edge, EdgeCondition::follow)}}};
+               {converted(v.others), selected_together(v.surfaces),
+                let_edge(edge, EdgeCondition::follow)}}};
     case ErrorCode::edge_face_not_selected:
-      return {{FixCode::select_and_follow, {selected_together(v.surfaces), let_edge(edge, EdgeCondition::follow)}}};
+      return {{FixCode::select_and_follow,
+               {selected_together(v.surfaces), let_edge(edge, EdgeCondition::follow)}}};
     default:
       return {};
   }
@@ -96,13 +108,15 @@ std::vector<Fix> fixes_for(const Diagnostic& diagnostic) {
     case ErrorCode::step_not_finite:
       return {{FixCode::hold_rows, {make_command(HoldCommand{})}}};
     case ErrorCode::surface_loose:
-      return {{FixCode::hold_edges, {held_by(HoldMode::trim)}}, {FixCode::hold_rows, {make_command(HoldCommand{})}}};
+      return {{FixCode::hold_edges, {held_by(HoldMode::trim)}},
+              {FixCode::hold_rows, {make_command(HoldCommand{})}}};
     case ErrorCode::nothing_free:
     case ErrorCode::nothing_free_at_brush:
     case ErrorCode::constraint_contradicts:
       return {{FixCode::release_all, {make_command(ReleaseCommand{})}}};
     case ErrorCode::nothing_free_in_rows:
-      return {{FixCode::refine, {with(&RefineCommand::region, std::array{Fractions{0, 1}, Fractions{0, 1}})}},
+      return {{FixCode::refine,
+               {with(&RefineCommand::region, std::array{Fractions{0, 1}, Fractions{0, 1}})}},
               {FixCode::hold_nothing, {released("hold")}}};
     case ErrorCode::nothing_free_at_edges:
       if (v.permission != "never") return {};

@@ -35,8 +35,8 @@ struct EdgesInfo {
 };
 void describe(EdgesInfo& e, Fields& fields);
 
-/// The edges of the faces on every surface of a file that has moved: how far the surface is along each from where it
-/// was, as by `trim_report`.
+/// The edges of the faces on every surface of a file that has moved: how far the surface is along
+/// each from where it was, as by `trim_report`.
 [[nodiscard]] std::vector<EdgesInfo> edges_info(const Session& session);
 
 struct CheckedEdgeInfo {

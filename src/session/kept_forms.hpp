@@ -77,7 +77,9 @@ bool take_constraint(ConstraintOf<D>& constraint, CommandVariant& form) {
   if (made) constraint = *std::move(made);
   return made.has_value();
 }
-inline bool take(Constraint& constraint, CommandVariant& form) { return take_constraint<2>(constraint, form); }
+inline bool take(Constraint& constraint, CommandVariant& form) {
+  return take_constraint<2>(constraint, form);
+}
 template <int D>
 bool take(std::variant<SideHold, PointPinOf<D>>& constraint, CommandVariant& form) {
   return take_constraint<D>(constraint, form);
@@ -90,7 +92,9 @@ struct ForceForm {
 inline void describe(ForceForm& f, Fields& fields) {
   fields.add_all("command", f.command, "surface", f.surface, "body", f.body);
 }
-inline ForceForm form_of(const SceneForce& force) { return {restated(force), force.surface, force.body}; }
+inline ForceForm form_of(const SceneForce& force) {
+  return {restated(force), force.surface, force.body};
+}
 inline bool take(SceneForce& force, ForceForm& form) {
   auto made = force_of(form.command);
   if (made) force = {std::move(form.command.name), form.surface, form.body, *std::move(made)};
@@ -103,9 +107,12 @@ struct PlacedForm {
 };
 inline void describe(PlacedForm& p, Fields& fields) {
   fields.add_flat(p.shape);
-  fields.add_all("rotation", p.at.rotation.coeffs(), "position", p.at.position, "scale", p.at.scale);
+  fields.add_all("rotation", p.at.rotation.coeffs(), "position", p.at.position, "scale",
+                 p.at.scale);
 }
-inline PlacedForm form_of(const PlacedShape& placed) { return {placed.shape(), placed.placement()}; }
+inline PlacedForm form_of(const PlacedShape& placed) {
+  return {placed.shape(), placed.placement()};
+}
 inline bool take(PlacedShape& placed, PlacedForm& form) {
   auto made = PlacedShape::create(form.shape, form.at);
   if (made) placed = *std::move(made);
@@ -117,11 +124,13 @@ inline NoteInfo form_of(const Note& note) {
   return {note, note.diagnostic->code, values_of(*note.diagnostic), {}};
 }
 inline bool take(Note& note, NoteInfo& form) {
-  note = Note(std::move(form.text), {form.code, form.values ? named_values(*form.values) : std::vector<NamedValue>()});
+  note = Note(std::move(form.text),
+              {form.code, form.values ? named_values(*form.values) : std::vector<NamedValue>()});
   return true;
 }
 
-/// A type whose values are kept as those of another one: by `form_of` and `take`, or as its only member.
+/// A type whose values are kept as those of another one: by `form_of` and `take`, or as its only
+/// member.
 template <class T, class Form, bool finite = true>
 struct As {
   static std::shared_ptr<void> to(const void* v) {
@@ -141,7 +150,9 @@ struct As {
     }
     return true;
   }
-  static Type make() { return {.kind = Kind::opaque, .form = &type_of<Form>(), .to_form = to, .from_form = from}; }
+  static Type make() {
+    return {.kind = Kind::opaque, .form = &type_of<Form>(), .to_form = to, .from_form = from};
+  }
 };
 
 }  // namespace kept
@@ -158,9 +169,11 @@ inline Tool initial_of<Tool>() {
 namespace detail {
 
 template <int D>
-struct TypeMaker<std::variant<double, SplineField<D>>> : kept::As<Coefficient<D>, kept::CoefficientForm> {};
+struct TypeMaker<std::variant<double, SplineField<D>>>
+    : kept::As<Coefficient<D>, kept::CoefficientForm> {};
 template <>
-struct TypeMaker<std::optional<SplineField<2>>> : kept::As<std::optional<SplineField<2>>, kept::CoefficientForm> {};
+struct TypeMaker<std::optional<SplineField<2>>>
+    : kept::As<std::optional<SplineField<2>>, kept::CoefficientForm> {};
 template <class E>
 struct TypeMaker<std::set<E>> : kept::As<std::set<E>, std::vector<E>> {};
 template <>

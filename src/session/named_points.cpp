@@ -6,7 +6,8 @@ namespace knead {
 
 void describe(NamedPoints& points, Fields& fields) {
   fields.add("which", points.which,
-             {.help = "numbers i n + j of control points of the net m × n, from 0; one of these three, or several"});
+             {.help = "numbers i n + j of control points of the net m × n, from 0; one of these "
+                      "three, or several"});
   fields.add("rows_u", points.rows_u, {.help = "`[i, …]`: all control points (i, ·)"});
   fields.add("rows_v", points.rows_v, {.help = "`[j, …]`: all control points (·, j)"});
 }
@@ -20,8 +21,10 @@ Expected<std::vector<int>> indices_of(const NamedPoints& named, const std::array
     met[static_cast<std::size_t>(k)] = true;
     result.push_back(k);
   };
-  const auto missing = [](const char* what, int index, const char* where, std::size_t place, int count) {
-    return input_error(fmt::format("there is no {} {}", what, index), fmt::format("{}[{}]", where, place),
+  const auto missing = [](const char* what, int index, const char* where, std::size_t place,
+                          int count) {
+    return input_error(fmt::format("there is no {} {}", what, index),
+                       fmt::format("{}[{}]", where, place),
                        fmt::format("use numbers from 0 to {}", count - 1));
   };
   for (std::size_t k = 0; k < named.which.size(); ++k) {
@@ -40,7 +43,8 @@ Expected<std::vector<int>> indices_of(const NamedPoints& named, const std::array
     for (int i = 0; i < m; ++i) add(i * n + j);
   }
   if (!result.empty()) return result;
-  return input_error("no control points are named", "which", "give which, rows_u or rows_v, counted from 0");
+  return input_error("no control points are named", "which",
+                     "give which, rows_u or rows_v, counted from 0");
 }
 
 }  // namespace knead

@@ -17,7 +17,9 @@ namespace {
 
 constexpr std::size_t directions_of_volume = 3;
 
-std::string_view name_of(BodyForm form) { return choices(BodyForm{})[static_cast<std::size_t>(form)].name; }
+std::string_view name_of(BodyForm form) {
+  return choices(BodyForm{})[static_cast<std::size_t>(form)].name;
+}
 
 Expected<void> check_size(double control_points) {
   if (control_points <= static_cast<double>(max_net_size)) return {};
@@ -58,14 +60,17 @@ Expected<Points> given_points(const NewCommand& c, int count) {
   return points;
 }
 
-/// A helix about z from (radius, 0, 0), interpolated at the Greville abscissae, which is noted with its error: no NURBS
-/// is one.
-Expected<Curve> helix(const NewCommand& c, const KnotVector& knots, double radius, std::vector<std::string>& notes) {
+/// A helix about z from (radius, 0, 0), interpolated at the Greville abscissae, which is noted with
+/// its error: no NURBS is one.
+Expected<Curve> helix(const NewCommand& c, const KnotVector& knots, double radius,
+                      std::vector<std::string>& notes) {
   const double height = c.height.value_or(2 * radius), turns = c.turns.value_or(3);
-  if (!std::isfinite(height)) return input_error(fmt::format("{} is not a height", height), "height", "use a number");
+  if (!std::isfinite(height))
+    return input_error(fmt::format("{} is not a height", height), "height", "use a number");
   constexpr double most_turns = 1e4;
   if (!(turns > 0 && turns <= most_turns)) {
-    return input_error(fmt::format("{} turns", turns), "turns", "use a number from above 0 to 10000");
+    return input_error(fmt::format("{} turns", turns), "turns",
+                       "use a number from above 0 to 10000");
   }
   const Interval domain = knots.domain();
   const auto at = [&](double u) {
@@ -86,22 +91,26 @@ Expected<Curve> helix(const NewCommand& c, const KnotVector& knots, double radiu
   double error = 0;
   for (const int span : knots.spans()) {
     for (int k = 0; k <= samples; ++k) {
-      const double u = std::min(knots[span] + (knots[span + 1] - knots[span]) * k / samples, knots[span + 1]);
+      const double u =
+          std::min(knots[span] + (knots[span + 1] - knots[span]) * k / samples, knots[span + 1]);
       const auto point = evaluate_point<1>(*curve, {u});
       if (!point) return std::unexpected(point.error());
       error = std::max(error, (*point - at(u)).norm());
     }
   }
-  notes.push_back(fmt::format("the helix is met to {:.2g}, as no spline is one; a larger net meets it better", error));
+  notes.push_back(fmt::format(
+      "the helix is met to {:.2g}, as no spline is one; a larger net meets it better", error));
   return curve;
 }
 
 Expected<Curve> curve_of(const NewCommand& c, BodyForm form, std::vector<std::string>& notes) {
   const double radius = c.radius.value_or(0.5);
   if (auto checked = positive(radius, "radius"); !checked) return std::unexpected(checked.error());
-  if (!c.knots_v.empty()) return input_error("a curve has one direction", "knots_v", "leave it out");
+  if (!c.knots_v.empty())
+    return input_error("a curve has one direction", "knots_v", "leave it out");
   if (form == BodyForm::circle && c.points.empty()) {
-    if (!c.knots_u.empty()) return input_error("a circle has its own knots", "knots_u", "leave it out");
+    if (!c.knots_u.empty())
+      return input_error("a circle has its own knots", "knots_u", "leave it out");
     auto circle = circle_quarters({0, 0}, radius, 0, 4);
     if (!circle) return circle;
     Points points = circle->control_points();
@@ -115,7 +124,8 @@ Expected<Curve> curve_of(const NewCommand& c, BodyForm form, std::vector<std::st
   if (!c.points.empty()) {
     auto points = given_points(c, u.count());
     if (!points) return std::unexpected(points.error());
-    if (auto checked = check_weights(c.weights, u.count()); !checked) return std::unexpected(checked.error());
+    if (auto checked = check_weights(c.weights, u.count()); !checked)
+      return std::unexpected(checked.error());
     return Curve::create({u}, *std::move(points), c.weights);
   }
   const double length = c.size ? c.size->front() : 1;
@@ -125,14 +135,14 @@ Expected<Curve> curve_of(const NewCommand& c, BodyForm form, std::vector<std::st
   return Curve::create({u}, std::move(points));
 }
 
-/// A disc in z = 0 of one rational biquadratic piece times the height: the sides u0, u1, v0 and v1 are quarters of the
-/// cylinder. Its Jacobian vanishes on the four lines where they meet.
+/// A disc in z = 0 of one rational biquadratic piece times the height: the sides u0, u1, v0 and v1
+/// are quarters of the cylinder. Its Jacobian vanishes on the four lines where they meet.
 Expected<Volume> cylinder(const NewCommand& c, double radius) {
   const double height = c.height.value_or(2 * radius);
   if (auto checked = positive(height, "height"); !checked) return std::unexpected(checked.error());
   if (!c.knots_u.empty() || !c.knots_v.empty()) {
-    return input_error("a round volume has its own knots across", c.knots_u.empty() ? "knots_v" : "knots_u",
-                       "leave it out");
+    return input_error("a round volume has its own knots across",
+                       c.knots_u.empty() ? "knots_v" : "knots_u", "leave it out");
   }
   const auto along = knots_of(c, 2, in_direction(c.net, 2), "net");
   if (!along) return std::unexpected(along.error());
@@ -159,9 +169,11 @@ Expected<Volume> cylinder(const NewCommand& c, double radius) {
   for (std::size_t d = 0; d < 2; ++d) {
     const int spans = in_direction(c.net, d) - 2;
     if (spans < 1) {
-      return input_error(fmt::format("{} control points across", in_direction(c.net, d)), "net", "use 3 or more");
+      return input_error(fmt::format("{} control points across", in_direction(c.net, d)), "net",
+                         "use 3 or more");
     }
-    if (auto fits = check_size((spans + 2.0) * (spans + 2.0) * n); !fits) return std::unexpected(fits.error());
+    if (auto fits = check_size((spans + 2.0) * (spans + 2.0) * n); !fits)
+      return std::unexpected(fits.error());
     for (int k = 1; k < spans; ++k) inserted[d].push_back(static_cast<double>(k) / spans);
   }
   return insert_knots<3>(*disc, inserted);
@@ -179,7 +191,8 @@ Expected<Volume> volume_of(const NewCommand& c, BodyForm form) {
   if (!c.points.empty()) {
     auto points = given_points(c, count);
     if (!points) return std::unexpected(points.error());
-    if (auto checked = check_weights(c.weights, count); !checked) return std::unexpected(checked.error());
+    if (auto checked = check_weights(c.weights, count); !checked)
+      return std::unexpected(checked.error());
     return Volume::create({(*knots)[0], (*knots)[1], (*knots)[2]}, *std::move(points), c.weights);
   }
   std::vector<double> size = c.size.value_or(std::vector<double>{1});
@@ -189,8 +202,8 @@ Expected<Volume> volume_of(const NewCommand& c, BodyForm form) {
   }
   Points points(count, 3);
   for (int k = 0; k < count; ++k) {
-    points.row(k) << size[0] * fraction_of((*knots)[0], k / (m * n)), size[1] * fraction_of((*knots)[1], k / n % m),
-        size[2] * fraction_of((*knots)[2], k % n);
+    points.row(k) << size[0] * fraction_of((*knots)[0], k / (m * n)),
+        size[1] * fraction_of((*knots)[1], k / n % m), size[2] * fraction_of((*knots)[2], k % n);
   }
   return Volume::create({(*knots)[0], (*knots)[1], (*knots)[2]}, std::move(points));
 }
@@ -206,11 +219,12 @@ Expected<SceneBody> body_of(Expected<Spline<D>> made, const NewCommand& c, std::
 }  // namespace
 
 std::span<const Choice> choices(BodyForm) {
-  static constexpr Choice list[] = {{"line", BodyForm::line, "along x from the origin"},
-                                    {"circle", BodyForm::circle, "about the origin in z = 0, exact"},
-                                    {"helix", BodyForm::helix, "about z from z = 0, interpolated"},
-                                    {"box", BodyForm::box, "with a corner in the origin"},
-                                    {"cylinder", BodyForm::cylinder, "about z, from z = 0, filled"}};
+  static constexpr Choice list[] = {
+      {"line", BodyForm::line, "along x from the origin"},
+      {"circle", BodyForm::circle, "about the origin in z = 0, exact"},
+      {"helix", BodyForm::helix, "about z from z = 0, interpolated"},
+      {"box", BodyForm::box, "with a corner in the origin"},
+      {"cylinder", BodyForm::cylinder, "about z, from z = 0, filled"}};
   return list;
 }
 
@@ -222,30 +236,36 @@ Expected<void> positive(double value, const char* where) {
 Expected<void> check_weights(const std::vector<double>& weights, int count) {
   if (weights.empty()) return {};
   if (static_cast<int>(weights.size()) != count) {
-    return input_error(fmt::format("{} weights for {} control points", weights.size(), count), "weights",
-                       "give one for each, or none");
+    return input_error(fmt::format("{} weights for {} control points", weights.size(), count),
+                       "weights", "give one for each, or none");
   }
-  const auto bad = std::ranges::find_if(weights, [](double w) { return !(std::isfinite(w) && w > 0); });
+  const auto bad =
+      std::ranges::find_if(weights, [](double w) { return !(std::isfinite(w) && w > 0); });
   if (bad == weights.end()) return {};
-  return input_error(fmt::format("{} is not a weight", *bad), fmt::format("weights[{}]", bad - weights.begin()),
-                     "use finite numbers > 0");
+  return input_error(fmt::format("{} is not a weight", *bad),
+                     fmt::format("weights[{}]", bad - weights.begin()), "use finite numbers > 0");
 }
 
 Expected<void> check_counts(const NewCommand& c, std::size_t directions) {
   const auto check = [directions](std::size_t given, const char* field) -> Expected<void> {
     if (given == 1 || given == directions) return {};
-    return input_error(fmt::format("{} numbers for {} direction{}", given, directions, directions == 1 ? "" : "s"),
-                       field, directions == 1 ? "give one" : fmt::format("give {}, or one for all", directions));
+    return input_error(
+        fmt::format("{} numbers for {} direction{}", given, directions, directions == 1 ? "" : "s"),
+        field, directions == 1 ? "give one" : fmt::format("give {}, or one for all", directions));
   };
   if (auto done = check(c.degree.size(), "degree"); !done) return done;
   if (auto done = check(c.net.size(), "net"); !done) return done;
   return c.size ? check(c.size->size(), "size") : Expected<void>();
 }
 
-Expected<KnotVector> knots_of(const NewCommand& c, std::size_t d, int count, const char* counted_by) {
-  const std::vector<double> given = d == 0 ? c.knots_u : d == 1 ? c.knots_v : c.knots_w.value_or(std::vector<double>{});
+Expected<KnotVector> knots_of(const NewCommand& c, std::size_t d, int count,
+                              const char* counted_by) {
+  const std::vector<double> given = d == 0   ? c.knots_u
+                                    : d == 1 ? c.knots_v
+                                             : c.knots_w.value_or(std::vector<double>{});
   const int degree = in_direction(c.degree, d);
-  auto made = given.empty() ? KnotVector::clamped_uniform(degree, count) : KnotVector::create(degree, given);
+  auto made = given.empty() ? KnotVector::clamped_uniform(degree, count)
+                            : KnotVector::create(degree, given);
   static constexpr const char* names[] = {"knots_u", "knots_v", "knots_w"};
   if (!made) return std::unexpected(made.error().within(given.empty() ? counted_by : names[d]));
   return made;
@@ -265,9 +285,11 @@ Expected<SceneBody> new_body(const NewCommand& c, std::vector<std::string>& note
   if (auto counted = check_counts(c, curve ? 1 : directions_of_volume); !counted) {
     return std::unexpected(counted.error());
   }
-  if (curve && c.knots_w) return input_error("a curve has one direction", "knots_w", "leave it out");
+  if (curve && c.knots_w)
+    return input_error("a curve has one direction", "knots_w", "leave it out");
   if (!c.weights.empty() && c.points.empty()) {
-    return input_error(fmt::format("a {} has its own weights", name_of(form)), "weights", "leave them out");
+    return input_error(fmt::format("a {} has its own weights", name_of(form)), "weights",
+                       "leave them out");
   }
   if (curve) return body_of<1>(curve_of(c, form, notes), c, name_of(form));
   return body_of<3>(volume_of(c, form), c, name_of(form));

@@ -9,15 +9,17 @@ namespace knead {
 /// Error (input), named `where`: not a length above 0.
 [[nodiscard]] Expected<void> positive(double value, const char* where);
 
-/// Errors (input): not one positive weight for each of `count` control points; none at all is right.
+/// Errors (input): not one positive weight for each of `count` control points; none at all is
+/// right.
 [[nodiscard]] Expected<void> check_weights(const std::vector<double>& weights, int count);
 
 /// Errors (input): `degree`, `net` or `size` has neither one number nor one for each direction.
 [[nodiscard]] Expected<void> check_counts(const NewCommand& c, std::size_t directions);
 
-/// The knots of one direction, as given, or clamped and uniform with `count` functions. Errors name the field, or
-/// `counted_by`.
-[[nodiscard]] Expected<KnotVector> knots_of(const NewCommand& c, std::size_t d, int count, const char* counted_by);
+/// The knots of one direction, as given, or clamped and uniform with `count` functions. Errors name
+/// the field, or `counted_by`.
+[[nodiscard]] Expected<KnotVector> knots_of(const NewCommand& c, std::size_t d, int count,
+                                            const char* counted_by);
 
 /// The spline with its origin at `position`; bits are unchanged where that is zero.
 template <int D>
@@ -29,9 +31,12 @@ template <int D>
 }
 
 /// Whether the command makes a curve or a volume.
-[[nodiscard]] inline bool makes_body(const NewCommand& c) { return c.shape == "curve" || c.shape == "volume"; }
+[[nodiscard]] inline bool makes_body(const NewCommand& c) {
+  return c.shape == "curve" || c.shape == "volume";
+}
 
-/// The curve or volume of the command, named by its form. What is not exact is noted with its error.
+/// The curve or volume of the command, named by its form. What is not exact is noted with its
+/// error.
 [[nodiscard]] Expected<SceneBody> new_body(const NewCommand& c, std::vector<std::string>& notes);
 
 }  // namespace knead

@@ -10,14 +10,19 @@ namespace knead {
 void describe_measures(ReadingInfo& r, Fields& fields) {
   fields.add("at", r.at, {.unit = Unit::fraction});
   fields.add("point", r.point, {.unit = Unit::length});
-  fields.add("displacement", r.displacement, {.help = "from the surface as opened", .unit = Unit::length});
+  fields.add("displacement", r.displacement,
+             {.help = "from the surface as opened", .unit = Unit::length});
   fields.add("normal", r.normal, {.help = "of length 1; zero where there is none"});
-  fields.add("curvature", r.curvature, {.help = "the principal ones, the larger first; null where there is no normal"});
+  fields.add("curvature", r.curvature,
+             {.help = "the principal ones, the larger first; null where there is no normal"});
   fields.add("von_mises", r.von_mises,
-             {.help = "of shells: on the face that the normal leaves, and on the other", .omit_empty = true});
-  fields.add("membrane", r.membrane,
-             {.help = "of shells: principal forces per length, the larger first", .omit_empty = true});
-  fields.add("moment", r.moment, {.help = "of shells: principal bending moments per length", .omit_empty = true});
+             {.help = "of shells: on the face that the normal leaves, and on the other",
+              .omit_empty = true});
+  fields.add(
+      "membrane", r.membrane,
+      {.help = "of shells: principal forces per length, the larger first", .omit_empty = true});
+  fields.add("moment", r.moment,
+             {.help = "of shells: principal bending moments per length", .omit_empty = true});
   fields.add("bending_strain", r.bending_strain,
              {.help = "of shells: the largest strain that bending adds", .omit_empty = true});
 }
@@ -25,7 +30,8 @@ void describe_measures(ReadingInfo& r, Fields& fields) {
 void describe(ReadingInfo& r, Fields& fields) {
   fields.name("reading info", "What is measured at a point of a surface.");
   fields.add("name", r.name);
-  fields.add("surface", r.surface, {.help = "its number; -1 of a face on no surface of the session"});
+  fields.add("surface", r.surface,
+             {.help = "its number; -1 of a face on no surface of the session"});
   describe_measures(r, fields);
 }
 
@@ -60,13 +66,15 @@ std::vector<ReadingInfo> readings_of(const Scene& scene) {
   return result;
 }
 
-Expected<std::string> reading_json(const Session& session, int surface, const std::array<double, 2>& at) {
+Expected<std::string> reading_json(const Session& session, int surface,
+                                   const std::array<double, 2>& at) {
   const auto reading = reading_of(session.state(), Probe{"measurements", "", surface, at});
   if (!reading) return std::unexpected(reading.error());
   return json_of(*reading);
 }
 
-Expected<std::string> face_reading_json(const Session& session, const std::string& face, const Point& near) {
+Expected<std::string> face_reading_json(const Session& session, const std::string& face,
+                                        const Point& near) {
   const brep::Model* model = session.document().model();
   if (model == nullptr) return input_error("the document has no faces", face);
   const auto found = point_on_face(*model, face, near);

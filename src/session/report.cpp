@@ -23,16 +23,19 @@ bool frees_edges(const SessionState& state) {
   const auto frees = [](const KeptConstraint& kept) {
     const auto* all = std::get_if<TrimHolds>(&kept.constraint);
     const auto* edge = std::get_if<TrimEdgeHold>(&kept.constraint);
-    return (all != nullptr && all->order < 0) || (edge != nullptr && edge->order < 0 && !edge->follow);
+    return (all != nullptr && all->order < 0) ||
+           (edge != nullptr && edge->order < 0 && !edge->follow);
   };
-  return std::ranges::any_of(state.surfaces,
-                             [&](const SceneSurface& s) { return std::ranges::any_of(s.constraints, frees); });
+  return std::ranges::any_of(state.surfaces, [&](const SceneSurface& s) {
+    return std::ranges::any_of(s.constraints, frees);
+  });
 }
 
 /// Notes on the edges that were freed and are open. If they cannot be known, `save` says why.
 std::vector<std::string> notes_on_open_edges(const Session& session) {
   std::vector<std::string> notes;
-  const auto parted = frees_edges(session.state()) ? session.parted_edges() : Expected<std::vector<PartedEdge>>();
+  const auto parted =
+      frees_edges(session.state()) ? session.parted_edges() : Expected<std::vector<PartedEdge>>();
   for (const PartedEdge& edge : parted.value_or(std::vector<PartedEdge>())) {
     if (edge.freed) notes.push_back(note_on(edge));
   }
@@ -46,20 +49,24 @@ std::vector<RepeatedSurface> repeated_surfaces(const Session& session) {
   const auto& surfaces = session.state().surfaces;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const brep::Part* part = model->assembly->part_of(surfaces[k].id);
-    if (part == nullptr || part->places.size() < 2 || session.moved_control_points(static_cast<int>(k)) == 0) continue;
+    if (part == nullptr || part->places.size() < 2 ||
+        session.moved_control_points(static_cast<int>(k)) == 0)
+      continue;
     result.push_back({surfaces[k].id, part->name, static_cast<int>(part->places.size())});
   }
   return result;
 }
 
-/// The shapes of modes on the control points of one selected surface, which begin at a row of theirs.
+/// The shapes of modes on the control points of one selected surface, which begin at a row of
+/// theirs.
 std::vector<std::pair<std::string, Points>> shapes_on(const SessionState& state, Eigen::Index first,
                                                       Eigen::Index count) {
   std::vector<std::pair<std::string, Points>> shapes;
   const auto append = [&](const char* name, const std::vector<ModeRecord>& modes) {
     for (std::size_t k = 0; k < modes.size(); ++k) {
       if (modes[k].shape.rows() < first + count) continue;  // of another selection, or another net
-      shapes.emplace_back(fmt::format("{}_{}", name, k + 1), modes[k].shape.middleRows(first, count));
+      shapes.emplace_back(fmt::format("{}_{}", name, k + 1),
+                          modes[k].shape.middleRows(first, count));
     }
   };
   append("mode", state.modes);
@@ -72,10 +79,12 @@ std::string_view hold_of(const TrimReport::Edge& edge) {
   return edge.follows ? "follow" : names[edge.held.order + 1];
 }
 
-/// The angles between the tangent planes at an edge that follows and was smooth as opened; none for other edges.
+/// The angles between the tangent planes at an edge that follows and was smooth as opened; none for
+/// other edges.
 std::optional<Parting> angles_at(const SessionState& state, const std::string& edge) {
   const auto found = std::ranges::find(state.followed, edge, &FollowedEdge::id);
-  if (found == state.followed.end() || !found->course || !is_smooth(*found->course)) return std::nullopt;
+  if (found == state.followed.end() || !found->course || !is_smooth(*found->course))
+    return std::nullopt;
   const auto measured = parting(state, *found->course);
   return measured ? std::optional(*measured) : std::nullopt;
 }
@@ -110,7 +119,8 @@ Outcome outcome_of(Session& session, std::size_t opened) {
     if (moved > 0 || converted) ++o.surfaces;
     if (moved == 0) continue;
     o.moved += moved;
-    o.largest_displacement = std::max(o.largest_displacement, session.largest_displacement(static_cast<int>(k)));
+    o.largest_displacement =
+        std::max(o.largest_displacement, session.largest_displacement(static_cast<int>(k)));
   }
   for (const SceneBody& body : state.bodies) {
     const int moved = moved_control_points(body);
@@ -138,8 +148,9 @@ std::vector<EdgesReport> report_edges(const Session& session) {
     report.samples = trims->samples;
     report.largest_gap = trims->largest;
     for (const TrimReport::Edge& edge : trims->edges) {
-      report.edges.push_back({edge.held.id, hold_of(edge), edge.held.order >= 0, edge.held.along_lines,
-                              edge.held.points, edge.deviation, edge.neighbours});
+      report.edges.push_back({edge.held.id, hold_of(edge), edge.held.order >= 0,
+                              edge.held.along_lines, edge.held.points, edge.deviation,
+                              edge.neighbours});
     }
   }
   return list;
@@ -157,7 +168,8 @@ std::vector<FollowedReport> report_followed(const Session& session) {
 std::vector<SeamSummary> report_seams(const Session& session) {
   const SessionState& state = session.state();
   const auto side = [&](const PatchEdge& edge) {
-    return fmt::format("{} {}", state.surfaces[static_cast<std::size_t>(edge.patch)].id, edge_name(edge.edge));
+    return fmt::format("{} {}", state.surfaces[static_cast<std::size_t>(edge.patch)].id,
+                       edge_name(edge.edge));
   };
   std::vector<SeamSummary> list;
   for (const SeamReport& s : state.seam_reports) {
@@ -172,7 +184,8 @@ std::optional<BodyReport> report_body(const Session& session) {
   if (!state.body) return std::nullopt;
   const SceneBody& body = state.bodies[static_cast<std::size_t>(*state.body)];
   const ShapeCommon& common = common_of(body);
-  return BodyReport{kind_of(body), common.id, common.name, common.unit, degrees_of(body), net_of(body)};
+  return BodyReport{kind_of(body), common.id,        common.name,
+                    common.unit,   degrees_of(body), net_of(body)};
 }
 
 std::optional<ShellMaterial> shell_of(const Session& session, int surface) {

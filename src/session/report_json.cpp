@@ -21,8 +21,9 @@ struct ReportedStep {
 static void describe(ReportedStep& s, Fields& fields) { describe_figures(s.step, fields); }
 
 static void describe(Outcome& o, Fields& fields) {
-  fields.add_all("time", o.time, "energy_before", o.energy_before, "energy_after", o.energy_after, "residual",
-                 o.residual, "largest_displacement", o.largest_displacement, "control_points_moved", o.moved);
+  fields.add_all("time", o.time, "energy_before", o.energy_before, "energy_after", o.energy_after,
+                 "residual", o.residual, "largest_displacement", o.largest_displacement,
+                 "control_points_moved", o.moved);
 }
 
 static void describe(RepeatedSurface& r, Fields& fields) {
@@ -38,8 +39,9 @@ struct ReportedEdge {
   std::optional<double> angle = {}, angle_before = {};
 };
 static void describe(ReportedEdge& e, Fields& fields) {
-  fields.add_all("id", e.id, "hold", e.hold, "along_lines", e.along_lines, "control_points", e.control_points,
-                 "deviation", e.deviation, "faces", e.faces, "angle", e.angle, "angle_before", e.angle_before);
+  fields.add_all("id", e.id, "hold", e.hold, "along_lines", e.along_lines, "control_points",
+                 e.control_points, "deviation", e.deviation, "faces", e.faces, "angle", e.angle,
+                 "angle_before", e.angle_before);
 }
 
 struct ReportedEdges {
@@ -51,8 +53,8 @@ struct ReportedEdges {
   std::vector<ReportedEdge> edges = {};
 };
 static void describe(ReportedEdges& e, Fields& fields) {
-  fields.add_all("surface", e.surface, "net", e.net, "free", e.free, "visible", e.visible, "largest_gap", e.largest_gap,
-                 "samples", e.samples, "edges", e.edges);
+  fields.add_all("surface", e.surface, "net", e.net, "free", e.free, "visible", e.visible,
+                 "largest_gap", e.largest_gap, "samples", e.samples, "edges", e.edges);
 }
 
 static void describe(SeamSummary& s, Fields& fields) {
@@ -68,7 +70,9 @@ static void describe(ReportedProbe& p, Fields& fields) {
   describe_measures(p.reading, fields);
 }
 
-static void describe(HoldReaction& r, Fields& fields) { fields.add_all("hold", r.hold, "force", r.force); }
+static void describe(HoldReaction& r, Fields& fields) {
+  fields.add_all("hold", r.hold, "force", r.force);
+}
 
 namespace {
 
@@ -96,10 +100,11 @@ std::vector<ReportedEdges> reported_edges(const Session& session) {
   const std::vector<FollowedReport> followed = report_followed(session);
   for (const EdgesReport& r : report_edges(session)) {
     const std::string& id = session.state().surfaces[static_cast<std::size_t>(r.surface)].id;
-    ReportedEdges& info = list.emplace_back(ReportedEdges{id, r.net, r.free, r.visible, r.largest_gap, r.samples});
+    ReportedEdges& info =
+        list.emplace_back(ReportedEdges{id, r.net, r.free, r.visible, r.largest_gap, r.samples});
     for (const EdgeReport& edge : r.edges) {
-      info.edges.push_back(
-          {edge.id, std::string(edge.hold), edge.along_lines, edge.control_points, edge.deviation, edge.faces});
+      info.edges.push_back({edge.id, std::string(edge.hold), edge.along_lines, edge.control_points,
+                            edge.deviation, edge.faces});
       const auto angles = std::ranges::find(followed, edge.id, &FollowedReport::id);
       if (edge.hold != "follow" || angles == followed.end()) continue;
       info.edges.back().angle = angles->angle * degrees;
@@ -124,15 +129,18 @@ Expected<std::string> report_json(const Session& session, const Outcome& outcome
   for (const Probe& probe : state.probes) {
     auto reading = reading_of(state, probe);
     if (!reading) return std::unexpected(reading.error());
-    probes[probe.list].push_back({state.surfaces[static_cast<std::size_t>(probe.surface)].id, *std::move(reading)});
+    probes[probe.list].push_back(
+        {state.surfaces[static_cast<std::size_t>(probe.surface)].id, *std::move(reading)});
   }
   const std::vector<ReportedEdges> edges = reported_edges(session);
   std::string text = "{\"steps\":" + rows(steps) + ",\n" + json_of(outcome).substr(1);
   text.back() = ',';  // the outcome's figures stand among the others
+  text += "\n\"edges\":" + to_json(type_of<std::vector<ReportedEdges>>(), &edges, Absent::left_out,
+                                   shortest_json_number);
   text +=
-      "\n\"edges\":" + to_json(type_of<std::vector<ReportedEdges>>(), &edges, Absent::left_out, shortest_json_number);
-  text += ",\n\"places\":" + json_of(outcome.places) + ",\n\"seams\":" + rows(report_seams(session));
-  text += ",\n\"notes\":" + rows(notes) + rows_unless_empty("coded_notes", coded) + modes_json(state);
+      ",\n\"places\":" + json_of(outcome.places) + ",\n\"seams\":" + rows(report_seams(session));
+  text +=
+      ",\n\"notes\":" + rows(notes) + rows_unless_empty("coded_notes", coded) + modes_json(state);
   for (const auto& [name, readings] : probes) text += rows_unless_empty(name, readings);
   return text + "}\n";
 }
@@ -141,14 +149,17 @@ Expected<std::string> analysis_json(const Session& session, std::span<const Fiel
   const SessionState& state = session.state();
   std::string text;
   for (const FieldGrid& grid : grids) {
-    text += fmt::format("{}\n {{\"id\":{},\"counts\":{},\n  \"points\":{}", text.empty() ? "" : ",",
-                        json_text(grid.name), json_of(grid.counts),
-                        json_of(std::vector<double>(grid.points.data(), grid.points.data() + grid.points.size())));
-    for (const GridField& field : grid.fields) text += fmt::format(",\n  \"{}\":{}", field.name, json_of(field.values));
+    text += fmt::format(
+        "{}\n {{\"id\":{},\"counts\":{},\n  \"points\":{}", text.empty() ? "" : ",",
+        json_text(grid.name), json_of(grid.counts),
+        json_of(std::vector<double>(grid.points.data(), grid.points.data() + grid.points.size())));
+    for (const GridField& field : grid.fields)
+      text += fmt::format(",\n  \"{}\":{}", field.name, json_of(field.values));
     text += "}";
   }
   text = "{\"surfaces\":[" + text + "]";
-  if (state.selected && is_nonlinear(state.surfaces[static_cast<std::size_t>(*state.selected)].elasticity)) {
+  if (state.selected &&
+      is_nonlinear(state.surfaces[static_cast<std::size_t>(*state.selected)].elasticity)) {
     const auto reactions = hold_reactions(state);
     if (!reactions) return std::unexpected(reactions.error());
     text += ",\n\"reactions\":" + rows(*reactions);

@@ -9,7 +9,9 @@ namespace knead {
 namespace {
 
 /// All edges in the order of `SurfaceEdge`, after `SideChoice::all`.
-SideChoice choice_of(SurfaceEdge edge) { return static_cast<SideChoice>(static_cast<int>(edge) + 1); }
+SideChoice choice_of(SurfaceEdge edge) {
+  return static_cast<SideChoice>(static_cast<int>(edge) + 1);
+}
 
 std::optional<MirrorPlane> plane_given(const SymmetryCommand& c) {
   if (!c.point || !c.normal) return std::nullopt;
@@ -18,16 +20,18 @@ std::optional<MirrorPlane> plane_given(const SymmetryCommand& c) {
 
 struct Restate {
   Command operator()(const EdgeHold& c) const {
-    return make_command(
-        EdgeCommand{choice_of(c.edge), static_cast<EdgeCondition>(c.order), {}, components_text(c.components)});
+    return make_command(EdgeCommand{
+        choice_of(c.edge), static_cast<EdgeCondition>(c.order), {}, components_text(c.components)});
   }
   Command operator()(const SideHold& c) const {
     const auto which = static_cast<SideChoice>(1 + 2 * c.side.direction + (c.side.upper ? 1 : 0));
-    return make_command(EdgeCommand{which, static_cast<EdgeCondition>(c.order), {}, components_text(c.components)});
+    return make_command(
+        EdgeCommand{which, static_cast<EdgeCondition>(c.order), {}, components_text(c.components)});
   }
   Command operator()(const TrimHolds& c) const {
     HoldCommand hold;
-    hold.mode = c.order < 0 ? HoldMode::free : static_cast<HoldMode>(static_cast<int>(HoldMode::trim) + c.order);
+    hold.mode = c.order < 0 ? HoldMode::free
+                            : static_cast<HoldMode>(static_cast<int>(HoldMode::trim) + c.order);
     return make_command(hold);
   }
   Command operator()(const TrimEdgeHold& c) const {
@@ -80,7 +84,8 @@ template <int D>
 std::optional<ConstraintOf<D>> hold_of(const Command& command) {
   if (const auto* c = fields_of<EdgeCommand>(command)) {
     const auto components = components_of(c->components);
-    if (c->edge || c->which == SideChoice::all || c->hold > EdgeCondition::curvature || !components) {
+    if (c->edge || c->which == SideChoice::all || c->hold > EdgeCondition::curvature ||
+        !components) {
       return std::nullopt;
     }
     return side_hold(*c, *components, std::variant_alternative_t<0, ConstraintOf<D>>());
@@ -119,7 +124,8 @@ std::optional<Constraint> constraint_of<2>(const Command& command) {
   if (const auto* c = fields_of<EdgeCommand>(command)) {
     if (c->edge) {
       const bool held = c->hold <= EdgeCondition::curvature;
-      return TrimEdgeHold{*c->edge, held ? static_cast<int>(c->hold) : -1, !held && c->hold != EdgeCondition::open};
+      return TrimEdgeHold{*c->edge, held ? static_cast<int>(c->hold) : -1,
+                          !held && c->hold != EdgeCondition::open};
     }
   }
   if (const auto* c = fields_of<HoldCommand>(command)) {

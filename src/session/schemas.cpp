@@ -13,8 +13,9 @@ struct ScriptForm {
 
 static void describe(ScriptForm& s, Fields& fields) {
   fields.name("script", "The commands of a session.");
-  fields.add("knead", s.version,
-             {.help = "the version of the form", .range = between(2, 2), .presence = Presence::required});
+  fields.add(
+      "knead", s.version,
+      {.help = "the version of the form", .range = between(2, 2), .presence = Presence::required});
   fields.add("commands", s.commands, {.help = "run in order", .presence = Presence::required});
 }
 
@@ -24,7 +25,8 @@ struct SourceForm {
 };
 
 std::span<const Choice> choices(SourceForm::Kind) {
-  static constexpr Choice list[] = {{"step", SourceForm::Kind::step}, {"rhino", SourceForm::Kind::rhino}};
+  static constexpr Choice list[] = {{"step", SourceForm::Kind::step},
+                                    {"rhino", SourceForm::Kind::rhino}};
   return list;
 }
 
@@ -45,8 +47,9 @@ struct DocumentForm {
 
 static void describe(DocumentForm& d, Fields& fields) {
   fields.name("document", "A session with the file that it began with.");
-  fields.add("knead", d.version,
-             {.help = "the version of the form", .range = between(3, 3), .presence = Presence::required});
+  fields.add(
+      "knead", d.version,
+      {.help = "the version of the form", .range = between(3, 3), .presence = Presence::required});
   fields.add("name", d.name, {.help = "what the studio calls it"});
   fields.add("source", d.source, {.help = "left out: the session began without a file"});
   fields.add("commands", d.commands, {.help = "run in order", .presence = Presence::required});
@@ -54,7 +57,8 @@ static void describe(DocumentForm& d, Fields& fields) {
 }
 
 static std::string whole_schema(const Type& type) {
-  return R"({"$schema":"https://json-schema.org/draft/2020-12/schema",)" + schema_of(type).substr(1) + "\n";
+  return R"({"$schema":"https://json-schema.org/draft/2020-12/schema",)" +
+         schema_of(type).substr(1) + "\n";
 }
 
 std::string script_schema() { return whole_schema(type_of<ScriptForm>()); }

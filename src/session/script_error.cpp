@@ -38,8 +38,10 @@ Error error_of_script(Error error, std::string_view text, const std::string& scr
   return error;
 }
 
-Error error_at_command(Error error, const Document& document, const std::string& script, std::optional<std::size_t> k) {
-  if (error.file.empty() && error.where.starts_with('#') && !document.is_fresh()) error.file = document.name();
+Error error_at_command(Error error, const Document& document, const std::string& script,
+                       std::optional<std::size_t> k) {
+  if (error.file.empty() && error.where.starts_with('#') && !document.is_fresh())
+    error.file = document.name();
   if (!error.file.empty() && error.file != script) {
     const std::string line = error.line > 0 ? fmt::format(":{}", error.line) : "";
     error.where = error.file + line + (error.where.empty() ? "" : ": " + error.where);

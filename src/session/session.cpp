@@ -26,7 +26,8 @@ namespace knead {
 
 struct Session::ModelCache : ActCache {};
 
-Session::Session(Document document) : document_(std::move(document)), cache_(std::make_unique<ModelCache>()) {
+Session::Session(Document document)
+    : document_(std::move(document)), cache_(std::make_unique<ModelCache>()) {
   auto state = std::make_shared<SessionState>();
   for (const DocumentSurface& s : document_.surfaces()) {
     state->surfaces.push_back(untouched<2>(s.id, s.name, s.unit, s.surface));
@@ -47,12 +48,16 @@ namespace {
 
 /// Whether a command reports on the session and leaves the history as it is.
 bool only_looks(const Command& command) {
-  return fields_of<ModesCommand>(command) != nullptr || fields_of<BucklingCommand>(command) != nullptr;
+  return fields_of<ModesCommand>(command) != nullptr ||
+         fields_of<BucklingCommand>(command) != nullptr;
 }
 
-/// Whether surfaces move only as a model lets them, which keeps what holds them: nothing need be measured.
+/// Whether surfaces move only as a model lets them, which keeps what holds them: nothing need be
+/// measured.
 bool moves_a_model(const Command& command) {
-  const auto any_of = [&]<class... C>(std::type_identity<C>...) { return ((fields_of<C>(command) != nullptr) || ...); };
+  const auto any_of = [&]<class... C>(std::type_identity<C>...) {
+    return ((fields_of<C>(command) != nullptr) || ...);
+  };
   return any_of(std::type_identity<StepCommand>(), std::type_identity<EvolveCommand>(),
                 std::type_identity<DragCommand>(), std::type_identity<StrokeCommand>(),
                 std::type_identity<BrushCommand>(), std::type_identity<RelaxCommand>());
@@ -63,17 +68,19 @@ template <class C>
 Expected<void> apply(const C& command, Act& act) {
   const SceneBody* const chosen = target_of<C>() == ActsOn::surfaces ? body(act) : nullptr;
   if (chosen == nullptr) return execute(command, act);
-  return input_error(
-      fmt::format("this command acts on surfaces, and the {} {} is selected", kind_of(*chosen), common_of(*chosen).id),
-      std::string(type_of<C>().name), "select a surface first");
+  return input_error(fmt::format("this command acts on surfaces, and the {} {} is selected",
+                                 kind_of(*chosen), common_of(*chosen).id),
+                     std::string(type_of<C>().name), "select a surface first");
 }
 
 }  // namespace
 
-Expected<void> Session::execute(const Command& command, const Progress& progress, const GoOn& go_on) {
+Expected<void> Session::execute(const Command& command, const Progress& progress,
+                                const GoOn& go_on) {
   const Interruption interruption(go_on);
   auto done = carry_out(command, progress);
-  // What a command asks for is input, also where the function that refuses it takes it as an argument.
+  // What a command asks for is input, also where the function that refuses it takes it as an
+  // argument.
   if (!done && done.error().kind == ErrorKind::usage) done.error().kind = ErrorKind::input;
   if (done || !interruption.happened()) return done;
   *cache_ = {};
@@ -154,102 +161,9 @@ Expected<void> Session::rehearse(std::span<const Command> commands, const GoOn& 
 
 std::vector<Command> Session::journal() const {
   std::vector<Command> commands = earlier_;
-  for (std::size_t k = 0; k < position_; ++k) commands.insert(commands.end(), entries_[k].begin(), entries_[k].end());
+  for (std::size_t k = 0; k < position_; ++k)
+    commands.insert(commands.end(), entries_[k].begin(), entries_[k].end());
   return commands;
-}
-
-namespace {
-
-/// Whether the second stroke continues the first, so that one stroke along both paths is equivalent.
-bool goes_on(const StrokeCommand& first, const StrokeCommand& second) {
-  return first.open.value_or(false) && first.tool == second.tool && first.relative == second.relative &&
-         first.plasticity == second.plasticity && first.steps == second.steps && first.plastic == second.plastic;
-}
-
-/// The same for a brush: all but the path and what a hand changes as it goes is the same.
-bool goes_on(const BrushCommand& first, const BrushCommand& second) {
-  BrushCommand like = second;
-  like.path = first.path;
-  like.surface = first.surface;
-  like.surfaces = first.surfaces;
-  like.pressure = first.pressure;
-  like.tilt = first.tilt;
-  like.open = first.open;
-  like.allow = first.allow;
-  like.by = first.by;
-  like.angle = first.angle;
-  like.factor = first.factor;
-  return first.open.value_or(false) && like == first;
-}
-
-/// The surface of each point of the path of a brush.
-std::vector<std::string> surfaces_of(const BrushCommand& c, const Scene& scene) {
-  if (!c.surfaces.empty()) return c.surfaces;
-  return {c.path.size(), c.surface.value_or(scene.surfaces[static_cast<std::size_t>(*scene.selected)].id)};
-}
-
-/// Puts the path of one command before that of the one that goes on with it.
-void prepend(const StrokeCommand& first, const Scene&, StrokeCommand& both) {
-  both.path.insert(both.path.begin(), first.path.begin(), first.path.end());
-}
-void prepend(const BrushCommand& first, const Scene& scene, BrushCommand& both) {
-  const auto one_after_the_other = [&]<class T>(std::vector<T> before, std::vector<T>& after, const T& without) {
-    if (before.empty() && after.empty()) return;
-    before.resize(first.path.size(), without);
-    after.resize(both.path.size(), without);
-    after.insert(after.begin(), before.begin(), before.end());
-  };
-  one_after_the_other(first.pressure, both.pressure, 1.0);
-  one_after_the_other(first.tilt, both.tilt, Vector3{});
-  if (first.surface != both.surface || !first.surfaces.empty() || !both.surfaces.empty()) {
-    std::vector<std::string> surfaces = surfaces_of(first, scene), more = surfaces_of(both, scene);
-    surfaces.insert(surfaces.end(), more.begin(), more.end());
-    both.surface.reset();
-    both.surfaces = std::move(surfaces);
-  }
-  both.path.insert(both.path.begin(), first.path.begin(), first.path.end());
-}
-
-/// One command for two where the second goes on with the first.
-template <class C>
-std::optional<C> one_of(const Command& first, const Command& second, const Scene& scene) {
-  const C* const down = fields_of<C>(first);
-  const C* const on = fields_of<C>(second);
-  if (down == nullptr || on == nullptr || !goes_on(*down, *on)) return std::nullopt;
-  C both = *on;
-  prepend(*down, scene, both);
-  return both;
-}
-
-}  // namespace
-
-void Session::join() {
-  if (position_ < floor_ + 2 || can_redo()) return;
-  std::vector<Command> last = std::move(entries_.back());
-  entries_.pop_back();
-  std::vector<Command>& entry = entries_.back();
-  auto first = last.begin();
-  const auto* before = fields_of<StepCommand>(entry.back());
-  const auto* after = fields_of<StepCommand>(*first);
-  if (before && after && before->lambda == after->lambda && before->weight == after->weight &&
-      before->allow == after->allow && before->count <= std::numeric_limits<int>::max() - after->count) {
-    StepCommand both = *before;
-    both.count += after->count;
-    entry.back() = make_command(both);
-    ++first;
-  }
-  if (first != last.end()) {
-    if (const auto stroke = one_of<StrokeCommand>(entry.back(), *first, state())) {
-      entry.back() = make_command(*stroke);
-      ++first;
-    } else if (const auto brush = one_of<BrushCommand>(entry.back(), *first, state())) {
-      entry.back() = make_command(*brush);
-      ++first;
-    }
-  }
-  entry.insert(entry.end(), first, last.end());
-  states_.erase(states_.end() - 2);
-  --position_;
 }
 
 void Session::know_faces() {
@@ -275,7 +189,11 @@ void Session::know_faces() {
         // If they cannot be followed the next step says so.
         if (!regions) regions.emplace(document);
         auto region = regions->of(s.id);
-        found = known.emplace(s.id, region ? std::make_shared<const VisibleRegion>(std::move(*region)) : nullptr).first;
+        found =
+            known
+                .emplace(s.id, region ? std::make_shared<const VisibleRegion>(std::move(*region))
+                                      : nullptr)
+                .first;
       }
       s.visible = found->second;
     }
@@ -284,7 +202,10 @@ void Session::know_faces() {
       if (found == courses.end()) {
         auto course = SharedEdge::create(*model, edge.id);
         found =
-            courses.emplace(edge.id, course ? std::make_shared<const SharedEdge>(std::move(*course)) : nullptr).first;
+            courses
+                .emplace(edge.id,
+                         course ? std::make_shared<const SharedEdge>(std::move(*course)) : nullptr)
+                .first;
       }
       edge.course = found->second;
     }
@@ -298,8 +219,8 @@ namespace {
 bool is_at_rest(const Scene& scene) {
   const auto rests = [](const auto& s) { return s.mode == RestMode::shape && s.current == s.rest; };
   if (scene.body) return std::visit(rests, scene.bodies[static_cast<std::size_t>(*scene.body)]);
-  return std::ranges::all_of(scene.selection(),
-                             [&](int k) { return rests(scene.surfaces[static_cast<std::size_t>(k)]); });
+  return std::ranges::all_of(
+      scene.selection(), [&](int k) { return rests(scene.surfaces[static_cast<std::size_t>(k)]); });
 }
 
 }  // namespace
@@ -307,7 +228,8 @@ bool is_at_rest(const Scene& scene) {
 Expected<double> Session::energy() {
   const Scene& scene = state();
   if (is_at_rest(scene)) return 0;  // even if no model can be made
-  if (const Model* model = cache_->models.measuring(scene)) return model->energy(active_state(scene));
+  if (const Model* model = cache_->models.measuring(scene))
+    return model->energy(active_state(scene));
   const auto made = model_of(scene, trial_evolution());
   if (!made) return std::unexpected(made.error());
   return (*made)->energy(active_state(scene));
@@ -335,8 +257,8 @@ int Session::moved_control_points(int surface) const {
 
 namespace {
 
-/// Whether a surface is that of the file but for the rounding of knots that were inserted and removed again: it stands
-/// as it was opened, on the knots of the file.
+/// Whether a surface is that of the file but for the rounding of knots that were inserted and
+/// removed again: it stands as it was opened, on the knots of the file.
 bool only_rounded(const SceneSurface& s, const Surface& file) {
   constexpr double roundings = 1e-13;  // of the largest coordinate
   const Surface &now = *s.current, &opened = *s.opened;
@@ -344,23 +266,29 @@ bool only_rounded(const SceneSurface& s, const Surface& file) {
   for (int d = 0; d < 2; ++d) {
     if (!std::ranges::equal(now.knots(d).knots(), file.knots(d).knots())) return false;
   }
-  if (!same(now.control_points(), opened.control_points()) || !std::ranges::equal(now.weights(), opened.weights()) ||
+  if (!same(now.control_points(), opened.control_points()) ||
+      !std::ranges::equal(now.weights(), opened.weights()) ||
       now.weights().size() != file.weights().size()) {
     return false;
   }
   for (std::size_t k = 0; k < now.weights().size(); ++k) {
-    if (std::abs(now.weights()[k] - file.weights()[k]) > roundings * std::abs(file.weights()[k])) return false;
+    if (std::abs(now.weights()[k] - file.weights()[k]) > roundings * std::abs(file.weights()[k]))
+      return false;
   }
   const double largest = file.control_points().cwiseAbs().maxCoeff();
-  return (now.control_points() - file.control_points()).cwiseAbs().maxCoeff() <= roundings * largest;
+  return (now.control_points() - file.control_points()).cwiseAbs().maxCoeff() <=
+         roundings * largest;
 }
 
 std::vector<DocumentSurface> present_surfaces(const Session& session) {
   std::vector<DocumentSurface> surfaces;
   const auto& scene = session.state().surfaces;
-  const auto append = [&](const SceneSurface& s) { surfaces.push_back({s.id, s.name, s.unit, s.current}); };
+  const auto append = [&](const SceneSurface& s) {
+    surfaces.push_back({s.id, s.name, s.unit, s.current});
+  };
   if (session.document().is_fresh()) std::ranges::for_each(scene, append);
-  for (const DocumentSurface& s : session.document().surfaces()) {  // converted ones come last in the scene
+  for (const DocumentSurface& s :
+       session.document().surfaces()) {  // converted ones come last in the scene
     append(*std::ranges::find(scene, s.id, &SceneSurface::id));
     if (surfaces.back().surface != s.surface &&
         only_rounded(*std::ranges::find(scene, s.id, &SceneSurface::id), *s.surface)) {

@@ -13,7 +13,8 @@
 
 namespace knead {
 
-// What is reported about each part of a session: plain values filled from the state, and their descriptions.
+// What is reported about each part of a session: plain values filled from the state, and their
+// descriptions.
 
 struct SurfaceInfo {
   std::string id, name, unit;
@@ -44,9 +45,11 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("degree", s.degree);
   fields.add("net", s.net, {.help = "control points [m, n]; (i, j) is number i n + j"});
   fields.add("rational", s.rational);
-  fields.add("lower", s.lower, {.help = "corner of the control points' bounding box", .unit = Unit::length});
+  fields.add("lower", s.lower,
+             {.help = "corner of the control points' bounding box", .unit = Unit::length});
   fields.add("upper", s.upper, {.help = "the opposite corner", .unit = Unit::length});
-  fields.add("alpha", s.alpha, {.help = "coefficients 11, 12, 22; null where one varies over the surface"});
+  fields.add("alpha", s.alpha,
+             {.help = "coefficients 11, 12, 22; null where one varies over the surface"});
   fields.add("beta", s.beta, {.help = "likewise"});
   fields.add("poisson", s.poisson, {.help = "of bending; that of a shell stands with it"});
   fields.add("mass", s.mass, {.help = "null where it varies"});
@@ -60,8 +63,10 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("lengths", s.lengths, {.help = "what `yield` and `locality` count"});
   fields.add("rest", s.rest);
   fields.add("faces", s.faces, {.help = "of the file that lie on it"});
-  fields.add("bare", s.bare,
-             {.help = "whether it is of the file and no face lies on it: its sides are held as edges are"});
+  fields.add(
+      "bare", s.bare,
+      {.help =
+           "whether it is of the file and no face lies on it: its sides are held as edges are"});
   fields.add("hold", s.hold, {.help = "outer rows of control points that do not move"});
   fields.add("pins", s.pins, {.help = "number of pinned control points"});
   fields.add("pinned", s.pinned, {.help = "the pinned control points [i, j]"});
@@ -85,7 +90,8 @@ struct ToolInfo {
 };
 
 static void describe(ToolInfo& t, Fields& fields) {
-  fields.name("tool info", "A tool of the session: its shape's fields, how it acts and where it is.");
+  fields.name("tool info",
+              "A tool of the session: its shape's fields, how it acts and where it is.");
   fields.add_flat(t.shape);
   fields.add("name", t.name);
   fields.add("mode", t.mode);
@@ -98,7 +104,8 @@ static void describe(ToolInfo& t, Fields& fields) {
   fields.add("position", t.position, {.help = "of the centre", .unit = Unit::length});
   fields.add("rotation", t.rotation, {.help = "a quaternion x, y, z, w"});
   fields.add("scale", t.scale, {.help = "along its own axes"});
-  fields.add("size", t.size, {.help = "its smallest feature; null where it has none", .unit = Unit::length});
+  fields.add("size", t.size,
+             {.help = "its smallest feature; null where it has none", .unit = Unit::length});
 }
 
 struct SeamInfo {
@@ -116,7 +123,8 @@ static void describe(SeamInfo& s, Fields& fields) {
 
 void describe(VibrationInfo& m, Fields& fields) {
   fields.name("vibration info", "A free vibration of the structure.");
-  fields.add("frequency", m.frequency, {.help = "per unit of time; below 0 the structure is unstable"});
+  fields.add("frequency", m.frequency,
+             {.help = "per unit of time; below 0 the structure is unstable"});
   fields.add("residual", m.residual, {.help = "relative"});
 }
 
@@ -158,7 +166,8 @@ static void describe(SessionInfo& s, Fields& fields) {
   fields.name("session info", "The session as it is reported.");
   fields.add("name", s.name, {.help = "of the document"});
   fields.add("fresh", s.fresh, {.help = "it began without a file"});
-  fields.add("selection", s.selection, {.help = "numbers of the selected surfaces, the first one first"});
+  fields.add("selection", s.selection,
+             {.help = "numbers of the selected surfaces, the first one first"});
   fields.add("surfaces", s.surfaces);
   fields.add("bodies", s.bodies, {.help = "curves and volumes"});
   fields.add("body", s.body, {.help = "the number of the selected one, if no surface is selected"});
@@ -213,7 +222,8 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
   info.damping = constant(s.material.damping);
   info.preset = preset_of(s);
   if (const auto* shell = std::get_if<ShellMaterial>(&s.elasticity)) info.shell = *shell;
-  if (const auto* forms = std::get_if<FundamentalMaterial>(&s.elasticity)) info.fundamental = *forms;
+  if (const auto* forms = std::get_if<FundamentalMaterial>(&s.elasticity))
+    info.fundamental = *forms;
   info.plasticity = s.plastic.share;
   info.yield = s.plastic.yield;
   info.locality = s.plastic.locality;
@@ -224,12 +234,14 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
     info.faces = in_file != nullptr ? in_file->faces : 0;
   }
   const auto& opened = session.document().surfaces();
-  info.bare = info.faces == 0 && std::ranges::find(opened, s.id, &DocumentSurface::id) != opened.end();
+  info.bare =
+      info.faces == 0 && std::ranges::find(opened, s.id, &DocumentSurface::id) != opened.end();
   info.hold = s.hold_rows;
   info.masked = !s.mask.empty();
   info.pins = static_cast<int>(s.pins.size());
   info.pinned.assign(s.pins.begin(), s.pins.end());
-  for (const KeptConstraint& kept : s.constraints) info.constraints.push_back(restated(kept.constraint).any().fields);
+  for (const KeptConstraint& kept : s.constraints)
+    info.constraints.push_back(restated(kept.constraint).any().fields);
   info.moved = static_cast<int>(session.moved_control_points(static_cast<int>(index)));
   return info;
 }
@@ -261,7 +273,8 @@ std::string session_json(const Session& session) {
   info.name = session.document().name();
   info.fresh = session.document().is_fresh();
   info.selection = state.selection();
-  for (std::size_t k = 0; k < state.surfaces.size(); ++k) info.surfaces.push_back(info_of(session, k));
+  for (std::size_t k = 0; k < state.surfaces.size(); ++k)
+    info.surfaces.push_back(info_of(session, k));
   info.bodies = bodies_of(state);
   info.body = state.body;
   for (const Tool& tool : state.tools) info.tools.push_back(info_of(tool));
@@ -273,7 +286,8 @@ std::string session_json(const Session& session) {
   info.coupled = state.seams.couple;
   info.smooth = state.seams.smooth;
   info.refine = state.permission;
-  for (const SeamReport& seam : state.seam_reports) info.seams.push_back({seam.continuity, seam.seam.gap, seam.reason});
+  for (const SeamReport& seam : state.seam_reports)
+    info.seams.push_back({seam.continuity, seam.seam.gap, seam.reason});
   info.readings = readings_of(state);
   for (const Note& note : state.notes) info.notes.push_back(info_of(note));
   info.steps = static_cast<int>(state.steps.size());
@@ -287,8 +301,8 @@ std::string session_json(const Session& session) {
 
 std::string steps_json(const Session& session, std::size_t first) {
   const auto& steps = session.state().steps;
-  return json_of(
-      std::vector<StepRecord>(steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, steps.size())), steps.end()));
+  return json_of(std::vector<StepRecord>(
+      steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, steps.size())), steps.end()));
 }
 
 std::string session_typescript(void (*more)(TypeScript&)) {
@@ -299,7 +313,8 @@ std::string session_typescript(void (*more)(TypeScript&)) {
   if (more != nullptr) more(types);
   types.list(type_of<Shape>(), "shapes");
   types.text += "\nexport const materials = " + json_of(named_materials()) + " as const;\n";
-  return "// Generated from the engine's descriptions; not to be edited. Lengths are in file units.\n\n" +
+  return "// Generated from the engine's descriptions; not to be edited. Lengths are in file "
+         "units.\n\n" +
          std::move(types.text);
 }
 

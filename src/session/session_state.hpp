@@ -14,9 +14,10 @@ namespace knead {
 
 /// The record of a session so far.
 struct SessionRecord {
-  SharedList<StepRecord> steps;           ///< shared by the states of a history
-  std::vector<SeamReport> seam_reports;   ///< of the model of the last step; patches are indices of surfaces
-  std::vector<Note> notes;                ///< side effects of commands: refinements, lines kept smooth
+  SharedList<StepRecord> steps;  ///< shared by the states of a history
+  std::vector<SeamReport>
+      seam_reports;         ///< of the model of the last step; patches are indices of surfaces
+  std::vector<Note> notes;  ///< side effects of commands: refinements, lines kept smooth
   std::optional<double> energy_before;    ///< energy before the first step
   std::vector<ModeRecord> modes = {};     ///< of the last command `modes`, lowest first
   std::vector<ModeRecord> buckling = {};  ///< of the last command `buckling`, likewise
@@ -24,7 +25,8 @@ struct SessionRecord {
 
 /// The whole state at one moment. A value: undo restores an earlier one, bit for bit.
 struct SessionState : Scene, SessionRecord {
-  std::shared_ptr<const Document> document = {};  ///< with the surfaces converted so far; null: as opened
+  /// With the surfaces converted so far; null: as opened.
+  std::shared_ptr<const Document> document = {};
 };
 
 }  // namespace knead

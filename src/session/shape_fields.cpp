@@ -38,7 +38,8 @@ std::span<double> measure_of(Shape& shape, std::string_view name, double& factor
 double radius_of(const ShapeFields& f, double unit, double diagonal, Shape* before) {
   if (f.radius) return *f.radius * unit;
   double factor = 1;
-  const std::span<double> present = before != nullptr ? measure_of(*before, "radius", factor) : std::span<double>();
+  const std::span<double> present =
+      before != nullptr ? measure_of(*before, "radius", factor) : std::span<double>();
   return present.empty() ? 0.1 * diagonal : present.front();
 }
 
@@ -55,7 +56,8 @@ std::span<const std::string_view> shapes_with(std::string_view field) {
   static std::map<std::string_view, std::vector<std::string_view>> known = [] {
     std::map<std::string_view, std::vector<std::string_view>> shapes;
     for (const Type* shape : type_of<Shape>().variants) {
-      for (const std::string_view name : fields_of_shape(*shape)) shapes[name].push_back(shape->name);
+      for (const std::string_view name : fields_of_shape(*shape))
+        shapes[name].push_back(shape->name);
     }
     return shapes;
   }();
@@ -63,13 +65,16 @@ std::span<const std::string_view> shapes_with(std::string_view field) {
 }
 
 bool names_any(ShapeFields fields) {
-  return std::ranges::any_of(type_of<ShapeFields>().fields,
-                             [&](const Field& field) { return field.type->count(field.of(&fields)) > 0; });
+  return std::ranges::any_of(type_of<ShapeFields>().fields, [&](const Field& field) {
+    return field.type->count(field.of(&fields)) > 0;
+  });
 }
 
 /// The measures that several shapes have, or that need more explanation than their shape's.
 void add_named_measures(ShapeFields& f, Fields& fields, std::string_view fallback = {}) {
-  const auto otherwise = [fallback](std::string_view as_new) { return fallback.empty() ? as_new : fallback; };
+  const auto otherwise = [fallback](std::string_view as_new) {
+    return fallback.empty() ? as_new : fallback;
+  };
   const auto add = [&](std::string_view name, auto& member, About about) {
     if (fallback.empty()) about.only = {"shape", shapes_with(name)};
     fields.add(name, member, about);
@@ -85,12 +90,16 @@ void add_named_measures(ShapeFields& f, Fields& fields, std::string_view fallbac
        .range = above(0),
        .fallback = otherwise("a quarter of the radius")});
   add("height", f.height,
-      {.help = "of cylinder, cone, capsule (without its caps) and wedge (from its foot to its ridge)",
+      {.help =
+           "of cylinder, cone, capsule (without its caps) and wedge (from its foot to its ridge)",
        .unit = Unit::length,
        .range = above(0),
        .fallback = otherwise("twice the radius; of a wedge a tenth of the diagonal")});
   add("top_radius", f.top_radius,
-      {.help = "of a cone", .unit = Unit::length, .range = at_least(0), .fallback = otherwise("`0`")});
+      {.help = "of a cone",
+       .unit = Unit::length,
+       .range = at_least(0),
+       .fallback = otherwise("`0`")});
   add("thickness", f.thickness,
       {.help = "wall of a bowl",
        .unit = Unit::length,
@@ -109,7 +118,8 @@ void add_named_measures(ShapeFields& f, Fields& fields, std::string_view fallbac
   add("exponents", f.exponents,
       {.help = "`[e1, e2]` of superellipsoid and supertoroid", .fallback = otherwise("`[1, 1]`")});
   add("surface", f.surface,
-      {.help = "of shape `surface`: the id of the surface of the document that is the tool, as it is now",
+      {.help = "of shape `surface`: the id of the surface of the document that is the tool, as it "
+               "is now",
        .fallback = fallback});
 }
 
@@ -139,8 +149,8 @@ std::vector<OtherMeasure> other_measures() {
       if (same != others.end()) {
         same->help += fmt::format("; of a {}: {}", shape->name, field.help);
       } else {
-        others.push_back(
-            {field.name, fmt::format("of a {}: {}", shape->name, field.help), default_of(field, *shape), field});
+        others.push_back({field.name, fmt::format("of a {}: {}", shape->name, field.help),
+                          default_of(field, *shape), field});
       }
     }
   }
@@ -172,25 +182,30 @@ void describe(ShapeFields& f, Fields& fields) {
 std::span<const Choice> shape_choices() {
   static const std::vector<Choice> list = [] {
     std::vector<Choice> choices;
-    for (const Type* shape : type_of<Shape>().variants) choices.emplace_back(shape->name, shape->help);
+    for (const Type* shape : type_of<Shape>().variants)
+      choices.emplace_back(shape->name, shape->help);
     return choices;
   }();
   return list;
 }
 
-std::string_view shape_name(const Shape& shape) { return type_of<Shape>().variants[shape.index()]->name; }
+std::string_view shape_name(const Shape& shape) {
+  return type_of<Shape>().variants[shape.index()]->name;
+}
 
-/// The error for a field that a shape, given by name, does not have but another does; else nothing. A radius counts as
-/// a field if there are `sizes`.
+/// The error for a field that a shape, given by name, does not have but another does; else nothing.
+/// A radius counts as a field if there are `sizes`.
 static std::optional<Error> no_measure_of(const Type& shape, std::string_view field) {
   const auto fields = fields_of_shape(shape);
   if (std::ranges::find(fields, field) != fields.end()) return std::nullopt;
-  return Error{ErrorKind::input, fmt::format("the shape {} has no {}", shape.name, field), std::string(field),
-               fields.empty() ? "it has no measures of its own" : "its fields are: " + joined(fields)};
+  return Error{
+      ErrorKind::input, fmt::format("the shape {} has no {}", shape.name, field),
+      std::string(field),
+      fields.empty() ? "it has no measures of its own" : "its fields are: " + joined(fields)};
 }
 
-Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, double diagonal, const Act& act,
-                           const Shape* before) {
+Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, double diagonal,
+                           const Act& act, const Shape* before) {
   const Type& shapes = type_of<Shape>();
   const int k = shapes.variant(name);
   Shape shape;
@@ -202,7 +217,8 @@ Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, do
     spline->surface = act.state.surfaces[static_cast<std::size_t>(*index)].current;
     return shape;
   }
-  if (auto* cone = std::get_if<ConeShape>(&shape)) cone->height = 2;  // as high as it is wide, like a cylinder
+  if (auto* cone = std::get_if<ConeShape>(&shape))
+    cone->height = 2;  // as high as it is wide, like a cylinder
   std::optional<Shape> old;
   if (before != nullptr) old = *before;
   const double radius = radius_of(f, unit, diagonal, old ? &*old : nullptr);
@@ -214,7 +230,8 @@ Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, do
     // A given radius means all sizes.
     const bool stays = old && !(field.name == "sizes" && f.radius);
     double factor = 1;
-    const std::span<double> present = stays ? measure_of(*old, field.name, factor) : std::span<double>();
+    const std::span<double> present =
+        stays ? measure_of(*old, field.name, factor) : std::span<double>();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       if (!given.empty()) {
         numbers[i] = given[given.size() == 1 ? 0 : i] * (length ? unit : 1) / field.factor;
@@ -228,11 +245,12 @@ Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, do
   return shape;
 }
 
-Expected<Shape> edited_shape(const Shape& shape, std::string_view name, const ShapeFields& fields, double unit,
-                             double diagonal, const Act& act) {
+Expected<Shape> edited_shape(const Shape& shape, std::string_view name, const ShapeFields& fields,
+                             double unit, double diagonal, const Act& act) {
   if (name == shape_name(shape) && !names_any(fields)) return shape;
   ShapeFields given = fields;
-  const Type& named = *type_of<Shape>().variants[static_cast<std::size_t>(type_of<Shape>().variant(name))];
+  const Type& named =
+      *type_of<Shape>().variants[static_cast<std::size_t>(type_of<Shape>().variant(name))];
   for (const Field& field : type_of<ShapeFields>().fields) {
     if (field.type->count(field.of(&given)) == 0) continue;
     if (auto error = no_measure_of(named, field.name)) return std::unexpected(*error);

@@ -16,7 +16,8 @@ struct SnapshotHead {
   std::vector<std::string> entries;  ///< commands of each
 };
 static void describe(SnapshotHead& h, Fields& fields) {
-  fields.add_all("surfaces", h.surfaces, "earlier", h.earlier, "position", h.position, "entries", h.entries);
+  fields.add_all("surfaces", h.surfaces, "earlier", h.earlier, "position", h.position, "entries",
+                 h.entries);
 }
 
 namespace {
@@ -43,7 +44,8 @@ std::vector<std::string> converted_in(const SessionState& state) {
   return state.document ? state.document->converted() : std::vector<std::string>();
 }
 
-// --- what is read fits together --------------------------------------------------------------------------------------
+// --- what is read fits together
+// --------------------------------------------------------------------------------------
 
 bool fits(const SceneSurface& s) {
   if (!s.mask.empty() && s.mask.size() != static_cast<std::size_t>(s.current->size())) return false;
@@ -70,11 +72,13 @@ bool fits(const SceneShape<D>& s) {
          (s.velocity.rows() == 0 || s.velocity.rows() == s.current->size());
 }
 
-/// Whether a lattice has the control points that its net says, and a shape before and after of each of its surfaces.
+/// Whether a lattice has the control points that its net says, and a shape before and after of each
+/// of its surfaces.
 bool fits(const PulledLattice& lattice) {
   double count = 1;
   for (const int n : lattice.net) count *= n;
-  if (static_cast<double>(lattice.points.rows()) != count || !lattice.points.allFinite()) return false;
+  if (static_cast<double>(lattice.points.rows()) != count || !lattice.points.allFinite())
+    return false;
   const std::size_t surfaces = lattice.surfaces.size();
   if (lattice.before.size() != surfaces || lattice.after.size() != surfaces) return false;
   for (std::size_t k = 0; k < surfaces; ++k) {
@@ -83,8 +87,10 @@ bool fits(const PulledLattice& lattice) {
   return surfaces > 0;
 }
 
-/// Whether the shapes from before a stroke are on the nets of the selected surfaces; all of their control points.
-std::optional<Eigen::Index> rows_of(const std::vector<OpenStroke::Before>& shapes, const Scene& scene) {
+/// Whether the shapes from before a stroke are on the nets of the selected surfaces; all of their
+/// control points.
+std::optional<Eigen::Index> rows_of(const std::vector<OpenStroke::Before>& shapes,
+                                    const Scene& scene) {
   const std::vector<int> selection = scene.selection();
   if (shapes.size() != selection.size()) return std::nullopt;
   Eigen::Index rows = 0;
@@ -115,16 +121,20 @@ bool fits(const OpenBrush& open, const Scene& scene) {
   };
   const auto& [columns, heights] = open.brush.pattern;
   if (open.brush.kind == BrushKind::stamp &&
-      (columns < 2 || heights.size() < 4 || heights.size() % static_cast<std::size_t>(columns) != 0)) {
+      (columns < 2 || heights.size() < 4 ||
+       heights.size() % static_cast<std::size_t>(columns) != 0)) {
     return false;
   }
-  return rows_of(open.before, scene) && open.brush.radius > 0 && std::ranges::all_of(open.path, is_selected);
+  return rows_of(open.before, scene) && open.brush.radius > 0 &&
+         std::ranges::all_of(open.path, is_selected);
 }
 
 /// Whether a scene fits together; what it shares with the one before does.
 bool fits(const Scene& scene, const Scene& before) {
   const auto known = [](const auto& items, int k) { return k >= 0 && k < std::ssize(items); };
-  const auto known_surface = [&](int k) { return k >= 0 && static_cast<std::size_t>(k) < scene.surfaces.size(); };
+  const auto known_surface = [&](int k) {
+    return k >= 0 && static_cast<std::size_t>(k) < scene.surfaces.size();
+  };
   for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
     const SceneSurface& s = scene.surfaces[k];
     if ((k >= before.surfaces.size() || &s != &before.surfaces[k]) && !fits(s)) return false;
@@ -133,15 +143,17 @@ bool fits(const Scene& scene, const Scene& before) {
     if (!std::visit([](const auto& s) { return fits(s); }, b)) return false;
   }
   for (const SceneForce& f : scene.forces) {
-    if (f.surface == -1 ? !known(scene.bodies, f.body) : !known_surface(f.surface) || f.body != -1) return false;
+    if (f.surface == -1 ? !known(scene.bodies, f.body) : !known_surface(f.surface) || f.body != -1)
+      return false;
   }
   const auto is_share = [](double t) { return t > 0 && t <= 1; };
   return std::ranges::all_of(scene.selection(), known_surface) &&
          (!scene.body || (known(scene.bodies, *scene.body) && !scene.selected)) &&
-         std::ranges::all_of(scene.probes, known_surface, &Probe::surface) && is_share(scene.coupling.position) &&
-         is_share(scene.coupling.tangent) && scene.bend >= asked_angle && scene.bend <= accepted_angle &&
-         (!scene.stroke || fits(*scene.stroke, scene)) && (!scene.brush || fits(*scene.brush, scene)) &&
-         (!scene.lattice || fits(*scene.lattice));
+         std::ranges::all_of(scene.probes, known_surface, &Probe::surface) &&
+         is_share(scene.coupling.position) && is_share(scene.coupling.tangent) &&
+         scene.bend >= asked_angle && scene.bend <= accepted_angle &&
+         (!scene.stroke || fits(*scene.stroke, scene)) &&
+         (!scene.brush || fits(*scene.brush, scene)) && (!scene.lattice || fits(*scene.lattice));
 }
 
 /// Reads a state into one that is as the one before.
@@ -183,15 +195,20 @@ std::string Session::snapshot(std::size_t history_bytes) const {
     first = std::min(first, k);
   }
   std::vector<Command> earlier = earlier_;
-  for (std::size_t k = 0; k < first; ++k) earlier.insert(earlier.end(), entries_[k].begin(), entries_[k].end());
-  SnapshotHead head{
-      static_cast<int>(document_.surfaces().size()), commands_json(earlier), static_cast<int>(position_ - first), {}};
-  for (std::size_t k = first; k < entries_.size(); ++k) head.entries.push_back(commands_json(entries_[k]));
+  for (std::size_t k = 0; k < first; ++k)
+    earlier.insert(earlier.end(), entries_[k].begin(), entries_[k].end());
+  SnapshotHead head{static_cast<int>(document_.surfaces().size()),
+                    commands_json(earlier),
+                    static_cast<int>(position_ - first),
+                    {}};
+  for (std::size_t k = first; k < entries_.size(); ++k)
+    head.entries.push_back(commands_json(entries_[k]));
   StateWriter a(std::string(magic) + std::string(sum_size, '\0'));
   a.write(type_of<SnapshotHead>(), &head, type_of<SnapshotHead>().initial);
   const auto* before = static_cast<const SessionState*>(type_of<SessionState>().initial);
   for (std::size_t k = first; k < states_.size(); ++k) {
-    const std::vector<std::string> converted = converted_in(*states_[k]), known = converted_in(*before);
+    const std::vector<std::string> converted = converted_in(*states_[k]),
+                                   known = converted_in(*before);
     a.write(type_of<SessionState>(), states_[k].get(), before);
     a.write(type_of<std::vector<std::string>>(), &converted, &known);
     before = states_[k].get();
@@ -204,13 +221,15 @@ std::string Session::snapshot(std::size_t history_bytes) const {
 
 Expected<Session> Session::restore(Document document, std::string_view bytes) {
   if (!bytes.starts_with(magic)) {
-    return damaged(bytes.starts_with(any_magic) ? "the snapshot is of another version of the program"
-                                                : "these bytes are not a snapshot");
+    return damaged(bytes.starts_with(any_magic)
+                       ? "the snapshot is of another version of the program"
+                       : "these bytes are not a snapshot");
   }
   bytes.remove_prefix(magic.size());
   std::uint64_t sum = 0;
   if (bytes.size() >= sum_size) std::memcpy(&sum, bytes.data(), sum_size);
-  if (bytes.size() < sum_size || checksum(bytes.substr(sum_size)) != sum) return damaged("the snapshot is damaged");
+  if (bytes.size() < sum_size || checksum(bytes.substr(sum_size)) != sum)
+    return damaged("the snapshot is damaged");
   StateReader a(bytes.substr(sum_size), most_memory);
   SnapshotHead head;
   a.read(type_of<SnapshotHead>(), &head);
@@ -221,7 +240,8 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
   session.states_.clear();
   if (!a.bad()) session.earlier_ = read_commands_of(a, head.earlier);
   session.position_ = static_cast<std::size_t>(head.position);
-  for (const std::string& entry : head.entries) session.entries_.push_back(read_commands_of(a, entry));
+  for (const std::string& entry : head.entries)
+    session.entries_.push_back(read_commands_of(a, entry));
   SessionState state;
   Weight weight;
   for (std::size_t k = 0; k <= session.entries_.size() && !a.bad(); ++k) {

@@ -8,16 +8,21 @@
 namespace knead {
 namespace {
 
-/// Solves for a known smooth displacement of ones, which an ill-conditioned matrix reproduces worst, since the energy
-/// hardly resists it. This also detects a singular matrix that passed the factorisation by rounding.
+/// Solves for a known smooth displacement of ones, which an ill-conditioned matrix reproduces
+/// worst, since the energy hardly resists it. This also detects a singular matrix that passed the
+/// factorisation by rounding.
 template <class Values>
 Expected<void> check_digits(const SparseCholesky& cholesky, const Values& forces) {
   constexpr double tolerance = 1e-3;
   const double error = (cholesky.solve(forces).array() - 1).abs().maxCoeff();
   if (error <= tolerance) return {};
   return numerical_error(
-      fmt::format("the system matrix is too close to singular (a known solution is missed by {:.1e})", error),
-      "factorisation", "hold more control points, use a larger lambda, or remove knot spans far shorter than the rest");
+      fmt::format(
+          "the system matrix is too close to singular (a known solution is missed by {:.1e})",
+          error),
+      "factorisation",
+      "hold more control points, use a larger lambda, or remove knot spans far shorter than the "
+      "rest");
 }
 
 }  // namespace
@@ -32,33 +37,37 @@ Expected<ConstrainedCholesky> ConstrainedCholesky::factor(SparseMatrix&& a, Cons
     entries = reduced.nonZeros();
     const Points forces = reduced * Points::Ones(reduced.rows(), 3);
     const auto unknowns = detail::independent_places(space, places);
-    auto factored =
-        unknowns ? SparseCholesky::factor(std::move(reduced), *unknowns) : SparseCholesky::factor(std::move(reduced));
+    auto factored = unknowns ? SparseCholesky::factor(std::move(reduced), *unknowns)
+                             : SparseCholesky::factor(std::move(reduced));
     if (!factored) return std::unexpected(factored.error());
-    if (auto checked = check_digits(*factored, forces); !checked) return std::unexpected(checked.error());
+    if (auto checked = check_digits(*factored, forces); !checked)
+      return std::unexpected(checked.error());
     cholesky = std::move(*factored);
   }
   return ConstrainedCholesky(std::move(space), std::move(cholesky), entries);
 }
 
-Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a, ConstraintSpace space,
-                                                          const CoordinateRestriction& restriction) {
+Expected<ConstrainedCholesky> ConstrainedCholesky::factor(
+    const SparseMatrix& a, ConstraintSpace space, const CoordinateRestriction& restriction) {
   std::optional<SparseCholesky> cholesky;
   std::ptrdiff_t entries = 0;
   if (space.free_count() > 0) {
     const SparseMatrix lower = restriction.lower(a);
     entries = lower.nonZeros();
-    const Eigen::VectorXd in_order = lower.selfadjointView<Eigen::Lower>() * Eigen::VectorXd::Ones(lower.rows());
+    const Eigen::VectorXd in_order =
+        lower.selfadjointView<Eigen::Lower>() * Eigen::VectorXd::Ones(lower.rows());
     const Eigen::VectorXd forces = in_order(restriction.dissection().order);
     auto factored = SparseCholesky::factor_in_order(lower, restriction.dissection());
     if (!factored) return std::unexpected(factored.error());
-    if (auto checked = check_digits(*factored, forces); !checked) return std::unexpected(checked.error());
+    if (auto checked = check_digits(*factored, forces); !checked)
+      return std::unexpected(checked.error());
     cholesky = std::move(*factored);
   }
   return ConstrainedCholesky(std::move(space), std::move(cholesky), entries);
 }
 
-Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a, ConstraintSpace space) {
+Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a,
+                                                          ConstraintSpace space) {
   return factor(SparseMatrix(a), std::move(space));
 }
 
@@ -86,25 +95,31 @@ namespace {
 template <class Values>
 Values reduced(const ConstrainedCholesky::Part& part, const Values& b) {
   Values y = Values::Zero(part.count, b.cols());
-  for (const ConstraintSpace::Term& t : part.terms) y.row(t.unknown) += t.coefficient * b.row(t.row);
+  for (const ConstraintSpace::Term& t : part.terms)
+    y.row(t.unknown) += t.coefficient * b.row(t.row);
   return y;
 }
 
 template <class Values>
 Values expanded(const ConstrainedCholesky::Part& part, const Values& y, Eigen::Index rows) {
   Values x = Values::Zero(rows, y.cols());
-  for (const ConstraintSpace::Term& t : part.terms) x.row(t.row) += t.coefficient * y.row(t.unknown);
+  for (const ConstraintSpace::Term& t : part.terms)
+    x.row(t.row) += t.coefficient * y.row(t.unknown);
   return x;
 }
 
-Eigen::VectorXd flat(const Points& b) { return Eigen::Map<const Eigen::VectorXd>(b.data(), b.size()); }
+Eigen::VectorXd flat(const Points& b) {
+  return Eigen::Map<const Eigen::VectorXd>(b.data(), b.size());
+}
 
 }  // namespace
 
 Points ConstrainedCholesky::solve_within(const Part& part, const Points& b) const {
   if (!cholesky_) return Points::Zero(b.rows(), 3);
-  if (!space_.coupled()) return expanded(part, cholesky_->solve_within(part.factor, reduced(part, b)), b.rows());
-  const Eigen::VectorXd x = expanded(part, cholesky_->solve_within(part.factor, reduced(part, flat(b))), b.size());
+  if (!space_.coupled())
+    return expanded(part, cholesky_->solve_within(part.factor, reduced(part, b)), b.rows());
+  const Eigen::VectorXd x =
+      expanded(part, cholesky_->solve_within(part.factor, reduced(part, flat(b))), b.size());
   return Eigen::Map<const Points>(x.data(), b.rows(), 3);
 }
 
@@ -128,7 +143,8 @@ Points ConstrainedCholesky::backward_within(const Part& part, const Half& half) 
   return Eigen::Map<const Points>(x.data(), rows, 3);
 }
 
-Points ConstrainedCholesky::backward(const Half& half, double share, const Part& part, const Points& b) const {
+Points ConstrainedCholesky::backward(const Half& half, double share, const Part& part,
+                                     const Points& b) const {
   if (!cholesky_) return Points::Zero(space_.size(), 3);
   if (!space_.coupled()) {
     Points y;

@@ -10,22 +10,24 @@
 
 namespace knead {
 
-/// A symmetric system A X = B on the unknowns left by linear constraints: T (Tᵀ A T)⁻¹ Tᵀ, factored once.
-/// Immutable, const is thread-safe.
+/// A symmetric system A X = B on the unknowns left by linear constraints: T (Tᵀ A T)⁻¹ Tᵀ, factored
+/// once. Immutable, const is thread-safe.
 class ConstrainedCholesky {
  public:
-  /// Factors Tᵀ A T and checks that solving for a known displacement, the same at every independent unknown, reproduces
-  /// it to 1e-3. Errors (numerical): not positive definite, or too close to singular for the check.
-  [[nodiscard]] static Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace space);
+  /// Factors Tᵀ A T and checks that solving for a known displacement, the same at every independent
+  /// unknown, reproduces it to 1e-3. Errors (numerical): not positive definite, or too close to
+  /// singular for the check.
+  [[nodiscard]] static Expected<ConstrainedCholesky> factor(const SparseMatrix& a,
+                                                            ConstraintSpace space);
   /// The same where A is needed no longer: it is emptied before the factor is made.
   /// \param places of the points, where they lie on grids: null where they do not.
   [[nodiscard]] static Expected<ConstrainedCholesky> factor(SparseMatrix&& a, ConstraintSpace space,
                                                             const GridPlaces* places = nullptr);
 
-  /// The same of A over all 3N coordinates, of the pattern of the restriction, whose space this is: T Tᵀ A T instead of
-  /// T Tᵀ (A ⊗ I) T. Errors: likewise.
-  [[nodiscard]] static Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace space,
-                                                            const CoordinateRestriction& restriction);
+  /// The same of A over all 3N coordinates, of the pattern of the restriction, whose space this is:
+  /// T Tᵀ A T instead of T Tᵀ (A ⊗ I) T. Errors: likewise.
+  [[nodiscard]] static Expected<ConstrainedCholesky> factor(
+      const SparseMatrix& a, ConstraintSpace space, const CoordinateRestriction& restriction);
 
   /// The X = T y that solves Tᵀ A X = Tᵀ B, for B of N × 3. Cost: O(nonzeros of the factor).
   [[nodiscard]] Points solve(const Points& b) const;
@@ -38,22 +40,24 @@ class ConstrainedCholesky {
     SparseCholesky::Part factor;
   };
   [[nodiscard]] Part part(std::vector<int> points) const;
-  /// X at the points of the part, for B given there and zero elsewhere, both in the order of the points. Cost and bits:
-  /// see `SparseCholesky::solve_within`.
+  /// X at the points of the part, for B given there and zero elsewhere, both in the order of the
+  /// points. Cost and bits: see `SparseCholesky::solve_within`.
   [[nodiscard]] Points solve_within(const Part& part, const Points& b) const;
-  /// The first half of a solve, with Bᵀ X; the second half where X is needed only at the points of the part; the
-  /// second half everywhere, for share · B + E b with b at the points of the part.
+  /// The first half of a solve, with Bᵀ X; the second half where X is needed only at the points of
+  /// the part; the second half everywhere, for share · B + E b with b at the points of the part.
   using Half = SparseCholesky::Half;
   [[nodiscard]] Half forward(const Points& b) const;
   [[nodiscard]] Points backward_within(const Part& part, const Half& half) const;
-  [[nodiscard]] Points backward(const Half& half, double share, const Part& part, const Points& b) const;
+  [[nodiscard]] Points backward(const Half& half, double share, const Part& part,
+                                const Points& b) const;
 
   [[nodiscard]] const ConstraintSpace& space() const { return space_; }
   /// Of Tᵀ A T, both triangles; where A is given over coordinates, of one.
   [[nodiscard]] std::ptrdiff_t entries() const { return entries_; }
 
  private:
-  ConstrainedCholesky(ConstraintSpace space, std::optional<SparseCholesky> cholesky, std::ptrdiff_t entries)
+  ConstrainedCholesky(ConstraintSpace space, std::optional<SparseCholesky> cholesky,
+                      std::ptrdiff_t entries)
       : space_(std::move(space)), cholesky_(std::move(cholesky)), entries_(entries) {}
 
   ConstraintSpace space_;

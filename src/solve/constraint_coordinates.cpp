@@ -29,7 +29,8 @@ ConstraintSpace ConstraintSpace::on_coordinates() const {
   result.free_ = coordinates_of(free_);
   result.dependent_ = coordinates_of(dependent_);
   result.position_.assign(3 * position_.size(), -1);
-  for (std::size_t k = 0; k < result.free_.size(); ++k) result.position_[at(result.free_[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < result.free_.size(); ++k)
+    result.position_[at(result.free_[k])] = static_cast<int>(k);
   result.rows_ = on_three_coordinates(rows_);
   result.held_rows_ = on_three_coordinates(held_rows_);
   result.values_.setZero(3 * values_.rows(), 3);

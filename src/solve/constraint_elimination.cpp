@@ -13,7 +13,8 @@ namespace {
 
 constexpr double dependent_below = 1e-11;
 constexpr double contradictory_above = 1e-9;
-constexpr double pivot_threshold = 0.3;  // of the largest coefficient: room to choose an unknown that few others use
+// Of the largest coefficient: room to choose an unknown that few others use.
+constexpr double pivot_threshold = 0.3;
 
 std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> result;
@@ -28,7 +29,8 @@ void insert(std::vector<int>& ascending, int value) {
 
 }  // namespace
 
-ConstraintElimination::ConstraintElimination(int size, const std::vector<bool>& held, bool coupled, bool sources)
+ConstraintElimination::ConstraintElimination(int size, const std::vector<bool>& held, bool coupled,
+                                             bool sources)
     : coupled_(coupled),
       keep_sources_(sources),
       width_(coupled ? 1 : 3),
@@ -85,13 +87,15 @@ void ConstraintElimination::add_term(Row& row, int unknown, double c) {
 }
 
 /// The constraint in terms of independent and held unknowns.
-ConstraintElimination::Row ConstraintElimination::row_of(const Terms& terms, const double* value, int name) {
+ConstraintElimination::Row ConstraintElimination::row_of(const Terms& terms, const double* value,
+                                                         int name) {
   Row row;
   for (const auto& [unknown, c] : terms) row.scale = std::max(row.scale, std::abs(c));
   row.sources = {name};
   for (int k = 0; k < width_; ++k) {
     row.value[k] = value[k];
-    row.size = std::max(row.size, row.scale > 0 ? std::abs(value[k]) / row.scale : std::abs(value[k]));
+    row.size =
+        std::max(row.size, row.scale > 0 ? std::abs(value[k]) / row.scale : std::abs(value[k]));
   }
   for (const auto& [unknown, c] : terms) add_term(row, unknown, c);
   std::ranges::sort(unknowns_);
@@ -120,11 +124,13 @@ Expected<void> ConstraintElimination::eliminate(const Terms& terms, const double
     of = std::max(of, std::abs(c));
   }
   if (largest <= dependent_below * row.scale) {
-    if (largest_held > dependent_below * row.scale) return {};  // a condition on held unknowns: it stays, true or not
+    if (largest_held > dependent_below * row.scale)
+      return {};  // a condition on held unknowns: it stays, true or not
     for (int k = 0; k < width_; ++k) {
       if (std::abs(row.value[k]) > contradictory_above * row.size * std::max(row.scale, 1e-300)) {
-        return input_error(fmt::format("the constraint contradicts {}", names_of(row.sources, name)), names_[at(name)],
-                           "release one of them", {ErrorCode::constraint_contradicts});
+        return input_error(
+            fmt::format("the constraint contradicts {}", names_of(row.sources, name)),
+            names_[at(name)], "release one of them", {ErrorCode::constraint_contradicts});
       }
     }
     return {};
@@ -140,7 +146,8 @@ Expected<void> ConstraintElimination::eliminate(const Terms& terms, const double
 
 void ConstraintElimination::define(int pivot, const Row& row) {
   Definition& d = definitions_[at(pivot)];
-  const double c = std::ranges::lower_bound(row.terms, pivot, {}, &std::pair<int, double>::first)->second;
+  const double c =
+      std::ranges::lower_bound(row.terms, pivot, {}, &std::pair<int, double>::first)->second;
   d.dependent = true;
   if (keep_sources_) d.sources = row.sources;
   for (int k = 0; k < width_; ++k) d.value[k] = row.value[k] / c;
@@ -158,7 +165,8 @@ void ConstraintElimination::define(int pivot, const Row& row) {
 void ConstraintElimination::substitute(int index, int pivot) {
   Definition& user = definitions_[at(index)];
   const Definition& d = definitions_[at(pivot)];
-  const double c = std::ranges::lower_bound(user.terms, pivot, {}, &std::pair<int, double>::first)->second;
+  const double c =
+      std::ranges::lower_bound(user.terms, pivot, {}, &std::pair<int, double>::first)->second;
   merged_.clear();
   auto old = user.terms.begin();
   const auto keep_old = [&] {

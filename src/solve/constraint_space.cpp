@@ -23,7 +23,8 @@ Expected<bool> check(int size, std::span<const LinearConstraint> constraints) {
         return input_error(fmt::format("there is no control point {}", unknown), c.name,
                            fmt::format("there are {}", size));
       }
-      if (!std::isfinite(coefficient)) return input_error("a coefficient is not a finite number", c.name);
+      if (!std::isfinite(coefficient))
+        return input_error("a coefficient is not a finite number", c.name);
     }
   }
   return coupled;
@@ -31,23 +32,27 @@ Expected<bool> check(int size, std::span<const LinearConstraint> constraints) {
 
 }  // namespace
 
-Expected<detail::ConstraintElimination> ConstraintSpace::eliminated(int size,
-                                                                    std::span<const LinearConstraint> constraints,
-                                                                    const std::vector<bool>& held, bool coordinates) {
+Expected<detail::ConstraintElimination> ConstraintSpace::eliminated(
+    int size, std::span<const LinearConstraint> constraints, const std::vector<bool>& held,
+    bool coordinates) {
   assert(held.empty() || held.size() == at(size));
   const auto coupled = check(size, constraints);
   if (!coupled) return std::unexpected(coupled.error());
-  for (const bool sources : {false, true}) {  // who contradicts whom is found out only where somebody does
+  for (const bool sources :
+       {false, true}) {  // who contradicts whom is found out only where somebody does
     detail::ConstraintElimination elimination(size, held, *coupled || coordinates, sources);
     Expected<void> done;
-    for (std::size_t k = 0; k < constraints.size() && done; ++k) done = elimination.add(constraints[k]);
+    for (std::size_t k = 0; k < constraints.size() && done; ++k)
+      done = elimination.add(constraints[k]);
     if (done) return elimination;
     if (sources) return std::unexpected(done.error());
   }
-  return input_error("constraints contradict each other", "constraints", "release one of them");  // not reached
+  return input_error("constraints contradict each other", "constraints",
+                     "release one of them");  // not reached
 }
 
-Expected<ConstraintSpace> ConstraintSpace::create(int size, std::span<const LinearConstraint> constraints,
+Expected<ConstraintSpace> ConstraintSpace::create(int size,
+                                                  std::span<const LinearConstraint> constraints,
                                                   const std::vector<bool>& held, bool coordinates) {
   auto elimination = eliminated(size, constraints, held, coordinates);
   if (!elimination) return std::unexpected(elimination.error());
@@ -83,7 +88,8 @@ void ConstraintSpace::number_free(const std::vector<Definition>& definitions, bo
       }
     }
   }
-  rows_.resize(static_cast<Eigen::Index>(dependent_.size()), static_cast<Eigen::Index>(free_.size()));
+  rows_.resize(static_cast<Eigen::Index>(dependent_.size()),
+               static_cast<Eigen::Index>(free_.size()));
   rows_.setFromTriplets(entries.begin(), entries.end());
   held_rows_.resize(rows_.rows(), static_cast<Eigen::Index>(definitions.size()));
   held_rows_.setFromTriplets(held.begin(), held.end());
@@ -104,7 +110,8 @@ bool ConstraintSpace::is_determined(int i) const {
 Points ConstraintSpace::reduce_points(const Points& b) const {
   assert(!coupled_ && b.rows() == size_);
   Points y(free_count(), 3);
-  for (std::size_t k = 0; k < free_.size(); ++k) y.row(static_cast<Eigen::Index>(k)) = b.row(free_[k]);
+  for (std::size_t k = 0; k < free_.size(); ++k)
+    y.row(static_cast<Eigen::Index>(k)) = b.row(free_[k]);
   for (Eigen::Index k = 0; k < rows_.outerSize(); ++k) {
     for (decltype(rows_)::InnerIterator it(rows_, k); it; ++it) {
       y.row(it.col()) += it.value() * b.row(dependent_[static_cast<std::size_t>(k)]);
@@ -116,7 +123,8 @@ Points ConstraintSpace::reduce_points(const Points& b) const {
 Points ConstraintSpace::expand_points(const Points& y) const {
   assert(!coupled_ && y.rows() == free_count());
   Points x = Points::Zero(size_, 3);
-  for (std::size_t k = 0; k < free_.size(); ++k) x.row(free_[k]) = y.row(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < free_.size(); ++k)
+    x.row(free_[k]) = y.row(static_cast<Eigen::Index>(k));
   for (Eigen::Index k = 0; k < rows_.outerSize(); ++k) {
     for (decltype(rows_)::InnerIterator it(rows_, k); it; ++it) {
       x.row(dependent_[static_cast<std::size_t>(k)]) += it.value() * y.row(it.col());
@@ -127,7 +135,8 @@ Points ConstraintSpace::expand_points(const Points& y) const {
 
 std::vector<ConstraintSpace::Term> ConstraintSpace::terms(std::span<const int> points) const {
   std::vector<int> place(position_.size(), -1);  // in dependent_
-  for (std::size_t k = 0; k < dependent_.size(); ++k) place[at(dependent_[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < dependent_.size(); ++k)
+    place[at(dependent_[k])] = static_cast<int>(k);
   std::vector<Term> result;
   int row = 0;
   for (const int point : points) {
@@ -148,7 +157,8 @@ Eigen::MatrixXd ConstraintSpace::reduce(const Points& b) const {
   const Eigen::Map<const Eigen::VectorXd> flat(b.data(), b.size());
   Eigen::VectorXd y(free_count()), rest(static_cast<Eigen::Index>(dependent_.size()));
   for (std::size_t k = 0; k < free_.size(); ++k) y[static_cast<Eigen::Index>(k)] = flat[free_[k]];
-  for (std::size_t k = 0; k < dependent_.size(); ++k) rest[static_cast<Eigen::Index>(k)] = flat[dependent_[k]];
+  for (std::size_t k = 0; k < dependent_.size(); ++k)
+    rest[static_cast<Eigen::Index>(k)] = flat[dependent_[k]];
   y += rows_.transpose() * rest;
   return y;
 }
@@ -157,8 +167,10 @@ Points ConstraintSpace::expand(const Eigen::MatrixXd& y) const {
   if (!coupled_) return expand_points(y);
   Points x = Points::Zero(size_, 3);
   const Eigen::VectorXd rest = rows_ * y.col(0);
-  for (std::size_t k = 0; k < free_.size(); ++k) x.data()[free_[k]] = y(static_cast<Eigen::Index>(k), 0);
-  for (std::size_t k = 0; k < dependent_.size(); ++k) x.data()[dependent_[k]] = rest[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < free_.size(); ++k)
+    x.data()[free_[k]] = y(static_cast<Eigen::Index>(k), 0);
+  for (std::size_t k = 0; k < dependent_.size(); ++k)
+    x.data()[dependent_[k]] = rest[static_cast<Eigen::Index>(k)];
   return x;
 }
 
@@ -166,10 +178,12 @@ Points ConstraintSpace::lumped(const Points& b) const {
   Points result = Points::Zero(size_, 3);
   if (!coupled_) {
     const Points y = reduce_points(b);
-    for (std::size_t k = 0; k < free_.size(); ++k) result.row(free_[k]) = y.row(static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < free_.size(); ++k)
+      result.row(free_[k]) = y.row(static_cast<Eigen::Index>(k));
   } else {
     const Eigen::MatrixXd y = reduce(b);
-    for (std::size_t k = 0; k < free_.size(); ++k) result.data()[free_[k]] = y(static_cast<Eigen::Index>(k), 0);
+    for (std::size_t k = 0; k < free_.size(); ++k)
+      result.data()[free_[k]] = y(static_cast<Eigen::Index>(k), 0);
   }
   return result;
 }
@@ -179,7 +193,8 @@ namespace {
 /// The rows and columns of some unknowns, ascending.
 SparseMatrix selected(const SparseMatrix& a, const std::vector<int>& unknowns) {
   std::vector<int> place(static_cast<std::size_t>(a.rows()), -1);
-  for (std::size_t k = 0; k < unknowns.size(); ++k) place[static_cast<std::size_t>(unknowns[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < unknowns.size(); ++k)
+    place[static_cast<std::size_t>(unknowns[k])] = static_cast<int>(k);
   const auto size = static_cast<Eigen::Index>(unknowns.size());
   SparseMatrix result(size, size);
   result.reserve(a.nonZeros());
@@ -208,7 +223,8 @@ SparseMatrix ConstraintSpace::restrict(const SparseMatrix& a) const {
     for (Eigen::Index j = 0; j < a.outerSize(); ++j) {
       for (SparseMatrix::InnerIterator it(a, j); it; ++it) {
         for (int c = 0; c < 3; ++c) {
-          entries.emplace_back(3 * static_cast<int>(it.row()) + c, 3 * static_cast<int>(j) + c, it.value());
+          entries.emplace_back(3 * static_cast<int>(it.row()) + c, 3 * static_cast<int>(j) + c,
+                               it.value());
         }
       }
     }
@@ -216,10 +232,12 @@ SparseMatrix ConstraintSpace::restrict(const SparseMatrix& a) const {
     full.setFromTriplets(entries.begin(), entries.end());
   }
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t k = 0; k < free_.size(); ++k) entries.emplace_back(free_[k], static_cast<int>(k), 1.0);
+  for (std::size_t k = 0; k < free_.size(); ++k)
+    entries.emplace_back(free_[k], static_cast<int>(k), 1.0);
   for (Eigen::Index k = 0; k < rows_.outerSize(); ++k) {
     for (decltype(rows_)::InnerIterator it(rows_, k); it; ++it) {
-      entries.emplace_back(dependent_[static_cast<std::size_t>(k)], static_cast<int>(it.col()), it.value());
+      entries.emplace_back(dependent_[static_cast<std::size_t>(k)], static_cast<int>(it.col()),
+                           it.value());
     }
   }
   SparseMatrix t(full.rows(), free_count());
@@ -242,9 +260,11 @@ Points ConstraintSpace::feasible(const Points& x) const {
       };
       for (decltype(rows_)::InnerIterator it(rows_, k); it; ++it)
         add(free_[at(static_cast<int>(it.col()))], it.value());
-      for (decltype(rows_)::InnerIterator it(held_rows_, k); it; ++it) add(static_cast<int>(it.col()), it.value());
+      for (decltype(rows_)::InnerIterator it(held_rows_, k); it; ++it)
+        add(static_cast<int>(it.col()), it.value());
       double& entry = coupled_ ? result.data()[unknown] : result(unknown, c);
-      if (std::abs(entry - sum) > 1e-15 * size) entry = sum;  // a difference of rounding already satisfies it
+      if (std::abs(entry - sum) > 1e-15 * size)
+        entry = sum;  // a difference of rounding already satisfies it
     }
   }
   return result;
@@ -256,7 +276,8 @@ std::pair<int, double> ConstraintSpace::worst(const Points& x) const {
     const LinearConstraint& c = constraints_[k];
     Point sum = -c.value;
     for (const auto& [unknown, a] : c.terms) sum += a * x.row(unknown).transpose();
-    const double off = c.normal ? std::abs(c.normal->normalized().dot(sum)) : sum.cwiseAbs().maxCoeff();
+    const double off =
+        c.normal ? std::abs(c.normal->normalized().dot(sum)) : sum.cwiseAbs().maxCoeff();
     if (off > result.second) result = {static_cast<int>(k), off};
   }
   return result;

@@ -11,8 +11,8 @@
 namespace knead {
 namespace {
 
-// Of 16 bytes each. Conditions that tie a point to a hundred others, as those of rational creases of high degree, make
-// ten thousand of an entry.
+// Of 16 bytes each. Conditions that tie a point to a hundred others, as those of rational creases
+// of high degree, make ten thousand of an entry.
 constexpr std::ptrdiff_t most_pieces = 20'000'000;
 
 using MapRow = std::vector<std::pair<int, double>>;  // of T: unknown, coefficient
@@ -27,7 +27,8 @@ std::vector<MapRow> map_rows(const ConstraintSpace& space) {
   return rows;
 }
 
-/// Calls visit(entry of A, unknown, unknown, coefficient) for all that the entries of A add to Tᵀ A T.
+/// Calls visit(entry of A, unknown, unknown, coefficient) for all that the entries of A add to Tᵀ A
+/// T.
 template <class Visit>
 void each_restricted(const SparseMatrix& a, const std::vector<MapRow>& rows, Visit visit) {
   int entry = 0;
@@ -76,7 +77,8 @@ struct Marks {
 };
 
 /// Ones where Tᵀ A T has entries, column by column.
-SparseMatrix restricted_pattern(const SparseMatrix& a, const std::vector<MapRow>& rows, const SparseMatrix& map) {
+SparseMatrix restricted_pattern(const SparseMatrix& a, const std::vector<MapRow>& rows,
+                                const SparseMatrix& map) {
   SparseMatrix pattern(map.cols(), map.cols());
   pattern.reserve(a.nonZeros());
   Marks of_a(a.rows()), unknowns(map.cols());
@@ -84,7 +86,8 @@ SparseMatrix restricted_pattern(const SparseMatrix& a, const std::vector<MapRow>
     of_a.clear();
     unknowns.clear();
     for (SparseMatrix::InnerIterator t(map, q); t; ++t) {
-      for (SparseMatrix::InnerIterator it(a, t.index()); it; ++it) of_a.mark(static_cast<int>(it.index()));
+      for (SparseMatrix::InnerIterator it(a, t.index()); it; ++it)
+        of_a.mark(static_cast<int>(it.index()));
     }
     for (const int i : of_a.list) {
       for (const auto& [p, c] : rows[static_cast<std::size_t>(i)]) unknowns.mark(p);
@@ -99,7 +102,8 @@ SparseMatrix restricted_pattern(const SparseMatrix& a, const std::vector<MapRow>
 
 }  // namespace
 
-CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space, const SparseMatrix& pattern,
+CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space,
+                                             const SparseMatrix& pattern,
                                              const GridPlaces* places) {
   assert(space.coupled() && pattern.isCompressed() && pattern.rows() == 3 * space.size());
   const std::vector<MapRow> rows = map_rows(space);
@@ -109,12 +113,13 @@ CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space, const
     const SparseMatrix whole = restricted_pattern(pattern, rows, map_);
     dissection_ = unknowns ? dissect(whole, *unknowns) : minimum_degree(whole);
     zero_.resize(whole.rows(), whole.cols());
-    zero_.selfadjointView<Eigen::Lower>() =
-        whole.selfadjointView<Eigen::Lower>().twistedBy(Eigen::PermutationMatrix<Eigen::Dynamic>(dissection_.order));
+    zero_.selfadjointView<Eigen::Lower>() = whole.selfadjointView<Eigen::Lower>().twistedBy(
+        Eigen::PermutationMatrix<Eigen::Dynamic>(dissection_.order));
   }
   zero_.makeCompressed();
   for (Eigen::Index j = 0; j < zero_.outerSize(); ++j) {
-    std::sort(zero_.innerIndexPtr() + zero_.outerIndexPtr()[j], zero_.innerIndexPtr() + zero_.outerIndexPtr()[j + 1]);
+    std::sort(zero_.innerIndexPtr() + zero_.outerIndexPtr()[j],
+              zero_.innerIndexPtr() + zero_.outerIndexPtr()[j + 1]);
   }
   std::fill_n(zero_.valuePtr(), zero_.nonZeros(), 0.0);
   if (count_pieces(pattern, rows) > most_pieces) return;
@@ -124,26 +129,31 @@ CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space, const
   each_restricted(pattern, rows, [&](int from, int p, int q, double coefficient) {
     const int row = order[p], column = order[q];
     if (row < column) return;  // its mirror image is visited too
-    const int to = static_cast<int>(std::lower_bound(index + start[column], index + start[column + 1], row) - index);
+    const int to = static_cast<int>(
+        std::lower_bound(index + start[column], index + start[column + 1], row) - index);
     pieces_.push_back({from, to, coefficient});
   });
 }
 
-/// Column by column: A times a column of T, then the columns of T times that, where the pattern has entries.
+/// Column by column: A times a column of T, then the columns of T times that, where the pattern has
+/// entries.
 SparseMatrix CoordinateRestriction::product(const SparseMatrix& a) const {
   SparseMatrix result = zero_;
   const Eigen::VectorXi& order = dissection_.order;
   std::vector<int> unknown(static_cast<std::size_t>(order.size()));
-  for (Eigen::Index p = 0; p < order.size(); ++p) unknown[static_cast<std::size_t>(order[p])] = static_cast<int>(p);
+  for (Eigen::Index p = 0; p < order.size(); ++p)
+    unknown[static_cast<std::size_t>(order[p])] = static_cast<int>(p);
   Eigen::VectorXd image(a.rows());
   for (Eigen::Index column = 0; column < result.outerSize(); ++column) {
     image.setZero();
     for (SparseMatrix::InnerIterator t(map_, unknown[static_cast<std::size_t>(column)]); t; ++t) {
-      for (SparseMatrix::InnerIterator it(a, t.index()); it; ++it) image[it.index()] += t.value() * it.value();
+      for (SparseMatrix::InnerIterator it(a, t.index()); it; ++it)
+        image[it.index()] += t.value() * it.value();
     }
     for (SparseMatrix::InnerIterator entry(result, column); entry; ++entry) {
       double sum = 0;
-      for (SparseMatrix::InnerIterator t(map_, unknown[static_cast<std::size_t>(entry.index())]); t; ++t) {
+      for (SparseMatrix::InnerIterator t(map_, unknown[static_cast<std::size_t>(entry.index())]); t;
+           ++t) {
         sum += t.value() * image[t.index()];
       }
       entry.valueRef() = sum;

@@ -34,8 +34,9 @@ template GridPlaces grid_places<3>(std::span<const Spline<3>>);
 namespace {
 
 constexpr std::size_t leaf = 64;  // so few unknowns are not divided
-// The share of a part before its separator. Where that is in the middle, whatever happens in the middle of a net needs
-// most of L; here as little is needed there as anywhere else, and L is as small.
+// The share of a part before its separator. Where that is in the middle, whatever happens in the
+// middle of a net needs most of L; here as little is needed there as anywhere else, and L is as
+// small.
 constexpr double share_before = 0.38;
 
 class Dissector {
@@ -58,7 +59,8 @@ class Dissector {
  private:
   enum class Side : char { none, before, behind };
 
-  /// Gives places to the unknowns of a part, and returns its last node. \param own it is or has nodes of its own.
+  /// Gives places to the unknowns of a part, and returns its last node. \param own it is or has
+  /// nodes of its own.
   int divide(std::span<int> part, bool own) {
     const bool one_node = own && part.size() <= node_size_;
     const int begin = next_;
@@ -72,7 +74,9 @@ class Dissector {
     }
     for (const int i : part.subspan(first + second)) result_.order[i] = next_++;
     if (!own) return -1;
-    const int from = one_node || children.empty() ? begin : next_ - static_cast<int>(part.size() - first - second);
+    const int from = one_node || children.empty()
+                         ? begin
+                         : next_ - static_cast<int>(part.size() - first - second);
     const auto node = static_cast<int>(result_.nodes.size());
     result_.nodes.push_back({from, next_, -1});
     for (const int child : children) {
@@ -85,7 +89,8 @@ class Dissector {
   [[nodiscard]] int longest(std::span<const int> part) const {
     int result = -1, most = 0;
     for (int d = 0; d < places_.directions; ++d) {
-      const auto [lower, upper] = std::ranges::minmax(part, {}, [&](int i) { return places_.at(i, d); });
+      const auto [lower, upper] =
+          std::ranges::minmax(part, {}, [&](int i) { return places_.at(i, d); });
       const int extent = places_.at(upper, d) - places_.at(lower, d);
       if (extent <= most) continue;
       most = extent;
@@ -94,8 +99,8 @@ class Dissector {
     return result;
   }
 
-  /// Reorders a part into what is before a cut, what is behind it and the separator: how many are before and behind;
-  /// none where no cut divides it.
+  /// Reorders a part into what is before a cut, what is behind it and the separator: how many are
+  /// before and behind; none where no cut divides it.
   std::pair<std::size_t, std::size_t> split(std::span<int> part, int direction) {
     std::ranges::sort(part, [&](int i, int j) {
       const int a = places_.at(i, direction), b = places_.at(j, direction);
@@ -111,8 +116,12 @@ class Dissector {
       const std::size_t other = cut_near(part, before_of(part.size() - thick), direction);
       if (other > 0 && other != cut) mark(part, cut = other);
     }
-    const auto is_before = [&](int i) { return side_[static_cast<std::size_t>(i)] == Side::before; };
-    const auto is_behind = [&](int i) { return side_[static_cast<std::size_t>(i)] == Side::behind; };
+    const auto is_before = [&](int i) {
+      return side_[static_cast<std::size_t>(i)] == Side::before;
+    };
+    const auto is_behind = [&](int i) {
+      return side_[static_cast<std::size_t>(i)] == Side::behind;
+    };
     const auto rest = std::stable_partition(part.begin(), part.end(), is_before);
     const auto separator = std::stable_partition(rest, part.end(), is_behind);
     for (const int i : part) side_[static_cast<std::size_t>(i)] = Side::none;
@@ -128,8 +137,10 @@ class Dissector {
     return {first, second};
   }
 
-  /// How many unknowns of a sorted part are before the place of number `at`; those before the place behind it if none.
-  [[nodiscard]] std::size_t cut_near(std::span<const int> part, std::size_t at, int direction) const {
+  /// How many unknowns of a sorted part are before the place of number `at`; those before the place
+  /// behind it if none.
+  [[nodiscard]] std::size_t cut_near(std::span<const int> part, std::size_t at,
+                                     int direction) const {
     const int place = places_.at(part[at], direction);
     const auto of = [&](int i) { return places_.at(i, direction); };
     const auto lower = std::ranges::lower_bound(part, place, {}, of) - part.begin();
@@ -137,8 +148,8 @@ class Dissector {
     return static_cast<std::size_t>(std::ranges::upper_bound(part, place, {}, of) - part.begin());
   }
 
-  /// Marks the sides of the first `cut` unknowns and of the others, and leaves out those of the others that depend on
-  /// the first, whose number is returned.
+  /// Marks the sides of the first `cut` unknowns and of the others, and leaves out those of the
+  /// others that depend on the first, whose number is returned.
   std::size_t mark(std::span<const int> part, std::size_t cut) {
     for (std::size_t k = 0; k < part.size(); ++k)
       side_[static_cast<std::size_t>(part[k])] = k < cut ? Side::before : Side::behind;
@@ -161,7 +172,8 @@ class Dissector {
   void order_separator(std::span<int> part, int across) const {
     int along = across, most = -1;
     for (int d = 0; d < places_.directions && !part.empty(); ++d) {
-      const auto [lower, upper] = std::ranges::minmax(part, {}, [&](int i) { return places_.at(i, d); });
+      const auto [lower, upper] =
+          std::ranges::minmax(part, {}, [&](int i) { return places_.at(i, d); });
       const int extent = places_.at(upper, d) - places_.at(lower, d);
       if (d == across || extent <= most) continue;
       most = extent;
@@ -185,7 +197,8 @@ class Dissector {
 }  // namespace
 
 Dissection dissect(const SparseMatrix& a, const GridPlaces& places, int node_size) {
-  assert(static_cast<std::size_t>(a.cols()) * static_cast<std::size_t>(places.directions) == places.indices.size());
+  assert(static_cast<std::size_t>(a.cols()) * static_cast<std::size_t>(places.directions) ==
+         places.indices.size());
   return Dissector(a, places, node_size).run();
 }
 

@@ -13,8 +13,9 @@
 #include "coordinate_map.hpp"
 #include "eigen_problem.hpp"
 
-// Not Spectra: its headers throw, and the core is compiled without exceptions; and its Lanczos iterations have one
-// starting vector, which may miss copies of multiple eigenvalues, as those of square plates and round cans.
+// Not Spectra: its headers throw, and the core is compiled without exceptions; and its Lanczos
+// iterations have one starting vector, which may miss copies of multiple eigenvalues, as those of
+// square plates and round cans.
 
 namespace knead {
 namespace {
@@ -22,7 +23,8 @@ namespace {
 constexpr double wanted_residual = 1e-10;
 constexpr Eigen::Index block_size = 8, most_vectors = 400;
 constexpr double relative_shift = 1e-9;
-constexpr double dependent = 1e-12;  // what a vector must keep of its length when others are subtracted from it
+// What a vector must keep of its length when others are subtracted from it.
+constexpr double dependent = 1e-12;
 
 /// Numbers in (−1, 1) of the 64-bit linear congruential sequence of Knuth's MMIX.
 class Sequence {
@@ -48,7 +50,12 @@ struct RitzPairs {
 class Lanczos {
  public:
   Lanczos(const detail::SparseLdlt& a, const SparseMatrix& c, const SparseMatrix& p)
-      : a_(a), c_(c), p_(p), most_(std::min(most_vectors, p.rows())), basis_(p.rows(), most_), t_(most_, most_) {
+      : a_(a),
+        c_(c),
+        p_(p),
+        most_(std::min(most_vectors, p.rows())),
+        basis_(p.rows(), most_),
+        t_(most_, most_) {
     t_.setZero();
   }
 
@@ -83,8 +90,8 @@ class Lanczos {
     return width;
   }
 
-  /// Replaces columns by orthonormal ones of the same span and returns R of the product; columns that depend on others
-  /// are left out.
+  /// Replaces columns by orthonormal ones of the same span and returns R of the product; columns
+  /// that depend on others are left out.
   Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& block) {
     Eigen::MatrixXd r = Eigen::MatrixXd::Zero(block.cols(), block.cols());
     Eigen::Index kept = 0;
@@ -99,7 +106,9 @@ class Lanczos {
         r.block(0, j, kept, 1) += h;
       }
       // Rounding leaves parts along the vectors before.
-      if (size_ > 0) x.noalias() -= basis_.leftCols(size_) * (basis_.leftCols(size_).transpose() * (p_ * x)).eval();
+      if (size_ > 0)
+        x.noalias() -=
+            basis_.leftCols(size_) * (basis_.leftCols(size_).transpose() * (p_ * x)).eval();
       const double left = length(x);
       if (!(left > dependent * largest) || left == 0) continue;
       r(kept, j) = left;
@@ -109,10 +118,13 @@ class Lanczos {
     return r.topRows(kept).eval();
   }
 
-  [[nodiscard]] double length(const Eigen::VectorXd& x) const { return std::sqrt(std::max(0.0, x.dot(p_ * x))); }
+  [[nodiscard]] double length(const Eigen::VectorXd& x) const {
+    return std::sqrt(std::max(0.0, x.dot(p_ * x)));
+  }
 
-  [[nodiscard]] Expected<RitzPairs> converged(Eigen::Index count, Wanted wanted, const Eigen::MatrixXd& r,
-                                              Eigen::Index first, Eigen::Index width) const {
+  [[nodiscard]] Expected<RitzPairs> converged(Eigen::Index count, Wanted wanted,
+                                              const Eigen::MatrixXd& r, Eigen::Index first,
+                                              Eigen::Index width) const {
     const Eigen::MatrixXd t = t_.topLeftCorner(size_, size_);
     const auto ritz = detail::symmetric_eigen(Eigen::MatrixXd((t + t.transpose()) / 2));
     if (!ritz) return std::unexpected(ritz.error());
@@ -120,14 +132,16 @@ class Lanczos {
     std::iota(order.begin(), order.end(), Eigen::Index{0});
     const Eigen::VectorXd& theta = ritz->values;
     std::ranges::stable_sort(order, [&](Eigen::Index i, Eigen::Index j) {
-      return wanted == Wanted::positive ? theta[i] > theta[j] : std::abs(theta[i]) > std::abs(theta[j]);
+      return wanted == Wanted::positive ? theta[i] > theta[j]
+                                        : std::abs(theta[i]) > std::abs(theta[j]);
     });
     const double largest = theta.cwiseAbs().maxCoeff();
     std::vector<Eigen::Index> good;
     for (const Eigen::Index i : order) {
       if (static_cast<Eigen::Index>(good.size()) == count) break;
       if (wanted == Wanted::positive && theta[i] <= dependent * largest) break;
-      const double error = r.rows() == 0 ? 0 : (r * ritz->vectors.col(i).segment(first, width)).norm();
+      const double error =
+          r.rows() == 0 ? 0 : (r * ritz->vectors.col(i).segment(first, width)).norm();
       if (error > wanted_residual * std::abs(theta[i])) break;  // in order, so that none is skipped
       good.push_back(i);
     }
@@ -158,22 +172,29 @@ Points shape_of(const SparseMatrix& map, const Eigen::VectorXd& y) {
   return shape;
 }
 
-Expected<void> check(const SparseMatrix& a, const SparseMatrix& b, const SparseMatrix& map, int count) {
-  if (count < 1) return input_error(fmt::format("{} is not a number of modes", count), "count", "use 1 or more");
+Expected<void> check(const SparseMatrix& a, const SparseMatrix& b, const SparseMatrix& map,
+                     int count) {
+  if (count < 1)
+    return input_error(fmt::format("{} is not a number of modes", count), "count", "use 1 or more");
   if (a.rows() != b.rows() || a.rows() != map.rows()) {
-    return input_error("the matrices are of different sizes", "modes", "give 3 rows per control point");
+    return input_error("the matrices are of different sizes", "modes",
+                       "give 3 rows per control point");
   }
-  if (map.cols() == 0) return input_error("everything is held", "modes", "leave something free to move");
+  if (map.cols() == 0)
+    return input_error("everything is held", "modes", "leave something free to move");
   return {};
 }
 
-Expected<SparseMatrix> map_of(Eigen::Index coordinates, std::span<const LinearConstraint> constraints) {
+Expected<SparseMatrix> map_of(Eigen::Index coordinates,
+                              std::span<const LinearConstraint> constraints) {
   auto space = ConstraintSpace::create(static_cast<int>(coordinates / 3), constraints);
   if (!space) return std::unexpected(space.error());
   return coordinate_map(*space);
 }
 
-SparseMatrix restricted(const SparseMatrix& a, const SparseMatrix& map) { return map.transpose() * a * map; }
+SparseMatrix restricted(const SparseMatrix& a, const SparseMatrix& map) {
+  return map.transpose() * a * map;
+}
 
 double trace(const SparseMatrix& a) { return a.diagonal().sum(); }
 
@@ -199,7 +220,8 @@ SparseMatrix on_coordinates(const SparseMatrix& scalar) {
   entries.reserve(static_cast<std::size_t>(3 * scalar.nonZeros()));
   for (int j = 0; j < scalar.outerSize(); ++j) {
     for (SparseMatrix::InnerIterator it(scalar, j); it; ++it) {
-      for (int c = 0; c < 3; ++c) entries.emplace_back(3 * static_cast<int>(it.row()) + c, 3 * j + c, it.value());
+      for (int c = 0; c < 3; ++c)
+        entries.emplace_back(3 * static_cast<int>(it.row()) + c, 3 * j + c, it.value());
     }
   }
   SparseMatrix result(3 * scalar.rows(), 3 * scalar.cols());
@@ -207,11 +229,13 @@ SparseMatrix on_coordinates(const SparseMatrix& scalar) {
   return result;
 }
 
-Expected<std::vector<Eigenmode>> mapped_vibration_modes(const SparseMatrix& stiffness, const SparseMatrix& mass,
+Expected<std::vector<Eigenmode>> mapped_vibration_modes(const SparseMatrix& stiffness,
+                                                        const SparseMatrix& mass,
                                                         const SparseMatrix& map, int count) {
   if (auto ok = check(stiffness, mass, map, count); !ok) return std::unexpected(ok.error());
   const SparseMatrix k = restricted(stiffness, map), m = restricted(mass, map);
-  if (!(trace(m) > 0)) return input_error("there is no mass", "density", "give the material a density > 0");
+  if (!(trace(m) > 0))
+    return input_error("there is no mass", "density", "give the material a density > 0");
   const double shift = relative_shift * std::max(trace(k), 0.0) / trace(m);
   const SparseMatrix shifted = k + shift * m;
   detail::SparseLdlt solver;
@@ -223,8 +247,8 @@ Expected<std::vector<Eigenmode>> mapped_vibration_modes(const SparseMatrix& stif
   const auto pairs = Lanczos(solver, m, m).find(wanted, Wanted::largest);
   if (!pairs) return std::unexpected(pairs.error());
   if (pairs->values.size() < wanted) {
-    return numerical_error(fmt::format("{} of {} modes converged", pairs->values.size(), wanted), "count",
-                           "ask for fewer");
+    return numerical_error(fmt::format("{} of {} modes converged", pairs->values.size(), wanted),
+                           "count", "ask for fewer");
   }
   std::vector<Eigenmode> modes;
   for (Eigen::Index i = 0; i < wanted; ++i) {
@@ -236,16 +260,18 @@ Expected<std::vector<Eigenmode>> mapped_vibration_modes(const SparseMatrix& stif
   return modes;
 }
 
-Expected<std::vector<Eigenmode>> mapped_buckling_modes(const SparseMatrix& stiffness, const SparseMatrix& geometric,
+Expected<std::vector<Eigenmode>> mapped_buckling_modes(const SparseMatrix& stiffness,
+                                                       const SparseMatrix& geometric,
                                                        const SparseMatrix& map, int count) {
   if (auto ok = check(stiffness, geometric, map, count); !ok) return std::unexpected(ok.error());
   const SparseMatrix k = restricted(stiffness, map), g = -restricted(geometric, map);
   detail::SparseLdlt solver;
   if (!solver.factor(k) || !solver.positive()) {
-    return numerical_error("the structure moves without strain, or is unstable without its load", "buckling",
-                           "hold it so that no rigid motion is left");
+    return numerical_error("the structure moves without strain, or is unstable without its load",
+                           "buckling", "hold it so that no rigid motion is left");
   }
-  const auto pairs = Lanczos(solver, g, k).find(std::min<Eigen::Index>(count, map.cols()), Wanted::positive);
+  const auto pairs =
+      Lanczos(solver, g, k).find(std::min<Eigen::Index>(count, map.cols()), Wanted::positive);
   if (!pairs) return std::unexpected(pairs.error());
   std::vector<Eigenmode> modes;
   for (Eigen::Index i = 0; i < pairs->values.size(); ++i) {
@@ -256,15 +282,19 @@ Expected<std::vector<Eigenmode>> mapped_buckling_modes(const SparseMatrix& stiff
   return modes;
 }
 
-Expected<std::vector<Eigenmode>> vibration_modes(const SparseMatrix& stiffness, const SparseMatrix& mass,
-                                                 std::span<const LinearConstraint> constraints, int count) {
+Expected<std::vector<Eigenmode>> vibration_modes(const SparseMatrix& stiffness,
+                                                 const SparseMatrix& mass,
+                                                 std::span<const LinearConstraint> constraints,
+                                                 int count) {
   const auto map = map_of(stiffness.rows(), constraints);
   if (!map) return std::unexpected(map.error());
   return mapped_vibration_modes(stiffness, mass, *map, count);
 }
 
-Expected<std::vector<Eigenmode>> buckling_modes(const SparseMatrix& stiffness, const SparseMatrix& geometric,
-                                                std::span<const LinearConstraint> constraints, int count) {
+Expected<std::vector<Eigenmode>> buckling_modes(const SparseMatrix& stiffness,
+                                                const SparseMatrix& geometric,
+                                                std::span<const LinearConstraint> constraints,
+                                                int count) {
   const auto map = map_of(stiffness.rows(), constraints);
   if (!map) return std::unexpected(map.error());
   return mapped_buckling_modes(stiffness, geometric, *map, count);

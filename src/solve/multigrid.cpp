@@ -12,10 +12,12 @@
 namespace knead {
 namespace {
 
-constexpr double damping = 1.6;  // over the largest eigenvalue of D⁻¹A: the upper three quarters fall by 0.6 at least
+// Over the largest eigenvalue of D⁻¹A: the upper three quarters fall by 0.6 at least.
+constexpr double damping = 1.6;
 constexpr int power_iterations = 12;
-constexpr double power_margin = 1.1;   // power iteration finds less than the largest eigenvalue
-constexpr int product_columns = 2048;  // of a Galerkin product at a time, which bounds what lies beside it
+constexpr double power_margin = 1.1;  // power iteration finds less than the largest eigenvalue
+// Of a Galerkin product at a time, which bounds what lies beside it.
+constexpr int product_columns = 2048;
 constexpr double exact_solve = 1e-12, known_solve = 1e-8, known_tolerance = 1e-3;
 constexpr int max_iterations = 500, max_known_iterations = 100;
 
@@ -24,7 +26,8 @@ std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
 /// Pᵀ A P.
-SparseMatrix galerkin(const SparseMatrix& a, const SparseMatrix& p, const SparseMatrix& transposed) {
+SparseMatrix galerkin(const SparseMatrix& a, const SparseMatrix& p,
+                      const SparseMatrix& transposed) {
   SparseMatrix result(p.cols(), p.cols());
   for (Eigen::Index first = 0; first < p.cols(); first += product_columns) {
     const Eigen::Index count = std::min<Eigen::Index>(product_columns, p.cols() - first);
@@ -33,15 +36,16 @@ SparseMatrix galerkin(const SparseMatrix& a, const SparseMatrix& p, const Sparse
     if (first == 0) result.reserve(block.nonZeros() * (p.cols() / count + 1));
     for (Eigen::Index j = 0; j < count; ++j) {
       result.startVec(first + j);
-      for (SparseMatrix::InnerIterator it(block, j); it; ++it) result.insertBack(it.row(), first + j) = it.value();
+      for (SparseMatrix::InnerIterator it(block, j); it; ++it)
+        result.insertBack(it.row(), first + j) = it.value();
     }
   }
   result.finalize();
   return result;
 }
 
-/// Rows of p in these places of a matrix with `rows` rows, −1 being left out, and the columns of p that are not zero
-/// then, whose places in the result are written to `columns`.
+/// Rows of p in these places of a matrix with `rows` rows, −1 being left out, and the columns of p
+/// that are not zero then, whose places in the result are written to `columns`.
 SparseMatrix placed(const SparseMatrix& p, const std::vector<int>& places, Eigen::Index rows,
                     std::vector<int>& columns) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -90,8 +94,8 @@ Points scattered(Eigen::Index rows) {
   return x;
 }
 
-/// The damped weights of Jacobi's method, 1.6 / (d λ) for the diagonal d and the largest eigenvalue λ of D⁻¹A, found by
-/// power iteration. \param d zero where there is no unknown.
+/// The damped weights of Jacobi's method, 1.6 / (d λ) for the diagonal d and the largest eigenvalue
+/// λ of D⁻¹A, found by power iteration. \param d zero where there is no unknown.
 template <class Product>
 Eigen::VectorXd jacobi_weights(const Eigen::VectorXd& d, const Product& product) {
   const Eigen::VectorXd inverse = (d.array() == 0).select(0.0, d.cwiseInverse());
@@ -123,20 +127,23 @@ ConstrainedMultigrid::Columns::Columns(const SparseMatrix& a) {
 /// y = Aᵀ x. Four sums side by side do not wait for one another.
 void ConstrainedMultigrid::Columns::transposed_times(const Fours& x, Fours& y) const {
   y.resize(count());
-  const double work = 4.0 * static_cast<double>(value.size()) / static_cast<double>(std::max<std::size_t>(count(), 1));
+  const double work = 4.0 * static_cast<double>(value.size()) /
+                      static_cast<double>(std::max<std::size_t>(count(), 1));
   const auto columns = static_cast<std::ptrdiff_t>(count());
-  detail::parallel_for(columns, detail::block_size(columns, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (; begin < end; ++begin) {
-      const auto j = static_cast<std::size_t>(begin);
-      Four sum[4] = {};
-      int k = start[j];
-      for (; k + 4 <= start[j + 1]; k += 4) {
-        for (int c = 0; c < 4; ++c) sum[c] += value[at(k + c)] * x[at(row[at(k + c)])];
-      }
-      for (; k < start[j + 1]; ++k) sum[0] += value[at(k)] * x[at(row[at(k)])];
-      y[j] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-    }
-  });
+  detail::parallel_for(columns, detail::block_size(columns, work),
+                       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+                         for (; begin < end; ++begin) {
+                           const auto j = static_cast<std::size_t>(begin);
+                           Four sum[4] = {};
+                           int k = start[j];
+                           for (; k + 4 <= start[j + 1]; k += 4) {
+                             for (int c = 0; c < 4; ++c)
+                               sum[c] += value[at(k + c)] * x[at(row[at(k + c)])];
+                           }
+                           for (; k < start[j + 1]; ++k) sum[0] += value[at(k)] * x[at(row[at(k)])];
+                           y[j] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+                         }
+                       });
 }
 
 Points ConstrainedMultigrid::apply(const Points& x) const {
@@ -153,7 +160,8 @@ void ConstrainedMultigrid::cycle(std::size_t level, const Fours& r, Fours& x) co
     }
     const Points solved = coarsest_->solve(b);
     for (std::size_t i = 0; i < r.size(); ++i) {
-      for (int c = 0; c < 3; ++c) x[i][c] = static_cast<float>(solved(static_cast<Eigen::Index>(i), c));
+      for (int c = 0; c < 3; ++c)
+        x[i][c] = static_cast<float>(solved(static_cast<Eigen::Index>(i), c));
     }
     return;
   }
@@ -172,7 +180,8 @@ void ConstrainedMultigrid::cycle(std::size_t level, const Fours& r, Fours& x) co
   }
   here.next.restriction.transposed_times(coarse_x, correction);
   here.a.transposed_times(correction, product);
-  for (std::size_t i = 0; i < r.size(); ++i) x[i] += correction[i] + here.weight[i] * (left[i] - product[i]);
+  for (std::size_t i = 0; i < r.size(); ++i)
+    x[i] += correction[i] + here.weight[i] * (left[i] - product[i]);
 }
 
 /// The correction from the coarser spaces for a force on the finest one.
@@ -208,7 +217,8 @@ Points ConstrainedMultigrid::precondition(const Points& r) const {
   return space_.tied() ? space_.expand_points(space_.reduce_points(x)) : x;
 }
 
-ConstrainedMultigrid::Solved ConstrainedMultigrid::iterate(const Points& b, double tolerance, int limit) const {
+ConstrainedMultigrid::Solved ConstrainedMultigrid::iterate(const Points& b, double tolerance,
+                                                           int limit) const {
   Points r = space_.lumped(b), z = precondition(r), p = z;
   Solved result{Points::Zero(b.rows(), 3)};
   double rs = dot(r, z);
@@ -228,7 +238,9 @@ ConstrainedMultigrid::Solved ConstrainedMultigrid::iterate(const Points& b, doub
   return result;
 }
 
-Points ConstrainedMultigrid::solve(const Points& b) const { return iterate(b, exact_solve, max_iterations).x; }
+Points ConstrainedMultigrid::solve(const Points& b) const {
+  return iterate(b, exact_solve, max_iterations).x;
+}
 
 /// Adds the space of a prolongation, whose matrix takes the place of the one before.
 void ConstrainedMultigrid::add_space(SparseMatrix& matrix, const SparseMatrix& prolongation) {
@@ -245,15 +257,17 @@ void ConstrainedMultigrid::add_space(SparseMatrix& matrix, const SparseMatrix& p
     weight_ = jacobi_weights(diagonal, [this](const Points& x) { return apply(x); });
     next_ = std::move(transfer);
   } else {
-    const Eigen::VectorXd weight =
-        jacobi_weights(matrix.diagonal(), [&](const Points& x) { return symmetric_product(matrix, x); });
-    levels_.push_back({Columns(matrix), std::vector<float>(weight.begin(), weight.end()), std::move(transfer)});
+    const Eigen::VectorXd weight = jacobi_weights(
+        matrix.diagonal(), [&](const Points& x) { return symmetric_product(matrix, x); });
+    levels_.push_back(
+        {Columns(matrix), std::vector<float>(weight.begin(), weight.end()), std::move(transfer)});
   }
   matrix = std::move(next);
 }
 
-Expected<ConstrainedMultigrid> ConstrainedMultigrid::create(SparseMatrix&& a, Product product, ConstraintSpace space,
-                                                            const std::vector<SparseMatrix>& prolongations) {
+Expected<ConstrainedMultigrid> ConstrainedMultigrid::create(
+    SparseMatrix&& a, Product product, ConstraintSpace space,
+    const std::vector<SparseMatrix>& prolongations) {
   if (space.coupled() || space.free_count() == 0 || prolongations.empty())
     return usage_error("there are no nested spaces for this system");
   ConstrainedMultigrid result(std::move(space));
@@ -280,8 +294,9 @@ Expected<ConstrainedMultigrid> ConstrainedMultigrid::create(SparseMatrix&& a, Pr
   const Points ones = result.space_.expand_points(Points::Ones(result.space_.free_count(), 3));
   const Solved known = result.iterate(result.product_(ones), known_solve, max_known_iterations);
   if (const double error = (known.x - ones).cwiseAbs().maxCoeff(); !(error <= known_tolerance)) {
-    return numerical_error(fmt::format("multigrid does not converge (a known solution is missed by {:.1e})", error),
-                           "iteration", "use the direct solver");
+    return numerical_error(
+        fmt::format("multigrid does not converge (a known solution is missed by {:.1e})", error),
+        "iteration", "use the direct solver");
   }
   result.iterations_ = known.iterations;
   return result;

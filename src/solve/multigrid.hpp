@@ -9,35 +9,41 @@
 
 namespace knead {
 
-/// A system A X = B on the unknowns left by linear constraints that is not factored: conjugate gradients,
-/// preconditioned with one V-cycle of multigrid over nested spaces (docs/multigrid.md). Immutable, const is
-/// thread-safe; the same bits with any number of threads.
+/// A system A X = B on the unknowns left by linear constraints that is not factored: conjugate
+/// gradients, preconditioned with one V-cycle of multigrid over nested spaces (docs/multigrid.md).
+/// Immutable, const is thread-safe; the same bits with any number of threads.
 ///
-/// The unknowns y of X = T y are those of the finest space. Every coarser one is a subspace of the one before, given by
-/// a prolongation; its matrix is Pᵀ A P (Galerkin), so that a cycle is symmetric and positive, and no error grows.
-/// The smoother is Jacobi's method, damped by the largest eigenvalue of D⁻¹A. The coarsest matrix is factored. All but
-/// the finest space is in single precision, which a preconditioner does not notice.
+/// The unknowns y of X = T y are those of the finest space. Every coarser one is a subspace of the
+/// one before, given by a prolongation; its matrix is Pᵀ A P (Galerkin), so that a cycle is
+/// symmetric and positive, and no error grows. The smoother is Jacobi's method, damped by the
+/// largest eigenvalue of D⁻¹A. The coarsest matrix is factored. All but the finest space is in
+/// single precision, which a preconditioner does not notice.
 class ConstrainedMultigrid {
  public:
   /// A X for N × 3 numbers.
   using Product = std::function<Points(const Points&)>;
 
   /// \param a the matrix of `product`, needed no longer: it is emptied.
-  /// \param prolongations from the finest space on, N rows in the first one and as many as columns before in others.
-  /// Errors: constraints couple coordinates, or there is no prolongation (usage); the coarsest matrix is not positive
-  /// definite, or a known displacement is not reproduced to 1e-3 in 100 iterations (numerical).
-  /// Cost: two sparse products per space, and the factor of the coarsest.
-  [[nodiscard]] static Expected<ConstrainedMultigrid> create(SparseMatrix&& a, Product product, ConstraintSpace space,
-                                                             const std::vector<SparseMatrix>& prolongations);
+  /// \param prolongations from the finest space on, N rows in the first one and as many as columns
+  /// before in others. Errors: constraints couple coordinates, or there is no prolongation (usage);
+  /// the coarsest matrix is not positive definite, or a known displacement is not reproduced to
+  /// 1e-3 in 100 iterations (numerical). Cost: two sparse products per space, and the factor of the
+  /// coarsest.
+  [[nodiscard]] static Expected<ConstrainedMultigrid> create(
+      SparseMatrix&& a, Product product, ConstraintSpace space,
+      const std::vector<SparseMatrix>& prolongations);
 
-  /// T B Tᵀ r for a force r that is `ConstraintSpace::lumped`; B ≈ (Tᵀ A T)⁻¹ is symmetric and positive, one V-cycle.
+  /// T B Tᵀ r for a force r that is `ConstraintSpace::lumped`; B ≈ (Tᵀ A T)⁻¹ is symmetric and
+  /// positive, one V-cycle.
   [[nodiscard]] Points precondition(const Points& r) const;
   [[nodiscard]] Points product(const Points& x) const { return product_(x); }
 
-  /// The X = T y that solves Tᵀ A X = Tᵀ B to 1e-12 of √(BᵀA⁻¹B) in the energy norm, or to rounding.
+  /// The X = T y that solves Tᵀ A X = Tᵀ B to 1e-12 of √(BᵀA⁻¹B) in the energy norm, or to
+  /// rounding.
   [[nodiscard]] Points solve(const Points& b) const;
 
-  /// Iterations that reproduced a known displacement to 1e-8 when this was made: how good a cycle is.
+  /// Iterations that reproduced a known displacement to 1e-8 when this was made: how good a cycle
+  /// is.
   [[nodiscard]] int iterations() const { return iterations_; }
   [[nodiscard]] const ConstraintSpace& space() const { return space_; }
 
@@ -79,8 +85,8 @@ class ConstrainedMultigrid {
 
   ConstraintSpace space_;
   Product product_;
-  Eigen::VectorXd weight_;     // of the smoother on the finest level; zero where there is no unknown
-  Transfer next_;              // from the finest level
+  Eigen::VectorXd weight_;  // of the smoother on the finest level; zero where there is no unknown
+  Transfer next_;           // from the finest level
   std::vector<Level> levels_;  // the others, but for the coarsest
   std::optional<SparseCholesky> coarsest_;
   int iterations_ = 0;

@@ -17,14 +17,16 @@ namespace {
 
 /// The fastest kernels up to those of an instruction set.
 const detail::PanelKernels& panel_kernels_of(InstructionSet set) {
-  if (detail::avx512_panel_kernels != nullptr && set >= InstructionSet::avx512) return *detail::avx512_panel_kernels;
+  if (detail::avx512_panel_kernels != nullptr && set >= InstructionSet::avx512)
+    return *detail::avx512_panel_kernels;
   const bool wide = detail::avx2_panel_kernels != nullptr && set >= InstructionSet::avx2;
   return wide ? *detail::avx2_panel_kernels : *detail::vector128_panel_kernels;
 }
 
-/// The rows below the diagonal of the columns of L, one column after the other: those of A, and those of all columns of
-/// which it is the first row (George, Liu: Computer Solution of Large Sparse Positive Definite Systems, § 5.3). A
-/// column's rows are kept until they have been passed on and nobody asks for them any more.
+/// The rows below the diagonal of the columns of L, one column after the other: those of A, and
+/// those of all columns of which it is the first row (George, Liu: Computer Solution of Large
+/// Sparse Positive Definite Systems, § 5.3). A column's rows are kept until they have been passed
+/// on and nobody asks for them any more.
 class ColumnRows {
  public:
   explicit ColumnRows(const SparseMatrix& lower)
@@ -54,7 +56,8 @@ class ColumnRows {
     for (const int child : children_[static_cast<std::size_t>(column)]) {
       std::vector<int>& further = rows_[static_cast<std::size_t>(child)];
       merged.clear();
-      std::set_union(rows.begin(), rows.end(), further.begin() + 1, further.end(), std::back_inserter(merged));
+      std::set_union(rows.begin(), rows.end(), further.begin() + 1, further.end(),
+                     std::back_inserter(merged));
       rows.swap(merged);
       if (child < asked_) release(further);
     }
@@ -85,7 +88,8 @@ void Panels::divide(const SparseMatrix& lower, std::span<const int> breaks) {
       const int column = first + next;
       const std::vector<int>& more = columns.of(column);
       merged.clear();
-      std::set_union(wider.begin(), wider.end(), more.begin(), more.end(), std::back_inserter(merged));
+      std::set_union(wider.begin(), wider.end(), more.begin(), more.end(),
+                     std::back_inserter(merged));
       wider.swap(merged);
       entries += static_cast<int>(more.size());
       const auto below = static_cast<int>(wider.end() - std::ranges::upper_bound(wider, column));
@@ -107,7 +111,8 @@ void Panels::divide(const SparseMatrix& lower, std::span<const int> breaks) {
 }
 
 void Panels::allocate() {
-  constexpr std::size_t most = std::size_t{1} << 19;  // of a piece of memory, unless one panel needs more
+  constexpr std::size_t most = std::size_t{1}
+                               << 19;  // of a piece of memory, unless one panel needs more
   const auto values = [](const Panel& panel) {
     return static_cast<std::size_t>(panel.width) * static_cast<std::size_t>(panel.rows) +
            static_cast<std::size_t>(panel.width * (panel.width + 1) / 2);
@@ -125,10 +130,11 @@ void Panels::allocate() {
   }
 }
 
-/// Panel after panel. Each finished one waits at the panel that holds the first of its rows that has not been served,
-/// which takes its product and passes it on; what goes on to another task waits until that is made. Tasks that do not
-/// need each other are made by several threads, and the last ones, of large panels, one by one, where threads share the
-/// rows of a panel. Who adds what in which order does not depend on that.
+/// Panel after panel. Each finished one waits at the panel that holds the first of its rows that
+/// has not been served, which takes its product and passes it on; what goes on to another task
+/// waits until that is made. Tasks that do not need each other are made by several threads, and the
+/// last ones, of large panels, one by one, where threads share the rows of a panel. Who adds what
+/// in which order does not depend on that.
 class Panels::Making {
  public:
   Making(Panels& panels, const SparseMatrix& lower)
@@ -142,8 +148,8 @@ class Panels::Making {
     passed_.resize(tasks_.size());
   }
 
-  /// False: a pivot is not positive, or no number, or somebody asks to stop. Whatever is not finite in a row reaches
-  /// the pivot of that row.
+  /// False: a pivot is not positive, or no number, or somebody asks to stop. Whatever is not finite
+  /// in a row reaches the pivot of that row.
   bool run() {
     std::vector<int> shared, alone;
     std::vector<int> depth(tasks_.size(), 0);
@@ -156,7 +162,9 @@ class Panels::Making {
     for (const int k : p_.work_order_) {
       if (depth[static_cast<std::size_t>(k)] >= last_levels) shared.push_back(k);
     }
-    const auto children = [&](int k) { return std::span(std::as_const(tasks_[static_cast<std::size_t>(k)].children)); };
+    const auto children = [&](int k) {
+      return std::span(std::as_const(tasks_[static_cast<std::size_t>(k)].children));
+    };
     detail::parallel_in_order(shared, tasks_.size(), true, children, [&](int k) { make(k); });
     for (const int k : alone) make(k);
     return !stopped_;
@@ -178,7 +186,8 @@ class Panels::Making {
       if (stopped_) return;
       const Panel& panel = p_.panels_[static_cast<std::size_t>(k)];
       const std::span<const int> below = p_.below(panel);
-      for (std::size_t i = 0; i < below.size(); ++i) place[static_cast<std::size_t>(below[i])] = static_cast<int>(i);
+      for (std::size_t i = 0; i < below.size(); ++i)
+        place[static_cast<std::size_t>(below[i])] = static_cast<int>(i);
       put_entries(panel, place);
       take_products(panel, k, place, task, passed);
       if (!factor_triangle(panel)) {
@@ -192,24 +201,26 @@ class Panels::Making {
   }
 
   [[nodiscard]] double* triangle(const Panel& panel) { return panel.value; }
-  [[nodiscard]] double* rows(const Panel& panel) { return triangle(panel) + panel.width * (panel.width + 1) / 2; }
+  [[nodiscard]] double* rows(const Panel& panel) {
+    return triangle(panel) + panel.width * (panel.width + 1) / 2;
+  }
 
   void put_entries(const Panel& panel, const std::vector<int>& place) {
     for (int j = 0; j < panel.width; ++j) {
       for (SparseMatrix::InnerIterator it(a_, panel.first + j); it; ++it) {
         const auto i = static_cast<int>(it.row()) - panel.first;
         if (i < j) continue;
-        double& to =
-            i < panel.width
-                ? triangle(panel)[i * (i + 1) / 2 + j]
-                : rows(panel)[static_cast<std::ptrdiff_t>(panel.width) * place[static_cast<std::size_t>(it.row())] + j];
+        double& to = i < panel.width ? triangle(panel)[i * (i + 1) / 2 + j]
+                                     : rows(panel)[static_cast<std::ptrdiff_t>(panel.width) *
+                                                       place[static_cast<std::size_t>(it.row())] +
+                                                   j];
         to += it.value();
       }
     }
   }
 
-  /// The rows of an earlier panel from the first on that is a column of a later one, and those of them that are, by
-  /// columns there.
+  /// The rows of an earlier panel from the first on that is a column of a later one, and those of
+  /// them that are, by columns there.
   struct Product {
     const double* l;
     std::span<const int> rows;
@@ -218,15 +229,16 @@ class Panels::Making {
   };
 
   /// Takes the products of all panels that wait at this one.
-  void take_products(const Panel& panel, int number, const std::vector<int>& place, const Task& task,
-                     std::vector<int>& passed) {
+  void take_products(const Panel& panel, int number, const std::vector<int>& place,
+                     const Task& task, std::vector<int>& passed) {
     const int first = waiting_[static_cast<std::size_t>(number)];
     double work = 0;
     for (int k = first; k >= 0; k = next_[static_cast<std::size_t>(k)]) {
       const Panel& earlier = p_.panels_[static_cast<std::size_t>(k)];
       work += earlier.width * (earlier.rows - served_[static_cast<std::size_t>(k)]);
     }
-    const std::ptrdiff_t size = detail::block_size(panel.rows, work * panel.width / (panel.rows + 1), 16);
+    const std::ptrdiff_t size =
+        detail::block_size(panel.rows, work * panel.width / (panel.rows + 1), 16);
     const bool at_once = size >= panel.rows;
     std::vector<Product> products;
     for (int k = first; k >= 0;) {
@@ -244,10 +256,11 @@ class Panels::Making {
     const std::span<const int> below = p_.below(panel);
     detail::parallel_for(panel.rows, size, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
       for (const Product& whole : products) {
-        const auto from = std::ranges::lower_bound(whole.rows, below[static_cast<std::size_t>(begin)]);
-        const auto to = end < panel.rows
-                            ? std::lower_bound(from, whole.rows.end(), below[static_cast<std::size_t>(end)])
-                            : whole.rows.end();
+        const auto from =
+            std::ranges::lower_bound(whole.rows, below[static_cast<std::size_t>(begin)]);
+        const auto to = end < panel.rows ? std::lower_bound(from, whole.rows.end(),
+                                                            below[static_cast<std::size_t>(end)])
+                                         : whole.rows.end();
         Product part = whole;
         part.l += part.width * (from - whole.rows.begin());
         part.rows = std::span(from, to);
@@ -256,15 +269,18 @@ class Panels::Making {
     });
   }
 
-  /// Serves those rows of an earlier panel that are columns of this one, and takes their product from its triangle.
+  /// Serves those rows of an earlier panel that are columns of this one, and takes their product
+  /// from its triangle.
   Product begin_product(const Panel& panel, int number) {
     const Panel& earlier = p_.panels_[static_cast<std::size_t>(number)];
     int& served = served_[static_cast<std::size_t>(number)];
     const std::span<const int> left = p_.below(earlier).subspan(static_cast<std::size_t>(served));
-    Product product{rows(earlier) + static_cast<std::ptrdiff_t>(earlier.width) * served, {}, earlier.width, {}};
+    Product product{
+        rows(earlier) + static_cast<std::ptrdiff_t>(earlier.width) * served, {}, earlier.width, {}};
     double* const factors = product.factors;
     int count = 0;
-    for (; count < static_cast<int>(left.size()) && left[static_cast<std::size_t>(count)] < panel.first + panel.width;
+    for (; count < static_cast<int>(left.size()) &&
+           left[static_cast<std::size_t>(count)] < panel.first + panel.width;
          ++count, product.l += earlier.width) {
       const int i = left[static_cast<std::size_t>(count)] - panel.first;
       for (int j = 0; j < earlier.width; ++j) factors[j * panel.width + i] = product.l[j];
@@ -272,7 +288,8 @@ class Panels::Making {
     double* to = triangle(panel);
     for (int i = 0; i < panel.width; ++i) {
       for (int c = 0; c <= i; ++c, ++to) {
-        for (int j = 0; j < earlier.width; ++j) *to -= factors[j * panel.width + i] * factors[j * panel.width + c];
+        for (int j = 0; j < earlier.width; ++j)
+          *to -= factors[j * panel.width + i] * factors[j * panel.width + c];
       }
     }
     served += count;
@@ -282,12 +299,13 @@ class Panels::Making {
 
   /// Takes a product from the rows below a panel.
   void update(const Panel& panel, const Product& product, const std::vector<int>& place) {
-    p_.kernels_->update[product.width - 1][panel.width - 1](product.l, product.rows.data(),
-                                                            static_cast<std::ptrdiff_t>(product.rows.size()),
-                                                            place.data(), product.factors, rows(panel));
+    p_.kernels_->update[product.width - 1][panel.width - 1](
+        product.l, product.rows.data(), static_cast<std::ptrdiff_t>(product.rows.size()),
+        place.data(), product.factors, rows(panel));
   }
 
-  /// To the panel of the first row that has not been served; `passed`: if that is of another task than this.
+  /// To the panel of the first row that has not been served; `passed`: if that is of another task
+  /// than this.
   void pass_on(int number, const Task& task, std::vector<int>& passed) {
     const Panel& panel = p_.panels_[static_cast<std::size_t>(number)];
     const int served = served_[static_cast<std::size_t>(number)];
@@ -332,13 +350,15 @@ class Panels::Making {
   Panels& p_;
   const SparseMatrix& a_;
   std::vector<Task> tasks_;
-  std::vector<int> waiting_, next_;       // the first panel that waits at each, and the next one that waits there, too
+  std::vector<int> waiting_,
+      next_;  // the first panel that waits at each, and the next one that waits there, too
   std::vector<int> served_;               // how many of its rows have been columns
   std::vector<std::vector<int>> passed_;  // by each task to those behind it
   std::atomic<bool> stopped_ = false;
 };
 
-std::optional<Panels> Panels::factor(const SparseMatrix& lower, InstructionSet set, const Dissection* dissection) {
+std::optional<Panels> Panels::factor(const SparseMatrix& lower, InstructionSet set,
+                                     const Dissection* dissection) {
   Panels panels;
   panels.kernels_ = &panel_kernels_of(set);
   std::vector<int> breaks;

@@ -12,7 +12,8 @@
 namespace knead {
 namespace {
 
-constexpr std::ptrdiff_t least_shared = std::ptrdiff_t{1} << 21;  // values of L: about a millisecond
+constexpr std::ptrdiff_t least_shared = std::ptrdiff_t{1}
+                                        << 21;  // values of L: about a millisecond
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -44,13 +45,15 @@ void Panels::make_tasks(const Dissection& dissection) {
 }
 
 void Panels::separate_tasks() {
-  std::vector<int> place(panel_of_.size(), -1);  // of the rows of the matrix, among those that are reached
+  std::vector<int> place(panel_of_.size(),
+                         -1);  // of the rows of the matrix, among those that are reached
   for (Task& task : tasks_) separate(task, place);
 }
 
 void Panels::separate(Task& task, std::vector<int>& place) {
   const auto size = static_cast<int>(panel_of_.size());
-  const int end = task.end > task.begin ? panels_[at(task.end - 1)].first + panels_[at(task.end - 1)].width : 0;
+  const int end =
+      task.end > task.begin ? panels_[at(task.end - 1)].first + panels_[at(task.end - 1)].width : 0;
   // The rows of other tasks, which all come behind it.
   std::vector<int> reached;
   const auto reach = [&](int row) {
@@ -59,7 +62,9 @@ void Panels::separate(Task& task, std::vector<int>& place) {
     reached.push_back(row);
   };
   for (int k = task.begin; k < task.end; ++k) std::ranges::for_each(below(panels_[at(k)]), reach);
-  const auto is_own = [&](int row) { return task.begin <= panel_of_[at(row)] && panel_of_[at(row)] < task.end; };
+  const auto is_own = [&](int row) {
+    return task.begin <= panel_of_[at(row)] && panel_of_[at(row)] < task.end;
+  };
   for (const int child : task.children) {
     for (const int row : tasks_[at(child)].targets) {
       if (!is_own(row)) reach(row);
@@ -67,7 +72,8 @@ void Panels::separate(Task& task, std::vector<int>& place) {
   }
   std::ranges::sort(reached);
   task.first_row = size + static_cast<int>(original_.size());
-  for (std::size_t k = 0; k < reached.size(); ++k) place[at(reached[k])] = task.first_row + static_cast<int>(k);
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    place[at(reached[k])] = task.first_row + static_cast<int>(k);
   original_.insert(original_.end(), reached.begin(), reached.end());
   for (int k = task.begin; k < task.end; ++k) {
     const Panel& panel = panels_[at(k)];
@@ -84,10 +90,12 @@ void Panels::separate(Task& task, std::vector<int>& place) {
   task.targets = std::move(reached);  // as rows of the matrix, until its parent is separated
 }
 
-/// What each task does of some panels. Tasks take part that have some, and those behind these, which pass sums on.
+/// What each task does of some panels. Tasks take part that have some, and those behind these,
+/// which pass sums on.
 class Panels::Shares {
  public:
-  Shares(const Panels& p, std::span<const int> panels) : shares_(p.tasks_.size()), takes_part_(p.tasks_.size(), 0) {
+  Shares(const Panels& p, std::span<const int> panels)
+      : shares_(p.tasks_.size()), takes_part_(p.tasks_.size(), 0) {
     for (std::size_t k = 0; k < shares_.size(); ++k) {
       const Task& task = p.tasks_[k];
       const auto begin = std::ranges::lower_bound(panels, task.begin);
@@ -99,7 +107,8 @@ class Panels::Shares {
       }
       if (takes_part_[k] && task.parent >= 0) takes_part_[at(task.parent)] = 1;
     }
-    std::ranges::copy_if(p.work_order_, std::back_inserter(order_), [&](int k) { return takes_part(k); });
+    std::ranges::copy_if(p.work_order_, std::back_inserter(order_),
+                         [&](int k) { return takes_part(k); });
   }
 
   [[nodiscard]] std::span<const int> of(int task) const { return shares_[at(task)]; }
@@ -121,7 +130,8 @@ void Panels::substitute_forward(double* x, std::span<const int> panels) const {
   const auto& kernels = columns == 1 ? kernels_->down_one : kernels_->down_four;
   for (const int k : panels) {
     const Panel& p = panels_[at(k)];
-    kernels[p.width - 1](p.value, rows_.data() + p.row, p.rows, x, x + columns * static_cast<std::ptrdiff_t>(p.first));
+    kernels[p.width - 1](p.value, rows_.data() + p.row, p.rows, x,
+                         x + columns * static_cast<std::ptrdiff_t>(p.first));
   }
 }
 
@@ -130,7 +140,8 @@ void Panels::substitute_backward(double* x, std::span<const int> panels) const {
   const auto& kernels = columns == 1 ? kernels_->up_one : kernels_->up_four;
   for (std::size_t k = panels.size(); k-- > 0;) {
     const Panel& p = panels_[at(panels[k])];
-    kernels[p.width - 1](p.value, rows_.data() + p.row, p.rows, x, x + columns * static_cast<std::ptrdiff_t>(p.first));
+    kernels[p.width - 1](p.value, rows_.data() + p.row, p.rows, x,
+                         x + columns * static_cast<std::ptrdiff_t>(p.first));
   }
 }
 
@@ -140,7 +151,8 @@ void Panels::forward(double* x, std::span<const int> panels) const {
   const auto row = [&](int i) { return x + columns * static_cast<std::ptrdiff_t>(i); };
   Shares shares(*this, panels);
   detail::parallel_in_order(
-      shares.order(), tasks_.size(), shares.many(), [&](int k) { return std::span(tasks_[at(k)].children); },
+      shares.order(), tasks_.size(), shares.many(),
+      [&](int k) { return std::span(tasks_[at(k)].children); },
       [&](int k) {
         const Task& task = tasks_[at(k)];
         std::fill_n(row(task.first_row), columns * task.targets.size(), 0.0);

@@ -18,7 +18,8 @@ std::vector<int> Panels::reach(std::span<const int> rows) const {
   for (std::size_t k = 0; k < panels_.size(); ++k) {
     if (!marked[k]) continue;
     result.push_back(static_cast<int>(k));
-    for (int i = 0; i < panels_[k].rows; ++i) mark(rows_[static_cast<std::size_t>(panels_[k].row + i)]);
+    for (int i = 0; i < panels_[k].rows; ++i)
+      mark(rows_[static_cast<std::size_t>(panels_[k].row + i)]);
   }
   return result;
 }

@@ -13,17 +13,21 @@
 namespace knead {
 namespace {
 
-/// A Newton step shorter than this share of the structure's size ends the iteration: rounding is all that is left.
+/// A Newton step shorter than this share of the structure's size ends the iteration: rounding is
+/// all that is left.
 constexpr double negligible_step = 1e-13;
 
 using FlatMap = Eigen::Map<const Eigen::VectorXd>;
 
 FlatMap flattened(const Points& x) { return {x.data(), x.size()}; }
 
-Points points_of(const Eigen::VectorXd& x) { return Eigen::Map<const Points>(x.data(), x.size() / 3, 3); }
+Points points_of(const Eigen::VectorXd& x) {
+  return Eigen::Map<const Points>(x.data(), x.size() / 3, 3);
+}
 
 std::unexpected<Error> moves_freely() {
-  return numerical_error("the shell can move without strain", "constraints", "hold it so that no rigid motion is left");
+  return numerical_error("the shell can move without strain", "constraints",
+                         "hold it so that no rigid motion is left");
 }
 
 /// Dead forces, and moments that follow their edges.
@@ -67,7 +71,8 @@ class ShellNewton {
       SparseMatrix tangent = shell_.hessian(x, stress);
       for (const EdgeMoment& moment : loads_.moments) tangent -= factor * moment.stiffness(x);
       const SparseMatrix system = map_.transpose() * tangent * map_;
-      outcome.singular = !solver_.factor(system) || !solver_.regular();  // a rigid motion, or a mechanism, is left
+      outcome.singular =
+          !solver_.factor(system) || !solver_.regular();  // a rigid motion, or a mechanism, is left
       if (outcome.singular) return outcome;
       const Points d = points_of(map_ * solver_.solve(reduced));
       ++outcome.iterations;
@@ -93,14 +98,14 @@ class ShellNewton {
 Expected<void> check(const ShellStructure& shell, const Points& rest, const Points& load,
                      const ShellStaticsOptions& options) {
   if (rest.rows() != shell.size() || load.rows() != shell.size()) {
-    return input_error(
-        fmt::format("{} control points and {} loads, but the shell has {}", rest.rows(), load.rows(), shell.size()),
-        "load", "give one row per control point");
+    return input_error(fmt::format("{} control points and {} loads, but the shell has {}",
+                                   rest.rows(), load.rows(), shell.size()),
+                       "load", "give one row per control point");
   }
   if (!load.allFinite()) return input_error("a load is not finite", "load", "use finite numbers");
   if (options.increments < 1) {
-    return input_error(fmt::format("{} is not a number of increments", options.increments), "increments",
-                       "use 1 or more");
+    return input_error(fmt::format("{} is not a number of increments", options.increments),
+                       "increments", "use 1 or more");
   }
   if (!(options.tolerance > 0) || options.max_iterations < 1 || options.max_halvings < 0) {
     return input_error("tolerance and iterations must be positive", "options", "use the defaults");
@@ -111,8 +116,9 @@ Expected<void> check(const ShellStructure& shell, const Points& rest, const Poin
 }  // namespace
 
 Expected<ShellEquilibrium> shell_equilibrium(const ShellStructure& shell, const Points& rest,
-                                             std::span<const LinearConstraint> constraints, const Points& load,
-                                             const ShellStaticsOptions& options, std::span<const EdgeMoment> moments) {
+                                             std::span<const LinearConstraint> constraints,
+                                             const Points& load, const ShellStaticsOptions& options,
+                                             std::span<const EdgeMoment> moments) {
   if (auto ok = check(shell, rest, load, options); !ok) return std::unexpected(ok.error());
   const auto space = ConstraintSpace::create(shell.size(), constraints);
   if (!space) return std::unexpected(space.error());
@@ -126,7 +132,8 @@ Expected<ShellEquilibrium> shell_equilibrium(const ShellStructure& shell, const 
   double part = full;
   int spent = 0;
   while (result.load_factor < 1) {
-    const double left = 1 - result.load_factor, next = part > left * (1 - 1e-9) ? 1 : result.load_factor + part;
+    const double left = 1 - result.load_factor,
+                 next = part > left * (1 - 1e-9) ? 1 : result.load_factor + part;
     Points x = result.control_points;
     const auto outcome = newton.iterate(x, next);
     if (Interruption::asked_for()) return interrupted_error();
@@ -146,16 +153,19 @@ Expected<ShellEquilibrium> shell_equilibrium(const ShellStructure& shell, const 
     if (part < full * std::exp2(-options.max_halvings - 0.5)) {
       result.converged = false;
       result.note =
-          fmt::format("no equilibrium was found beyond {:.3g} of the load; use more increments", result.load_factor);
+          fmt::format("no equilibrium was found beyond {:.3g} of the load; use more increments",
+                      result.load_factor);
       break;
     }
   }
-  result.reactions = shell.gradient(result.control_points) - result.load_factor * loads.forces(result.control_points);
+  result.reactions = shell.gradient(result.control_points) -
+                     result.load_factor * loads.forces(result.control_points);
   return result;
 }
 
 Expected<Points> linear_displacement(const ShellStructure& shell, const Points& rest,
-                                     std::span<const LinearConstraint> constraints, const Points& load) {
+                                     std::span<const LinearConstraint> constraints,
+                                     const Points& load) {
   if (auto ok = check(shell, rest, load, {}); !ok) return std::unexpected(ok.error());
   const auto space = ConstraintSpace::create(shell.size(), constraints);
   if (!space) return std::unexpected(space.error());

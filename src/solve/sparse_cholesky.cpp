@@ -26,8 +26,8 @@ Expected<SparseCholesky> factor_by(SparseMatrix&& a, const Order& order) {
     dissection = order(whole);
   }
   SparseMatrix lower(a.rows(), a.cols());
-  lower.selfadjointView<Eigen::Lower>() =
-      a.selfadjointView<Eigen::Lower>().twistedBy(Eigen::PermutationMatrix<Eigen::Dynamic>(dissection.order));
+  lower.selfadjointView<Eigen::Lower>() = a.selfadjointView<Eigen::Lower>().twistedBy(
+      Eigen::PermutationMatrix<Eigen::Dynamic>(dissection.order));
   SparseMatrix().swap(a);
   return SparseCholesky::factor_in_order(lower, std::move(dissection));
 }
@@ -39,26 +39,33 @@ Expected<SparseCholesky> SparseCholesky::factor(SparseMatrix&& a) {
 }
 
 Expected<SparseCholesky> SparseCholesky::factor(SparseMatrix&& a, const GridPlaces& places) {
-  const auto wanted = static_cast<std::size_t>(a.cols()) * static_cast<std::size_t>(std::max(places.directions, 0));
+  const auto wanted =
+      static_cast<std::size_t>(a.cols()) * static_cast<std::size_t>(std::max(places.directions, 0));
   if (places.directions < 1 || places.indices.size() != wanted) {
-    return usage_error(fmt::format("there are {} indices of places in {} directions for {} unknowns",
-                                   places.indices.size(), places.directions, a.cols()),
-                       "Cholesky factorisation", "give as many for each unknown as there are directions");
+    return usage_error(
+        fmt::format("there are {} indices of places in {} directions for {} unknowns",
+                    places.indices.size(), places.directions, a.cols()),
+        "Cholesky factorisation", "give as many for each unknown as there are directions");
   }
   return factor_by(std::move(a), [&](const SparseMatrix& whole) { return dissect(whole, places); });
 }
 
-Expected<SparseCholesky> SparseCholesky::factor_in_order(const SparseMatrix& lower, Dissection dissection) {
+Expected<SparseCholesky> SparseCholesky::factor_in_order(const SparseMatrix& lower,
+                                                         Dissection dissection) {
   auto panels = Panels::factor(lower, best_instruction_set(), &dissection);
   if (!panels) {
-    return numerical_error("the system matrix is not positive definite", "Cholesky factorisation",
-                           "hold more control points, or use a larger lambda or positive material coefficients");
+    return numerical_error(
+        "the system matrix is not positive definite", "Cholesky factorisation",
+        "hold more control points, or use a larger lambda or positive material coefficients");
   }
-  return SparseCholesky(std::make_shared<const Factor>(std::move(*panels), std::move(dissection.order)),
-                        static_cast<int>(lower.rows()));
+  return SparseCholesky(
+      std::make_shared<const Factor>(std::move(*panels), std::move(dissection.order)),
+      static_cast<int>(lower.rows()));
 }
 
-Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) { return factor(SparseMatrix(a)); }
+Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) {
+  return factor(SparseMatrix(a));
+}
 
 namespace {
 
@@ -113,16 +120,19 @@ template <class Values>
 Values within(const Panels& panels, const SparseCholesky::Part& part, const Values& b) {
   Work<Values> y(panels.work_rows());
   panels.clear<columns<Values>>(y.data(), part.panels);
-  for (std::size_t k = 0; k < part.rows.size(); ++k) put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < part.rows.size(); ++k)
+    put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
   panels.forward<columns<Values>>(y.data(), part.panels);
   panels.backward<columns<Values>>(y.data(), part.panels);
   Values x(b.rows(), b.cols());
-  for (std::size_t k = 0; k < part.rows.size(); ++k) take<Values>(y, part.rows[k], x, static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < part.rows.size(); ++k)
+    take<Values>(y, part.rows[k], x, static_cast<Eigen::Index>(k));
   return x;
 }
 
 template <class Values>
-SparseCholesky::Half first_half(const Panels& panels, const Eigen::VectorXi& order, const Values& b) {
+SparseCholesky::Half first_half(const Panels& panels, const Eigen::VectorXi& order,
+                                const Values& b) {
   Work<Values> y(panels.work_rows());
   for (Eigen::Index i = 0; i < b.rows(); ++i) put<Values>(y, order[i], b, i);
   panels.forward<columns<Values>>(y.data(), panels.all());
@@ -133,21 +143,23 @@ SparseCholesky::Half first_half(const Panels& panels, const Eigen::VectorXi& ord
 }
 
 template <class Values>
-void second_half_within(const Panels& panels, const SparseCholesky::Part& part, const SparseCholesky::Half& z,
-                        Values& x) {
+void second_half_within(const Panels& panels, const SparseCholesky::Part& part,
+                        const SparseCholesky::Half& z, Values& x) {
   Work<Values> y(panels.work_rows());
   panels.copy<columns<Values>>(z.values.data(), y.data(), part.panels);
   panels.backward<columns<Values>>(y.data(), part.panels);
   x.resize(static_cast<Eigen::Index>(part.rows.size()), x.cols());
-  for (std::size_t k = 0; k < part.rows.size(); ++k) take<Values>(y, part.rows[k], x, static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < part.rows.size(); ++k)
+    take<Values>(y, part.rows[k], x, static_cast<Eigen::Index>(k));
 }
 
 template <class Values>
-void second_half(const Panels& panels, const Eigen::VectorXi& order, const SparseCholesky::Half& z, double share,
-                 const SparseCholesky::Part& part, const Values& b, Values& x) {
+void second_half(const Panels& panels, const Eigen::VectorXi& order, const SparseCholesky::Half& z,
+                 double share, const SparseCholesky::Part& part, const Values& b, Values& x) {
   Work<Values> y(panels.work_rows());
   y.clear();
-  for (std::size_t k = 0; k < part.rows.size(); ++k) put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < part.rows.size(); ++k)
+    put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
   panels.forward<columns<Values>>(y.data(), part.panels);
   Eigen::Map<Eigen::VectorXd>(y.data(), columns<Values> * order.size()) += share * z.values;
   panels.backward<columns<Values>>(y.data(), panels.all());
@@ -157,7 +169,9 @@ void second_half(const Panels& panels, const Eigen::VectorXi& order, const Spars
 
 }  // namespace
 
-Points SparseCholesky::solve(const Points& b) const { return whole(factor_->panels, factor_->order, b); }
+Points SparseCholesky::solve(const Points& b) const {
+  return whole(factor_->panels, factor_->order, b);
+}
 Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const {
   return whole(factor_->panels, factor_->order, b);
 }
@@ -190,11 +204,12 @@ void SparseCholesky::backward_within(const Part& part, const Half& z, Eigen::Vec
   second_half_within(factor_->panels, part, z, x);
 }
 
-void SparseCholesky::backward(const Half& z, double share, const Part& part, const Points& b, Points& x) const {
+void SparseCholesky::backward(const Half& z, double share, const Part& part, const Points& b,
+                              Points& x) const {
   second_half(factor_->panels, factor_->order, z, share, part, b, x);
 }
-void SparseCholesky::backward(const Half& z, double share, const Part& part, const Eigen::VectorXd& b,
-                              Eigen::VectorXd& x) const {
+void SparseCholesky::backward(const Half& z, double share, const Part& part,
+                              const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   second_half(factor_->panels, factor_->order, z, share, part, b, x);
 }
 

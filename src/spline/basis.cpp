@@ -14,9 +14,9 @@ namespace {
 
 constexpr int max_order = max_degree + 1;
 
-/// The triangle of A2.3: ndu[j][r], r <= j, holds N_{s-j+r,j}(u); ndu[r][j], r < j, the knot difference used to compute
-/// it.
-/// `Fixed` is the degree if known at compile time, else −1 and `p` is it.
+/// The triangle of A2.3: ndu[j][r], r <= j, holds N_{s-j+r,j}(u); ndu[r][j], r < j, the knot
+/// difference used to compute it. `Fixed` is the degree if known at compile time, else −1 and `p`
+/// is it.
 template <int Fixed>
 void fill_triangle(const double* knots, int p, double u, double ndu[max_order][max_order]) {
   if constexpr (Fixed >= 0) p = Fixed;
@@ -111,37 +111,44 @@ void basis_derivatives(const KnotVector& knots, int span, double u, int order, d
   }
 }
 
-Expected<BasisTable> tabulate_basis(const KnotVector& knots, std::span<const double> parameters, int order, Side side) {
+Expected<BasisTable> tabulate_basis(const KnotVector& knots, std::span<const double> parameters,
+                                    int order, Side side) {
   if (order < 0) return usage_error(fmt::format("the derivative order {} is negative", order));
   const Interval domain = knots.domain();
   BasisTable table{knots.degree(), order, std::vector<int>(parameters.size()), {}};
-  const std::size_t stride = static_cast<std::size_t>(order + 1) * static_cast<std::size_t>(knots.degree() + 1);
+  const std::size_t stride =
+      static_cast<std::size_t>(order + 1) * static_cast<std::size_t>(knots.degree() + 1);
   table.derivatives.resize(parameters.size() * stride);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (domain.contains(parameters[k])) continue;  // which no NaN is
-    return input_error(fmt::format("{} is outside the domain [{}, {}]", parameters[k], domain.lower, domain.upper),
-                       fmt::format("parameter {}", k));
+    return input_error(
+        fmt::format("{} is outside the domain [{}, {}]", parameters[k], domain.lower, domain.upper),
+        fmt::format("parameter {}", k));
   }
   const auto count = static_cast<std::ptrdiff_t>(parameters.size());
   const double work = 3.0 * static_cast<double>(stride) * (knots.degree() + 1);
-  detail::parallel_for(count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      const int span = knots.find_span(parameters[k], side);
-      table.first[k] = span - knots.degree();
-      basis_derivatives(knots, span, parameters[k], order, table.derivatives.data() + k * stride);
-    }
-  });
+  detail::parallel_for(
+      count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+          const int span = knots.find_span(parameters[k], side);
+          table.first[k] = span - knots.degree();
+          basis_derivatives(knots, span, parameters[k], order,
+                            table.derivatives.data() + k * stride);
+        }
+      });
   return table;
 }
 
-BasisQuadrature gauss_basis(const KnotVector& knots, int points_per_piece, int order, std::span<const int> pieces) {
+BasisQuadrature gauss_basis(const KnotVector& knots, int points_per_piece, int order,
+                            std::span<const int> pieces) {
   const GaussRule rule = gauss_legendre(points_per_piece);
   const std::vector<int> spans = knots.spans();
   assert(pieces.empty() || pieces.size() == spans.size());
   BasisQuadrature result;
   result.basis.degree = knots.degree();
   result.basis.order = order;
-  const std::size_t stride = static_cast<std::size_t>(order + 1) * static_cast<std::size_t>(knots.degree() + 1);
+  const std::size_t stride =
+      static_cast<std::size_t>(order + 1) * static_cast<std::size_t>(knots.degree() + 1);
   for (std::size_t k = 0; k < spans.size(); ++k) {
     const int span = spans[k], count = pieces.empty() ? 1 : pieces[k];
     const double a = knots[span], b = knots[span + 1], half = (b - a) / (2 * count);
@@ -153,8 +160,9 @@ BasisQuadrature gauss_basis(const KnotVector& knots, int points_per_piece, int o
         result.weights.push_back(half * rule.weights[g]);
         result.basis.first.push_back(span - knots.degree());
         result.basis.derivatives.resize(result.basis.derivatives.size() + stride);
-        basis_derivatives(knots, span, u, order,
-                          result.basis.derivatives.data() + result.basis.derivatives.size() - stride);
+        basis_derivatives(
+            knots, span, u, order,
+            result.basis.derivatives.data() + result.basis.derivatives.size() - stride);
       }
     }
   }

@@ -6,8 +6,8 @@
 namespace knead {
 namespace {
 
-/// The knots of one basis function, t_0 … t_{p+1}, continued by repetition at both ends. Functions k >= 0 of any degree
-/// on them depend only on these.
+/// The knots of one basis function, t_0 … t_{p+1}, continued by repetition at both ends. Functions
+/// k >= 0 of any degree on them depend only on these.
 class LocalKnots {
  public:
   LocalKnots(const KnotVector& knots, int i) : knots_(knots), i_(i), p_(knots.degree()) {}
@@ -89,14 +89,16 @@ double basis_function(const KnotVector& knots, int i, int derivative, double u, 
   const LocalKnots t(knots, i);
   const int s = t.span(u, side);
   if (s < 0) return 0;
-  // N^(d) as B-splines of degree p − d, differences of differences; a function without support counts as zero.
+  // N^(d) as B-splines of degree p − d, differences of differences; a function without support
+  // counts as zero.
   std::vector<double> c(static_cast<std::size_t>(derivative) + 1, 0.0);
   c[0] = 1;
   int q = p;
   for (int d = 1; d <= derivative; ++d, --q) {
     for (int k = d; k >= 0; --k) {
       const double length = t[k + q] - t[k];
-      const double difference = c[static_cast<std::size_t>(k)] - (k > 0 ? c[static_cast<std::size_t>(k - 1)] : 0);
+      const double difference =
+          c[static_cast<std::size_t>(k)] - (k > 0 ? c[static_cast<std::size_t>(k - 1)] : 0);
       c[static_cast<std::size_t>(k)] = length > 0 ? q * difference / length : 0;
     }
   }
@@ -110,7 +112,8 @@ double basis_integral(const KnotVector& knots, int i, int times, double u) {
   const LocalKnots t(knots, i);
   if (!(u > t.first())) return 0;
   if (u <= t.last()) return integral_on_support(t, p, times, u);
-  // Σ_k (u − t_{p+1})^(times−k)/(times−k)! I^k N(t_{p+1}), Horner's scheme from the lowest integral.
+  // Σ_k (u − t_{p+1})^(times−k)/(times−k)! I^k N(t_{p+1}), Horner's scheme from the lowest
+  // integral.
   double result = 0;
   for (int k = 1; k <= times; ++k) {
     result = integral_on_support(t, p, k, t.last()) + (k > 1 ? result : 0);

@@ -5,7 +5,8 @@
 namespace knead {
 
 template <int D>
-std::vector<std::pair<int, double>> basis_terms(const Spline<D>& spline, const std::array<double, D>& u, int first,
+std::vector<std::pair<int, double>> basis_terms(const Spline<D>& spline,
+                                                const std::array<double, D>& u, int first,
                                                 Side side) {
   std::vector<std::pair<int, double>> terms = {{0, 1.0}};
   for (std::size_t d = 0; d < D; ++d) {
@@ -17,7 +18,8 @@ std::vector<std::pair<int, double>> basis_terms(const Spline<D>& spline, const s
     next.reserve(terms.size() * static_cast<std::size_t>(p + 1));
     for (const auto& [row, value] : terms) {
       for (int r = 0; r <= p; ++r) {
-        next.emplace_back(row * knots.count() + span - p + r, value * n[static_cast<std::size_t>(r)]);
+        next.emplace_back(row * knots.count() + span - p + r,
+                          value * n[static_cast<std::size_t>(r)]);
       }
     }
     terms = std::move(next);
@@ -32,8 +34,14 @@ std::vector<std::pair<int, double>> basis_terms(const Spline<D>& spline, const s
   return terms;
 }
 
-template std::vector<std::pair<int, double>> basis_terms<1>(const Curve&, const std::array<double, 1>&, int, Side);
-template std::vector<std::pair<int, double>> basis_terms<2>(const Surface&, const std::array<double, 2>&, int, Side);
-template std::vector<std::pair<int, double>> basis_terms<3>(const Volume&, const std::array<double, 3>&, int, Side);
+template std::vector<std::pair<int, double>> basis_terms<1>(const Curve&,
+                                                            const std::array<double, 1>&, int,
+                                                            Side);
+template std::vector<std::pair<int, double>> basis_terms<2>(const Surface&,
+                                                            const std::array<double, 2>&, int,
+                                                            Side);
+template std::vector<std::pair<int, double>> basis_terms<3>(const Volume&,
+                                                            const std::array<double, 3>&, int,
+                                                            Side);
 
 }  // namespace knead

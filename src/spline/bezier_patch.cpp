@@ -10,15 +10,18 @@ namespace {
 using Net = BezierPatch::Net;
 using Vector4 = Eigen::Vector4d;
 
-/// Control points first, first + stride, …, of degree p, restricted to the part of [0, 1] left (right) of t.
+/// Control points first, first + stride, …, of degree p, restricted to the part of [0, 1] left
+/// (right) of t.
 void keep_left(Vector4* first, int p, int stride, double t) {
   for (int r = 1; r <= p; ++r) {
-    for (int i = p; i >= r; --i) first[i * stride] = (1 - t) * first[(i - 1) * stride] + t * first[i * stride];
+    for (int i = p; i >= r; --i)
+      first[i * stride] = (1 - t) * first[(i - 1) * stride] + t * first[i * stride];
   }
 }
 void keep_right(Vector4* first, int p, int stride, double t) {
   for (int r = 1; r <= p; ++r) {
-    for (int i = 0; i <= p - r; ++i) first[i * stride] = (1 - t) * first[i * stride] + t * first[(i + 1) * stride];
+    for (int i = 0; i <= p - r; ++i)
+      first[i * stride] = (1 - t) * first[i * stride] + t * first[(i + 1) * stride];
   }
 }
 void restrict_to(const Range& side, Vector4* first, int p, int stride) {
@@ -37,7 +40,8 @@ struct Hull {
   }
 };
 
-/// The hull of ∂^a of a Bézier net over a rectangle with sides of these lengths; zero if a length is zero.
+/// The hull of ∂^a of a Bézier net over a rectangle with sides of these lengths; zero if a length
+/// is zero.
 Hull derivative_hull(const Net& net, int p, int q, int a, int b, double length_u, double length_v) {
   Hull hull;
   if (a > p || b > q || (a > 0 && length_u == 0) || (b > 0 && length_v == 0)) {
@@ -70,13 +74,15 @@ Hull derivative_hull(const Net& net, int p, int q, int a, int b, double length_u
   return hull;
 }
 
-constexpr std::array<std::array<int, 2>, 6> jet_orders = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+constexpr std::array<std::array<int, 2>, 6> jet_orders = {
+    {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
 
 /// Bernstein polynomials of degree p and their first two derivatives: out[d][i].
 void bernstein(int p, double t, std::array<std::array<double, max_degree + 1>, 3>& out) {
   std::array<double, max_degree + 1> b{};
   b[0] = 1;
-  const auto take = [&](int degree, std::size_t order) {  // differences of the values of lower degree
+  const auto take = [&](int degree,
+                        std::size_t order) {  // differences of the values of lower degree
     std::array<double, max_degree + 1> d = b;
     int have = degree;
     for (std::size_t k = 0; k < order; ++k) {
@@ -101,7 +107,8 @@ void bernstein(int p, double t, std::array<std::array<double, max_degree + 1>, 3
   }
 }
 
-/// The Bézier points of one span of one row by blossoming: b_j = f(a, …, a, b, …, b) with j arguments b.
+/// The Bézier points of one span of one row by blossoming: b_j = f(a, …, a, b, …, b) with j
+/// arguments b.
 void extract(const KnotVector& knots, int span, std::vector<Vector4>& row) {
   const int p = knots.degree();
   const double a = knots[span], b = knots[span + 1];
@@ -127,7 +134,8 @@ Expected<void> normalise(Net& net, bool rational, const std::string& where) {
   for (const Vector4& point : net) largest = std::max(largest, point.w());
   for (Vector4& point : net) {
     if (!(point.w() > 0)) {
-      return input_error(fmt::format("{} is a Bézier weight", point.w()), where, "use a surface with positive weights");
+      return input_error(fmt::format("{} is a Bézier weight", point.w()), where,
+                         "use a surface with positive weights");
     }
     if (rational) point /= largest;
   }
@@ -164,7 +172,8 @@ PatchBounds BezierPatch::bounds(const ParameterRectangle& at) const {
                        0.5 * (cartesian.lower.z() + cartesian.upper.z()), 0);
   for (Vector4& point : net) point -= point.w() * middle;
   std::array<Hull, 6> h;
-  for (std::size_t k = 1; k < 6; ++k) h[k] = derivative_hull(net, p_, q_, jet_orders[k][0], jet_orders[k][1], lu, lv);
+  for (std::size_t k = 1; k < 6; ++k)
+    h[k] = derivative_hull(net, p_, q_, jet_orders[k][0], jet_orders[k][1], lu, lv);
   const Range w = {w_low, w_high};
   for (std::size_t c = 0; c < 3; ++c) {
     b[0].axis[c] = cartesian[c];
@@ -193,7 +202,8 @@ PatchJet BezierPatch::jet(double u, double v) const {
       const Vector4& point = net_[index(i * (q_ + 1) + j)];
       for (std::size_t d = 0; d < 3; ++d) row[d] += nv[d][index(j)] * point;
     }
-    for (std::size_t k = 0; k < 6; ++k) h[k] += nu[index(jet_orders[k][0])][index(i)] * row[index(jet_orders[k][1])];
+    for (std::size_t k = 0; k < 6; ++k)
+      h[k] += nu[index(jet_orders[k][0])][index(i)] * row[index(jet_orders[k][1])];
   }
   PatchJet j;
   if (!rational_) {
@@ -209,7 +219,8 @@ PatchJet BezierPatch::jet(double u, double v) const {
   return j;
 }
 
-Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Surface& surface, const Point& scale) {
+Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Surface& surface,
+                                                             const Point& scale) {
   const KnotVector &ku = surface.knots(0), &kv = surface.knots(1);
   const int p = ku.degree(), q = kv.degree(), n = kv.count();
   std::vector<std::unique_ptr<Patch>> patches;
@@ -221,7 +232,8 @@ Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Surface& surf
         for (int j = 0; j <= q; ++j) {
           const int from = (su - p + i) * n + sv - q + j;
           const double w = surface.rational() ? surface.weights()[index(from)] : 1;
-          row[index(j)] << w * surface.control_points().row(from).transpose().cwiseProduct(scale), w;
+          row[index(j)] << w * surface.control_points().row(from).transpose().cwiseProduct(scale),
+              w;
         }
         extract(kv, sv, row);
         std::copy(row.begin(), row.end(), net.begin() + i * (q + 1));
@@ -231,7 +243,9 @@ Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Surface& surf
         extract(ku, su, column);
         for (int i = 0; i <= p; ++i) net[index(i * (q + 1) + j)] = column[index(i)];
       }
-      if (auto done = normalise(net, surface.rational(), fmt::format("surface: span ({}, {})", su, sv)); !done) {
+      if (auto done =
+              normalise(net, surface.rational(), fmt::format("surface: span ({}, {})", su, sv));
+          !done) {
         return std::unexpected(done.error());
       }
       patches.push_back(std::make_unique<BezierPatch>(p, q, std::move(net), surface.rational()));

@@ -36,8 +36,9 @@ void BoxTree::divide(std::uint32_t node, std::uint32_t begin, std::uint32_t end,
   centres.sizes().maxCoeff(&axis);
   const auto middle = begin + (end - begin) / 2;
   const auto at = [&](std::uint32_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
-  std::nth_element(at(begin), at(middle), at(end),
-                   [&](std::uint32_t a, std::uint32_t b) { return boxes[a].center()[axis] < boxes[b].center()[axis]; });
+  std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t a, std::uint32_t b) {
+    return boxes[a].center()[axis] < boxes[b].center()[axis];
+  });
   const auto children = static_cast<std::uint32_t>(nodes_.size());
   nodes_.resize(nodes_.size() + 2);
   nodes_[node].first = children;
@@ -62,7 +63,8 @@ bool BoxTree::enters(const Eigen::AlignedBox3d& box, const Ray& ray, double to) 
   return true;
 }
 
-TriangleTree::TriangleTree(std::vector<Point> points, std::vector<std::array<std::uint32_t, 3>> triangles)
+TriangleTree::TriangleTree(std::vector<Point> points,
+                           std::vector<std::array<std::uint32_t, 3>> triangles)
     : points_(std::move(points)), triangles_(std::move(triangles)) {
   std::vector<Eigen::AlignedBox3d> boxes(triangles_.size());
   for (std::size_t k = 0; k < triangles_.size(); ++k) {
@@ -100,8 +102,10 @@ Point TriangleTree::Sheared::of(const Point& p) const {
 
 bool TriangleTree::meets(const Sheared& ray, std::uint32_t triangle, Hit& hit) const {
   const auto& corners = triangles_[triangle];
-  const Point a = ray.of(points_[corners[0]]), b = ray.of(points_[corners[1]]), c = ray.of(points_[corners[2]]);
-  const double u = c.x() * b.y() - c.y() * b.x(), v = a.x() * c.y() - a.y() * c.x(), w = b.x() * a.y() - b.y() * a.x();
+  const Point a = ray.of(points_[corners[0]]), b = ray.of(points_[corners[1]]),
+              c = ray.of(points_[corners[2]]);
+  const double u = c.x() * b.y() - c.y() * b.x(), v = a.x() * c.y() - a.y() * c.x(),
+               w = b.x() * a.y() - b.y() * a.x();
   if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
   const double sum = u + v + w;
   if (sum == 0) return false;  // seen from its edge

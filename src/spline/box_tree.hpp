@@ -18,15 +18,15 @@ struct Ray {
   Point direction = Point::UnitZ();  ///< of length 1
 };
 
-/// A bounding-volume hierarchy: a binary tree of boxes, divided at the median along their longest extent. Building it
-/// costs O(n log n); what a ray meets is found in about O(log n).
+/// A bounding-volume hierarchy: a binary tree of boxes, divided at the median along their longest
+/// extent. Building it costs O(n log n); what a ray meets is found in about O(log n).
 class BoxTree {
  public:
   BoxTree() = default;
   explicit BoxTree(std::span<const Eigen::AlignedBox3d> boxes);
 
-  /// Calls `visit(index)` for every box that the ray enters before `to`, the nearer half of the tree first; `visit` may
-  /// lessen `to`.
+  /// Calls `visit(index)` for every box that the ray enters before `to`, the nearer half of the
+  /// tree first; `visit` may lessen `to`.
   template <class Visit>
   void along(const Ray& ray, double& to, const Visit& visit) const {
     if (nodes_.empty()) return;
@@ -41,7 +41,8 @@ class BoxTree {
         continue;
       }
       std::uint32_t near = node.first, far = node.first + 1;
-      if (nodes_[near].box.center().dot(ray.direction) > nodes_[far].box.center().dot(ray.direction)) {
+      if (nodes_[near].box.center().dot(ray.direction) >
+          nodes_[far].box.center().dot(ray.direction)) {
         std::swap(near, far);
       }
       waiting[count++] = far;
@@ -68,9 +69,12 @@ class BoxTree {
     }
   }
   /// Round all boxes; empty where there is none.
-  [[nodiscard]] Eigen::AlignedBox3d box() const { return nodes_.empty() ? Eigen::AlignedBox3d() : nodes_[0].box; }
+  [[nodiscard]] Eigen::AlignedBox3d box() const {
+    return nodes_.empty() ? Eigen::AlignedBox3d() : nodes_[0].box;
+  }
 
-  /// Whether a ray has a point in a box before `to`: the slabs of Kay and Kajiya (1986), widened by their rounding.
+  /// Whether a ray has a point in a box before `to`: the slabs of Kay and Kajiya (1986), widened by
+  /// their rounding.
   [[nodiscard]] static bool enters(const Eigen::AlignedBox3d& box, const Ray& ray, double to);
 
  private:
@@ -79,7 +83,8 @@ class BoxTree {
     std::uint32_t first = 0;  ///< of its boxes in `order_`, or the first of its two children
     std::uint32_t count = 0;  ///< of its boxes; 0: it has children
   };
-  void divide(std::uint32_t node, std::uint32_t begin, std::uint32_t end, std::span<const Eigen::AlignedBox3d> boxes);
+  void divide(std::uint32_t node, std::uint32_t begin, std::uint32_t end,
+              std::span<const Eigen::AlignedBox3d> boxes);
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
@@ -98,13 +103,16 @@ class TriangleTree {
   TriangleTree() = default;
   TriangleTree(std::vector<Point> points, std::vector<std::array<std::uint32_t, 3>> triangles);
 
-  [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
+  [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const {
+    return triangles_;
+  }
   [[nodiscard]] Eigen::AlignedBox3d box() const;
   /// (b − a) × (c − a).
   [[nodiscard]] Point facet(std::uint32_t triangle) const;
 
-  /// The nearest hit before `to` that `counts(hit)`; lessens `to` to its distance. Watertight: a ray through a common
-  /// side meets at least one of its triangles (Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013).
+  /// The nearest hit before `to` that `counts(hit)`; lessens `to` to its distance. Watertight: a
+  /// ray through a common side meets at least one of its triangles (Woop, Benthin, Wald,
+  /// "Watertight Ray/Triangle Intersection", 2013).
   template <class Counts>
   [[nodiscard]] bool nearest(const Ray& ray, double& to, const Counts& counts) const {
     const Sheared sheared(ray);

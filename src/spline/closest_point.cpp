@@ -24,7 +24,8 @@ Expected<std::vector<std::unique_ptr<detail::Patch>>> pieces_of(const Surface& s
   return detail::bezier_patches(surface, Point::Ones());
 }
 
-/// |x − S|²/2 with its derivatives by fractions of the domain, so that all directions have equal weight.
+/// |x − S|²/2 with its derivatives by fractions of the domain, so that all directions have equal
+/// weight.
 template <int D>
 struct LocalModel {
   double distance = std::numeric_limits<double>::infinity();
@@ -34,7 +35,8 @@ struct LocalModel {
 };
 
 template <int D>
-std::optional<LocalModel<D>> model_at(const Spline<D>& spline, const Point& x, const std::array<double, D>& u) {
+std::optional<LocalModel<D>> model_at(const Spline<D>& spline, const Point& x,
+                                      const std::array<double, D>& u) {
   Parameters<D> parameters(1, D);
   for (int d = 0; d < D; ++d) parameters(0, d) = u[at(d)];
   const auto value = evaluate<D>(spline, parameters, 2);
@@ -90,7 +92,8 @@ ClosestPoint<D> descend(const Spline<D>& spline, const Point& x, const std::arra
     if (!model) break;
     // Where rounding hides the decrease of the distance, that of the gradient decides.
     const bool level = model->distance <= best.distance * (1 + 1e-14);
-    if (model->distance < best.distance * (1 - 1e-14) || (level && model->gradient.norm() < best.gradient.norm())) {
+    if (model->distance < best.distance * (1 - 1e-14) ||
+        (level && model->gradient.norm() < best.gradient.norm())) {
       best = *model;
       best_at = here;
       damping /= 10;
@@ -103,12 +106,14 @@ ClosestPoint<D> descend(const Spline<D>& spline, const Point& x, const std::arra
     damped.diagonal().array() += 1e-14 * best.hessian.trace() + 1e-300;
     Vector next = best_at - damped.inverse() * best.gradient;
     for (int d = 0; d < D; ++d) {
-      if (closed[at(d)] && (next[d] < -1e-12 || next[d] > 1 + 1e-12)) next[d] -= std::floor(next[d]);
+      if (closed[at(d)] && (next[d] < -1e-12 || next[d] > 1 + 1e-12))
+        next[d] -= std::floor(next[d]);
       if (next[d] >= 0 && next[d] <= 1) continue;
       next[d] = std::clamp(next[d], 0.0, 1.0);
       if constexpr (D == 2) {  // along the border
         const int e = 1 - d;
-        next[e] = best_at[e] - (best.gradient[e] + best.hessian(e, d) * (next[d] - best_at[d])) / damped(e, e);
+        next[e] = best_at[e] -
+                  (best.gradient[e] + best.hessian(e, d) * (next[d] - best_at[d])) / damped(e, e);
         if (closed[at(e)]) next[e] -= std::floor(next[e]);
         next[e] = std::clamp(next[e], 0.0, 1.0);
       }
@@ -131,7 +136,8 @@ struct ClosestPointSearch<D>::Data {
 
   Spline<D> spline;
   std::array<std::vector<Interval>, D> spans;  // of positive length
-  std::optional<detail::FootSearch> search;    // none: a Bézier weight is not positive, or the spline is one point
+  std::optional<detail::FootSearch>
+      search;  // none: a Bézier weight is not positive, or the spline is one point
   std::array<std::vector<double>, D> samples;  // if there is no search
   Points points;
 };
@@ -141,7 +147,8 @@ Expected<ClosestPointSearch<D>> ClosestPointSearch<D>::create(const Spline<D>& s
   auto data = std::make_shared<Data>(spline);
   for (int d = 0; d < D; ++d) {
     const KnotVector& knots = spline.knots(d);
-    for (const int span : knots.spans()) data->spans[at(d)].push_back({knots[span], knots[span + 1]});
+    for (const int span : knots.spans())
+      data->spans[at(d)].push_back({knots[span], knots[span + 1]});
   }
   const Points& net = spline.control_points();
   const double size = 0.5 * (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm();
@@ -175,7 +182,8 @@ ClosestPoint<D> ClosestPointSearch<D>::nearest(const Point& x) const {
       const auto& spans = data_->spans[at(d)];
       const Interval& span = spans[piece % spans.size()];
       const double t = found.best.at[at(d)];
-      result.parameters[at(d)] = std::clamp((1 - t) * span.lower + t * span.upper, span.lower, span.upper);
+      result.parameters[at(d)] =
+          std::clamp((1 - t) * span.lower + t * span.upper, span.lower, span.upper);
       piece /= spans.size();
     }
     result.point = found.best.jet[0];
@@ -189,7 +197,8 @@ ClosestPoint<D> ClosestPointSearch<D>::nearest(const Point& x) const {
   for (int d = 0; d < D; ++d) counts[at(d)] = static_cast<int>(data_->samples[at(d)].size());
   const auto place = [&counts](Eigen::Index k) {
     std::array<int, D> result;
-    for (int d = D - 1; d >= 0; k /= counts[at(d)], --d) result[at(d)] = static_cast<int>(k % counts[at(d)]);
+    for (int d = D - 1; d >= 0; k /= counts[at(d)], --d)
+      result[at(d)] = static_cast<int>(k % counts[at(d)]);
     return result;
   };
   ClosestPoint<D> best;
@@ -208,12 +217,14 @@ ClosestPoint<D> ClosestPointSearch<D>::nearest(const Point& x) const {
       if (close) distances[other] = std::numeric_limits<double>::infinity();
     }
   }
-  best.certified = (data_->points.rowwise() - data_->points.row(0)).isZero(0) && !data_->spline.rational();
+  best.certified =
+      (data_->points.rowwise() - data_->points.row(0)).isZero(0) && !data_->spline.rational();
   return best;
 }
 
 template <int D>
-ClosestPoint<D> ClosestPointSearch<D>::nearest_from(const Point& x, const std::array<double, D>& start,
+ClosestPoint<D> ClosestPointSearch<D>::nearest_from(const Point& x,
+                                                    const std::array<double, D>& start,
                                                     const std::array<bool, D>& closed) const {
   return descend<D>(data_->spline, x, start, closed);
 }
@@ -226,7 +237,8 @@ Expected<ClosestPoint<D>> closest_point(const Spline<D>& spline, const Point& x)
 }
 
 template <int D>
-ClosestPoint<D> closest_point_from(const Spline<D>& spline, const Point& x, const std::array<double, D>& start,
+ClosestPoint<D> closest_point_from(const Spline<D>& spline, const Point& x,
+                                   const std::array<double, D>& start,
                                    const std::array<bool, D>& closed) {
   return descend<D>(spline, x, start, closed);
 }
@@ -235,9 +247,11 @@ template class ClosestPointSearch<1>;
 template class ClosestPointSearch<2>;
 template Expected<ClosestPoint<1>> closest_point(const Curve&, const Point&);
 template Expected<ClosestPoint<2>> closest_point(const Surface&, const Point&);
-template ClosestPoint<1> closest_point_from<1>(const Curve&, const Point&, const std::array<double, 1>&,
+template ClosestPoint<1> closest_point_from<1>(const Curve&, const Point&,
+                                               const std::array<double, 1>&,
                                                const std::array<bool, 1>&);
-template ClosestPoint<2> closest_point_from<2>(const Surface&, const Point&, const std::array<double, 2>&,
+template ClosestPoint<2> closest_point_from<2>(const Surface&, const Point&,
+                                               const std::array<double, 2>&,
                                                const std::array<bool, 2>&);
 
 }  // namespace knead

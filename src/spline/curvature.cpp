@@ -7,7 +7,8 @@
 
 namespace knead {
 
-Expected<SurfaceCurvature> curvature(const Surface& surface, const std::array<double, 2>& at, Side side) {
+Expected<SurfaceCurvature> curvature(const Surface& surface, const std::array<double, 2>& at,
+                                     Side side) {
   Parameters<2> parameters(1, 2);
   parameters << at[0], at[1];
   const auto value = evaluate<2>(surface, parameters, 2, side);
@@ -17,10 +18,11 @@ Expected<SurfaceCurvature> curvature(const Surface& surface, const std::array<do
 
   SurfaceCurvature result;
   result.normal = u.cross(v).normalized();
-  const FundamentalForms forms(u, v, derivative(2, 0), derivative(1, 1), derivative(0, 2), result.normal);
+  const FundamentalForms forms(u, v, derivative(2, 0), derivative(1, 1), derivative(0, 2),
+                               result.normal);
   if (!forms.regular()) {
-    return numerical_error("the derivatives span no tangent plane", fmt::format("({}, {})", at[0], at[1]),
-                           "ask beside the pole or cusp");
+    return numerical_error("the derivatives span no tangent plane",
+                           fmt::format("({}, {})", at[0], at[1]), "ask beside the pole or cusp");
   }
   // S_u = r₁₁ e₁ and S_v = r₁₂ e₁ + r₂₂ e₂; the second form in the frame (e₁, e₂) is [a b; b c].
   const double r11 = u.norm();
@@ -47,7 +49,8 @@ Expected<CurveCurvature> curvature(const Curve& curve, double t, Side side) {
   const Point first = value->at({1}).row(0).transpose(), second = value->at({2}).row(0).transpose();
   const double speed = first.norm();
   if (!(speed > 0)) {
-    return numerical_error("the first derivative vanishes", fmt::format("t = {}", t), "ask beside the cusp");
+    return numerical_error("the first derivative vanishes", fmt::format("t = {}", t),
+                           "ask beside the cusp");
   }
   CurveCurvature result;
   result.tangent = first / speed;

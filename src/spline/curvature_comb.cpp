@@ -29,7 +29,8 @@ std::vector<double> equally_spaced(const Interval& domain, int count) {
   std::vector<double> result;
   for (int k = 0; k < count; ++k) {
     const double share = count == 1 ? 0.5 : static_cast<double>(k) / (count - 1);
-    result.push_back(k == count - 1 && count > 1 ? domain.upper : domain.lower + share * domain.length());
+    result.push_back(k == count - 1 && count > 1 ? domain.upper
+                                                 : domain.lower + share * domain.length());
   }
   return result;
 }
@@ -41,7 +42,8 @@ Point curvature_vector(const Point& first, const Point& second) {
 }
 
 /// Appends the combs along which the parameter d runs.
-Expected<void> append(const Surface& surface, int d, int count, int pieces, std::vector<CurvatureComb>& combs) {
+Expected<void> append(const Surface& surface, int d, int count, int pieces,
+                      std::vector<CurvatureComb>& combs) {
   if (count == 0) return {};
   const Teeth teeth = teeth_of(surface.knots(d), pieces);
   const std::vector<double> across = equally_spaced(surface.knots(1 - d).domain(), count);
@@ -65,7 +67,8 @@ Expected<void> append(const Surface& surface, int d, int count, int pieces, std:
       const Evaluation<2>& side = teeth.ends_span[static_cast<std::size_t>(k)] ? *below : *above;
       const Eigen::Index row = d == 0 ? k * count + c : c * size + k;
       comb.places.row(k) = side.points().row(row);
-      const Point tangent = side.at(first).row(row), bend = side.at({2 * first[0], 2 * first[1]}).row(row);
+      const Point tangent = side.at(first).row(row),
+                  bend = side.at({2 * first[0], 2 * first[1]}).row(row);
       comb.vectors.row(k) = curvature_vector(tangent, bend).transpose();
     }
   }
@@ -74,13 +77,15 @@ Expected<void> append(const Surface& surface, int d, int count, int pieces, std:
 
 }  // namespace
 
-Expected<std::vector<CurvatureComb>> curvature_combs(const Surface& surface, const CurvatureCombOptions& options) {
+Expected<std::vector<CurvatureComb>> curvature_combs(const Surface& surface,
+                                                     const CurvatureCombOptions& options) {
   const auto& [along_u, along_v] = options.curves;
   if (along_u < 0 || along_v < 0 || options.teeth < 1) {
-    return std::unexpected(Error{ErrorKind::usage,
-                                 "curvature combs need numbers of curves that are not negative, and a piece per span",
-                                 {},
-                                 "ask for 7 curves each way and 6 pieces"});
+    return std::unexpected(
+        Error{ErrorKind::usage,
+              "curvature combs need numbers of curves that are not negative, and a piece per span",
+              {},
+              "ask for 7 curves each way and 6 pieces"});
   }
   std::vector<CurvatureComb> combs;
   for (const int d : {0, 1}) {

@@ -12,7 +12,8 @@ namespace knead {
 namespace {
 
 template <int D>
-void append_indices(MultiIndex<D>& a, std::size_t direction, int left, std::vector<MultiIndex<D>>& out) {
+void append_indices(MultiIndex<D>& a, std::size_t direction, int left,
+                    std::vector<MultiIndex<D>>& out) {
   if (direction + 1 == D) {
     a[direction] = left;
     out.push_back(a);
@@ -24,10 +25,11 @@ void append_indices(MultiIndex<D>& a, std::size_t direction, int left, std::vect
   }
 }
 
-/// Σ_r values[r] from[r · stride + c], r < terms, for c < size: `Fixed` terms if known at compile time, else 0.
+/// Σ_r values[r] from[r · stride + c], r < terms, for c < size: `Fixed` terms if known at compile
+/// time, else 0.
 template <std::size_t Fixed>
-void sum_terms(const double* values, const double* from, std::size_t stride, std::size_t terms, std::size_t size,
-               double* to) {
+void sum_terms(const double* values, const double* from, std::size_t stride, std::size_t terms,
+               std::size_t size, double* to) {
   if constexpr (Fixed > 0) terms = Fixed;
   for (std::size_t c = 0; c < size; ++c) {
     double sum = values[0] * from[c];
@@ -36,12 +38,13 @@ void sum_terms(const double* values, const double* from, std::size_t stride, std
   }
 }
 
-/// Contracts the (p + 1)^D control points that affect one parameter point, first direction first. Sums are formed in
-/// the same order as on grids, so that both give the same bits.
+/// Contracts the (p + 1)^D control points that affect one parameter point, first direction first.
+/// Sums are formed in the same order as on grids, so that both give the same bits.
 template <int D>
 class LocalContraction {
  public:
-  LocalContraction(const detail::HomogeneousNet<D>& net, const std::array<const BasisTable*, D>& tables, int order)
+  LocalContraction(const detail::HomogeneousNet<D>& net,
+                   const std::array<const BasisTable*, D>& tables, int order)
       : net_(net), tables_(tables), order_(order) {
     std::size_t block = net.width();
     for (std::size_t d = D; d-- > 0;) {
@@ -61,7 +64,8 @@ class LocalContraction {
     } else {  // the control points of one line of the last direction are neighbours in the net, too
       const double* from = net_.data();
       for (std::size_t d = 0; d < D; ++d) {
-        from += static_cast<std::size_t>(tables_[d]->first[static_cast<std::size_t>(row)]) * net_.stride(d);
+        from += static_cast<std::size_t>(tables_[d]->first[static_cast<std::size_t>(row)]) *
+                net_.stride(d);
       }
       contract(0, row, from, net_.stride(0), order_, a, out);
     }
@@ -80,13 +84,14 @@ class LocalContraction {
     for (int r = 0; r <= table.degree; ++r, from += net_.stride(d)) gather(d + 1, row, from, to);
   }
 
-  void contract(std::size_t d, int row, const double* from, std::size_t stride, int left, MultiIndex<D>& a,
-                double* out) {
+  void contract(std::size_t d, int row, const double* from, std::size_t stride, int left,
+                MultiIndex<D>& a, double* out) {
     const BasisTable& table = *tables_[d];
     const std::size_t size = reduced_[d].size(), terms = static_cast<std::size_t>(table.degree + 1);
     for (int m = 0; m <= left; ++m) {
       a[d] = m;
-      double* to = d + 1 == D ? out + static_cast<std::size_t>(multi_index_position<D>(a)) * size : reduced_[d].data();
+      double* to = d + 1 == D ? out + static_cast<std::size_t>(multi_index_position<D>(a)) * size
+                              : reduced_[d].data();
       const double* values = table.row(row, m);
       switch (terms) {
         case 3:
@@ -106,7 +111,8 @@ class LocalContraction {
   const detail::HomogeneousNet<D>& net_;
   const std::array<const BasisTable*, D>& tables_;
   int order_;
-  std::vector<double> local_;  ///< of volumes, whose lines are not in one place, and of nets left apart
+  std::vector<double>
+      local_;  ///< of volumes, whose lines are not in one place, and of nets left apart
   std::array<std::vector<double>, D> reduced_;  ///< the remainder after direction d
 };
 
@@ -122,8 +128,9 @@ std::vector<MultiIndex<D>> multi_indices(int order) {
 
 template <int D>
 int multi_index_position(MultiIndex<D> a) {
-  // Indices of smaller total order, then those of the same order whose first entry is larger, direction by direction:
-  // the combinatorial number system, binom(total − 1 + k, k) for the last k directions.
+  // Indices of smaller total order, then those of the same order whose first entry is larger,
+  // direction by direction: the combinatorial number system, binom(total − 1 + k, k) for the last k
+  // directions.
   int position = 0, total = 0;
   for (int k = 1; k <= D; ++k) {
     total += a[static_cast<std::size_t>(D - k)];
@@ -137,8 +144,8 @@ int multi_index_position(MultiIndex<D> a) {
 namespace {
 
 template <int D>
-Expected<void> write_points(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
-                            std::span<double* const> out) {
+Expected<void> write_points(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables,
+                            int order, std::span<double* const> out) {
   const std::ptrdiff_t rows = tables[0]->size();
   const auto indices = multi_indices<D>(order);
   double terms = 1;  // control points that affect a point
@@ -199,25 +206,29 @@ std::vector<double*> detail::checked_memory(DerivativeMemory memory, [[maybe_unu
 }
 
 template <int D>
-Expected<void> evaluate(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
-                        Evaluation<D>& result) {
-  return write_points<D>(spline, tables, order, detail::memory_of<D>(result, order, tables[0]->size()));
+Expected<void> evaluate(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables,
+                        int order, Evaluation<D>& result) {
+  return write_points<D>(spline, tables, order,
+                         detail::memory_of<D>(result, order, tables[0]->size()));
 }
 
 template <int D>
-Expected<void> evaluate_into(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
+Expected<void> evaluate_into(const Spline<D>& spline,
+                             const std::array<const BasisTable*, D>& tables, int order,
                              DerivativeMemory out) {
-  return write_points<D>(spline, tables, order, detail::checked_memory<D>(out, order, tables[0]->size()));
+  return write_points<D>(spline, tables, order,
+                         detail::checked_memory<D>(out, order, tables[0]->size()));
 }
 
 template <int D>
-Expected<Evaluation<D>> evaluate(const Spline<D>& spline, const Parameters<D>& parameters, int order, Side side) {
+Expected<Evaluation<D>> evaluate(const Spline<D>& spline, const Parameters<D>& parameters,
+                                 int order, Side side) {
   std::array<BasisTable, D> tables;
   std::array<const BasisTable*, D> pointers;
   for (std::size_t d = 0; d < D; ++d) {
     const Eigen::VectorXd column = parameters.col(static_cast<Eigen::Index>(d));
-    auto table =
-        tabulate_basis(spline.knots()[d], {column.data(), static_cast<std::size_t>(column.size())}, order, side);
+    auto table = tabulate_basis(
+        spline.knots()[d], {column.data(), static_cast<std::size_t>(column.size())}, order, side);
     if (!table) return std::unexpected(table.error().within(fmt::format("direction {}", d)));
     tables[d] = std::move(*table);
     pointers[d] = &tables[d];
@@ -237,15 +248,16 @@ Expected<Point> evaluate_point(const Spline<D>& spline, std::array<double, D> u)
   return Point(result->points().row(0).transpose());
 }
 
-#define KNEAD_INSTANTIATE(D)                                                                                           \
-  template std::vector<MultiIndex<D>> multi_indices<D>(int);                                                           \
-  template int multi_index_position<D>(MultiIndex<D>);                                                                 \
-  template Expected<void> evaluate<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int, Evaluation<D>&); \
-  template Expected<void> evaluate_into<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int,             \
-                                           DerivativeMemory);                                                          \
-  template std::vector<double*> detail::memory_of<D>(Evaluation<D>&, int, Eigen::Index);                               \
-  template std::vector<double*> detail::checked_memory<D>(DerivativeMemory, int, Eigen::Index);                        \
-  template Expected<Evaluation<D>> evaluate<D>(const Spline<D>&, const Parameters<D>&, int, Side);                     \
+#define KNEAD_INSTANTIATE(D)                                                                       \
+  template std::vector<MultiIndex<D>> multi_indices<D>(int);                                       \
+  template int multi_index_position<D>(MultiIndex<D>);                                             \
+  template Expected<void> evaluate<D>(const Spline<D>&, const std::array<const BasisTable*, D>&,   \
+                                      int, Evaluation<D>&);                                        \
+  template Expected<void> evaluate_into<D>(                                                        \
+      const Spline<D>&, const std::array<const BasisTable*, D>&, int, DerivativeMemory);           \
+  template std::vector<double*> detail::memory_of<D>(Evaluation<D>&, int, Eigen::Index);           \
+  template std::vector<double*> detail::checked_memory<D>(DerivativeMemory, int, Eigen::Index);    \
+  template Expected<Evaluation<D>> evaluate<D>(const Spline<D>&, const Parameters<D>&, int, Side); \
   template Expected<Point> evaluate_point<D>(const Spline<D>&, std::array<double, D>);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)

@@ -18,8 +18,8 @@ const detail::GridKernels& detail::grid_kernels(InstructionSet set) {
 
 namespace {
 
-/// The last direction's basis with parameters side by side, so that neighbouring points of one span are computed at
-/// once.
+/// The last direction's basis with parameters side by side, so that neighbouring points of one span
+/// are computed at once.
 class TransposedBasis {
  public:
   TransposedBasis(const BasisTable& table, int order)
@@ -42,8 +42,8 @@ class TransposedBasis {
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] std::size_t stride() const { return stride_; }
   [[nodiscard]] detail::GridRow row() const {
-    return {runs_.data(), std::ssize(runs_), static_cast<std::ptrdiff_t>(count_), static_cast<std::ptrdiff_t>(stride_),
-            static_cast<std::ptrdiff_t>(width_)};
+    return {runs_.data(), std::ssize(runs_), static_cast<std::ptrdiff_t>(count_),
+            static_cast<std::ptrdiff_t>(stride_), static_cast<std::ptrdiff_t>(width_)};
   }
   /// The values of derivative d, as `GridRow` describes them.
   [[nodiscard]] const double* values(int d) const {
@@ -56,19 +56,23 @@ class TransposedBasis {
   std::vector<detail::SpanRun> runs_;
 };
 
-/// The terms of the quotient rule, one after the other; none for order 0, where there is only the division.
+/// The terms of the quotient rule, one after the other; none for order 0, where there is only the
+/// division.
 class ListedQuotientRule {
  public:
   template <int D>
   explicit ListedQuotientRule(const detail::QuotientRule<D>& rule) {
     for (std::size_t a = 0; a < rule.size(); ++a) {
       begin_.push_back(terms_.size());
-      for (const auto& term : rule.terms(a)) terms_.push_back({term.denominator, term.rest, term.factor});
+      for (const auto& term : rule.terms(a))
+        terms_.push_back({term.denominator, term.rest, term.factor});
     }
     begin_.push_back(terms_.size());
   }
 
-  [[nodiscard]] detail::QuotientTerms terms() const { return {terms_.data(), begin_.data(), begin_.size() - 1}; }
+  [[nodiscard]] detail::QuotientTerms terms() const {
+    return {terms_.data(), begin_.data(), begin_.size() - 1};
+  }
 
  private:
   std::vector<detail::QuotientTerm> terms_;
@@ -78,8 +82,8 @@ class ListedQuotientRule {
 /// What all parts of a grid share.
 template <int D>
 struct GridTask {
-  GridTask(const detail::GridKernels& chosen, const Spline<D>& spline, const std::array<const BasisTable*, D>& given,
-           int derivatives, std::vector<double*> to)
+  GridTask(const detail::GridKernels& chosen, const Spline<D>& spline,
+           const std::array<const BasisTable*, D>& given, int derivatives, std::vector<double*> to)
       : kernels(chosen),
         rational(spline.rational()),
         net(spline),
@@ -99,21 +103,23 @@ struct GridTask {
   std::vector<double*> out;  ///< by derivative
 };
 
-/// Walks a part of the grid row by row. At every parameter of a direction but the last, the net is contracted once for
-/// every derivative needed further in, leaving a smaller net. In the last direction whole rows are summed.
+/// Walks a part of the grid row by row. At every parameter of a direction but the last, the net is
+/// contracted once for every derivative needed further in, leaving a smaller net. In the last
+/// direction whole rows are summed.
 template <int D>
 class GridWalk {
  public:
   explicit GridWalk(const GridTask<D>& task) : task_(task) {
-    for (std::size_t d = 0; d + 1 < D; ++d) nets_[d].resize(multi_indices<D>(task.order).size() * task.net.stride(d));
+    for (std::size_t d = 0; d + 1 < D; ++d)
+      nets_[d].resize(multi_indices<D>(task.order).size() * task.net.stride(d));
     if (!task.rational) return;
     constexpr auto spare = static_cast<std::size_t>(detail::GridKernels::spare);
     homogeneous_.resize(task.out.size() * task.basis.stride() * 4 + spare);
     work_.resize(task.out.size() * 3 * spare);
   }
 
-  /// At parameters begin … end − 1 of the first direction; all of it where that is also the last. False if a
-  /// denominator is not positive; `at()` then gives the point.
+  /// At parameters begin … end − 1 of the first direction; all of it where that is also the last.
+  /// False if a denominator is not positive; `at()` then gives the point.
   bool run(std::size_t begin, std::size_t end) {
     row_ = begin;
     for (std::size_t d = 1; d < D; ++d) row_ *= static_cast<std::size_t>(task_.tables[d]->size());
@@ -128,10 +134,12 @@ class GridWalk {
     const double* net;
   };
 
-  bool walk(std::size_t d, std::size_t begin, std::size_t end, const std::vector<Partial>& partials) {
+  bool walk(std::size_t d, std::size_t begin, std::size_t end,
+            const std::vector<Partial>& partials) {
     if (d + 1 == D) return sum_row(partials);
     const BasisTable& table = *task_.tables[d];
-    const std::size_t stride = task_.net.stride(d), inner = static_cast<std::size_t>(task_.tables[d + 1]->size());
+    const std::size_t stride = task_.net.stride(d),
+                      inner = static_cast<std::size_t>(task_.tables[d + 1]->size());
     std::vector<Partial> contracted;
     for (std::size_t k = begin; k < end; ++k) {
       at_[d] = k;
@@ -164,7 +172,8 @@ class GridWalk {
       for (int m = 0; m <= left; ++m) {
         a[D - 1] = m;
         const auto k = static_cast<std::size_t>(multi_index_position<D>(a));
-        double* to = task_.rational ? homogeneous_.data() + k * basis.stride() * 4 : task_.out[k] + row_ * 3;
+        double* to =
+            task_.rational ? homogeneous_.data() + k * basis.stride() * 4 : task_.out[k] + row_ * 3;
         sum(basis.row(), basis.values(m), partial.net, to);
       }
     }
@@ -175,35 +184,40 @@ class GridWalk {
 
   bool divide_row() {
     const auto size = static_cast<std::ptrdiff_t>(task_.basis.size());
-    const std::ptrdiff_t done = task_.kernels.divide(task_.quotient.terms(), homogeneous_.data(),
-                                                     static_cast<std::ptrdiff_t>(task_.basis.stride()), size,
-                                                     work_.data(), task_.out.data(), static_cast<std::ptrdiff_t>(row_));
+    const std::ptrdiff_t done =
+        task_.kernels.divide(task_.quotient.terms(), homogeneous_.data(),
+                             static_cast<std::ptrdiff_t>(task_.basis.stride()), size, work_.data(),
+                             task_.out.data(), static_cast<std::ptrdiff_t>(row_));
     at_[D - 1] = static_cast<std::size_t>(done);
     return done == size;
   }
 
   const GridTask<D>& task_;
-  std::array<std::vector<double>, D> nets_;  ///< the net remaining after direction d, one per derivative
-  std::vector<double> homogeneous_;          ///< one row of a rational spline, by derivative, coordinate and point
-  std::vector<double> work_;                 ///< of the division
+  std::array<std::vector<double>, D>
+      nets_;  ///< the net remaining after direction d, one per derivative
+  std::vector<double>
+      homogeneous_;           ///< one row of a rational spline, by derivative, coordinate and point
+  std::vector<double> work_;  ///< of the division
   std::size_t row_ = 0;
   std::array<std::size_t, D> at_{};
 };
 
-/// Multiplications per parameter of the first direction, roughly; none where that is the only one, which is not
-/// divided.
+/// Multiplications per parameter of the first direction, roughly; none where that is the only one,
+/// which is not divided.
 template <int D>
 double work_of_a_slab(const GridTask<D>& task, Eigen::Index points) {
   if constexpr (D == 1) return 0;
-  const double numbers =
-      static_cast<double>(points) / task.tables[0]->size() * static_cast<double>(task.out.size() * task.net.width());
+  const double numbers = static_cast<double>(points) / task.tables[0]->size() *
+                         static_cast<double>(task.out.size() * task.net.width());
   return numbers * (task.tables[D - 1]->degree + 1 + (task.rational ? 4 : 0));
 }
 
-/// The fastest for so many points in a span: vectors of eight pay where a span has more than fit into one, in the mean.
+/// The fastest for so many points in a span: vectors of eight pay where a span has more than fit
+/// into one, in the mean.
 const detail::GridKernels& kernels_for(const BasisTable& last) {
   std::ptrdiff_t runs = last.size() > 0 ? 1 : 0;
-  for (std::size_t k = 1; k < last.first.size(); ++k) runs += last.first[k] != last.first[k - 1] ? 1 : 0;
+  for (std::size_t k = 1; k < last.first.size(); ++k)
+    runs += last.first[k] != last.first[k - 1] ? 1 : 0;
   const InstructionSet best = best_instruction_set();
   return detail::grid_kernels(last.size() > 8 * runs ? best : std::min(best, InstructionSet::avx2));
 }
@@ -218,8 +232,10 @@ Eigen::Index points_of(const std::array<const BasisTable*, D>& tables) {
 /// The whole grid, by several threads where it is large.
 template <int D>
 Expected<void> walk_all(const GridTask<D>& task, Eigen::Index points) {
-  const std::ptrdiff_t slabs = task.tables[0]->size(), size = detail::block_size(slabs, work_of_a_slab(task, points));
-  std::vector<std::optional<std::array<std::size_t, D>>> failed(static_cast<std::size_t>((slabs + size - 1) / size));
+  const std::ptrdiff_t slabs = task.tables[0]->size(),
+                       size = detail::block_size(slabs, work_of_a_slab(task, points));
+  std::vector<std::optional<std::array<std::size_t, D>>> failed(
+      static_cast<std::size_t>((slabs + size - 1) / size));
   detail::parallel_for(slabs, size, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     GridWalk<D> walk(task);
     if (!walk.run(static_cast<std::size_t>(begin), static_cast<std::size_t>(end))) {
@@ -234,7 +250,8 @@ Expected<void> walk_all(const GridTask<D>& task, Eigen::Index points) {
 
 template <int D>
 Expected<void> write_grid(const detail::GridKernels& kernels, const Spline<D>& spline,
-                          const std::array<const BasisTable*, D>& tables, int order, std::vector<double*> out) {
+                          const std::array<const BasisTable*, D>& tables, int order,
+                          std::vector<double*> out) {
   for (std::size_t d = 0; d < D; ++d) {
     assert(tables[d]->order >= order && tables[d]->degree == spline.knots()[d].degree());
   }
@@ -249,25 +266,28 @@ template <int D>
 Expected<void> detail::evaluate_grid_by(const GridKernels& kernels, const Spline<D>& spline,
                                         const std::array<const BasisTable*, D>& tables, int order,
                                         Evaluation<D>& result) {
-  return write_grid<D>(kernels, spline, tables, order, detail::memory_of<D>(result, order, points_of<D>(tables)));
+  return write_grid<D>(kernels, spline, tables, order,
+                       detail::memory_of<D>(result, order, points_of<D>(tables)));
 }
 
 template <int D>
-Expected<void> evaluate_grid(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
+Expected<void> evaluate_grid(const Spline<D>& spline,
+                             const std::array<const BasisTable*, D>& tables, int order,
                              Evaluation<D>& result) {
   return detail::evaluate_grid_by<D>(kernels_for(*tables[D - 1]), spline, tables, order, result);
 }
 
 template <int D>
-Expected<void> evaluate_grid_into(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
+Expected<void> evaluate_grid_into(const Spline<D>& spline,
+                                  const std::array<const BasisTable*, D>& tables, int order,
                                   DerivativeMemory out) {
   return write_grid<D>(kernels_for(*tables[D - 1]), spline, tables, order,
                        detail::checked_memory<D>(out, order, points_of<D>(tables)));
 }
 
 template <int D>
-Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables,
-                                      int order) {
+Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline,
+                                      const std::array<const BasisTable*, D>& tables, int order) {
   Evaluation<D> result;
   auto done = evaluate_grid<D>(spline, tables, order, result);
   if (!done) return std::unexpected(std::move(done.error()));
@@ -275,7 +295,8 @@ Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline, const std::array<
 }
 
 template <int D>
-Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline, const std::array<std::span<const double>, D>& parameters,
+Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline,
+                                      const std::array<std::span<const double>, D>& parameters,
                                       int order, Side side) {
   std::array<BasisTable, D> tables;
   std::array<const BasisTable*, D> pointers;
@@ -288,16 +309,18 @@ Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline, const std::array<
   return evaluate_grid<D>(spline, pointers, order);
 }
 
-#define KNEAD_INSTANTIATE(D)                                                                                         \
-  template Expected<void> detail::evaluate_grid_by<D>(const GridKernels&, const Spline<D>&,                          \
-                                                      const std::array<const BasisTable*, D>&, int, Evaluation<D>&); \
-  template Expected<void> evaluate_grid<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int,           \
-                                           Evaluation<D>&);                                                          \
-  template Expected<void> evaluate_grid_into<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int,      \
-                                                DerivativeMemory);                                                   \
-  template Expected<Evaluation<D>> evaluate_grid<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int); \
-  template Expected<Evaluation<D>> evaluate_grid<D>(const Spline<D>&, const std::array<std::span<const double>, D>&, \
-                                                    int, Side);
+#define KNEAD_INSTANTIATE(D)                                                                       \
+  template Expected<void> detail::evaluate_grid_by<D>(const GridKernels&, const Spline<D>&,        \
+                                                      const std::array<const BasisTable*, D>&,     \
+                                                      int, Evaluation<D>&);                        \
+  template Expected<void> evaluate_grid<D>(                                                        \
+      const Spline<D>&, const std::array<const BasisTable*, D>&, int, Evaluation<D>&);             \
+  template Expected<void> evaluate_grid_into<D>(                                                   \
+      const Spline<D>&, const std::array<const BasisTable*, D>&, int, DerivativeMemory);           \
+  template Expected<Evaluation<D>> evaluate_grid<D>(const Spline<D>&,                              \
+                                                    const std::array<const BasisTable*, D>&, int); \
+  template Expected<Evaluation<D>> evaluate_grid<D>(                                               \
+      const Spline<D>&, const std::array<std::span<const double>, D>&, int, Side);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)
 KNEAD_INSTANTIATE(3)

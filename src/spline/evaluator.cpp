@@ -5,9 +5,9 @@
 namespace knead {
 
 template <int D>
-Expected<Evaluator<D>> Evaluator<D>::create(const std::array<KnotVector, D>& knots,
-                                            const std::array<std::span<const double>, D>& parameters, int order,
-                                            Side side, bool grid) {
+Expected<Evaluator<D>> Evaluator<D>::create(
+    const std::array<KnotVector, D>& knots,
+    const std::array<std::span<const double>, D>& parameters, int order, Side side, bool grid) {
   std::array<BasisTable, D> tables;
   for (std::size_t d = 0; d < D; ++d) {
     auto table = tabulate_basis(knots[d], parameters[d], order, side);
@@ -18,15 +18,16 @@ Expected<Evaluator<D>> Evaluator<D>::create(const std::array<KnotVector, D>& kno
 }
 
 template <int D>
-Expected<Evaluator<D>> Evaluator<D>::on_grid(const std::array<KnotVector, D>& knots,
-                                             const std::array<std::span<const double>, D>& parameters, int order,
-                                             Side side) {
+Expected<Evaluator<D>> Evaluator<D>::on_grid(
+    const std::array<KnotVector, D>& knots,
+    const std::array<std::span<const double>, D>& parameters, int order, Side side) {
   return create(knots, parameters, order, side, true);
 }
 
 template <int D>
-Expected<Evaluator<D>> Evaluator<D>::at_points(const std::array<KnotVector, D>& knots, const Parameters<D>& parameters,
-                                               int order, Side side) {
+Expected<Evaluator<D>> Evaluator<D>::at_points(const std::array<KnotVector, D>& knots,
+                                               const Parameters<D>& parameters, int order,
+                                               Side side) {
   std::array<Eigen::VectorXd, D> columns;
   std::array<std::span<const double>, D> spans;
   for (std::size_t d = 0; d < D; ++d) {
@@ -47,8 +48,8 @@ template <int D>
 Expected<void> Evaluator<D>::evaluate(const Spline<D>& spline, Evaluation<D>& result) const {
   for (std::size_t d = 0; d < D; ++d) {
     if (spline.knots()[d] == knots_[d]) continue;
-    return usage_error("the spline has other knots than the evaluator was made for", fmt::format("direction {}", d),
-                       "make an evaluator for its knots");
+    return usage_error("the spline has other knots than the evaluator was made for",
+                       fmt::format("direction {}", d), "make an evaluator for its knots");
   }
   std::array<const BasisTable*, D> tables;
   for (std::size_t d = 0; d < D; ++d) tables[d] = &tables_[d];

@@ -48,8 +48,8 @@ struct Coordinate {
   }
 };
 
-/// Sample parameters of one direction with the basis of the span they belong to, so that both one-sided limits at a
-/// knot are sampled.
+/// Sample parameters of one direction with the basis of the span they belong to, so that both
+/// one-sided limits at a knot are sampled.
 struct Samples {
   std::vector<double> parameters;
   BasisTable table;
@@ -65,8 +65,10 @@ Samples sample_spans(const KnotVector& knots) {
       const double u = k == steps ? b : a + (b - a) * k / steps;
       samples.parameters.push_back(u);
       samples.table.first.push_back(span - p);
-      samples.table.derivatives.resize(samples.table.derivatives.size() + static_cast<std::size_t>(p + 1));
-      basis_values(knots, span, u, samples.table.derivatives.data() + samples.table.derivatives.size() - (p + 1));
+      samples.table.derivatives.resize(samples.table.derivatives.size() +
+                                       static_cast<std::size_t>(p + 1));
+      basis_values(knots, span, u,
+                   samples.table.derivatives.data() + samples.table.derivatives.size() - (p + 1));
     }
   }
   return samples;
@@ -92,7 +94,8 @@ class Ascent {
 
  private:
   [[nodiscard]] Eigen::Vector2d clamped(const Eigen::Vector2d& y) const {
-    return {std::clamp(y[0], domain_[0].lower, domain_[0].upper), std::clamp(y[1], domain_[1].lower, domain_[1].upper)};
+    return {std::clamp(y[0], domain_[0].lower, domain_[0].upper),
+            std::clamp(y[1], domain_[1].lower, domain_[1].upper)};
   }
 
   [[nodiscard]] bool on_knot(int d) const {
@@ -109,7 +112,8 @@ class Ascent {
     return true;
   }
 
-  /// Newton's iteration, each direction on its own where f is not concave; true if it reaches a smooth maximum.
+  /// Newton's iteration, each direction on its own where f is not concave; true if it reaches a
+  /// smooth maximum.
   bool climb() {
     for (int iteration = 0; iteration < 20; ++iteration) {
       const Value here = f_.at(surface_jet(surface_, x_[0], x_[1]));
@@ -117,15 +121,18 @@ class Ascent {
       // Directions that lead out of the domain are fixed.
       bool held[2];
       for (int d = 0; d < 2; ++d)
-        held[d] = (x_[d] <= domain_[d].lower && g[d] <= 0) || (x_[d] >= domain_[d].upper && g[d] >= 0);
+        held[d] =
+            (x_[d] <= domain_[d].lower && g[d] <= 0) || (x_[d] >= domain_[d].upper && g[d] >= 0);
       Eigen::Vector2d step = Eigen::Vector2d::Zero();
       const double det = here.hessian.determinant();
-      if (!held[0] && !held[1] && here.hessian(0, 0) < 0 && det > 0) step = -here.hessian.inverse() * g;
+      if (!held[0] && !held[1] && here.hessian(0, 0) < 0 && det > 0)
+        step = -here.hessian.inverse() * g;
       if (!step.allFinite()) step.setZero();  // nearly singular
-      // A Newton step this short changes f by its square; inside a span the point is then a maximum.
+      // A Newton step this short changes f by its square; inside a span the point is then a
+      // maximum.
       constexpr double arrived = 1e-7;
-      if (!step.isZero(0) && std::abs(step[0]) <= arrived * spacing_[0] && std::abs(step[1]) <= arrived * spacing_[1] &&
-          !on_knot(0) && !on_knot(1)) {
+      if (!step.isZero(0) && std::abs(step[0]) <= arrived * spacing_[0] &&
+          std::abs(step[1]) <= arrived * spacing_[1] && !on_knot(0) && !on_knot(1)) {
         return true;
       }
       if (step.isZero(0)) {
@@ -184,7 +191,8 @@ class SampledSpans {
   /// False if a denominator is not positive: then only the net can be used.
   [[nodiscard]] bool valid() const {
     if (in_hull_) return true;
-    return evaluate_grid<2>(surface_, std::array<const BasisTable*, 2>{&u_.table, &v_.table}).has_value();
+    return evaluate_grid<2>(surface_, std::array<const BasisTable*, 2>{&u_.table, &v_.table})
+        .has_value();
   }
 
   template <class Function>
@@ -193,7 +201,8 @@ class SampledSpans {
     std::ranges::sort(peaks, std::ranges::greater{}, &Peak::value);
     if (in_hull_ && is_top(f, peaks.front().value))
       return {peaks.front().value, {peaks.front().at[0], peaks.front().at[1]}};
-    // On a plateau every sample is a peak: the best few suffice, since equal values refine to equal values.
+    // On a plateau every sample is a peak: the best few suffice, since equal values refine to equal
+    // values.
     constexpr std::size_t refined = 8;
     std::vector<Eigen::Vector2d> begun;  // a peak on a knot line belongs to both adjacent spans
     SurfaceMaximum best;
@@ -208,15 +217,16 @@ class SampledSpans {
   }
 
  private:
-  /// Whether a sample reaches the largest value at a control point, but for rounding: corners of a face do, and all of
-  /// a plane across an axis. Nothing is larger then, and ascents from every sample of a plateau would find so at
-  /// length.
+  /// Whether a sample reaches the largest value at a control point, but for rounding: corners of a
+  /// face do, and all of a plane across an axis. Nothing is larger then, and ascents from every
+  /// sample of a plateau would find so at length.
   template <class Function>
   [[nodiscard]] bool is_top(const Function& f, double value) const {
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
     const Points& net = surface_.control_points();
     double bound = -std::numeric_limits<double>::infinity();
-    for (Eigen::Index k = 0; k < net.rows(); ++k) bound = std::max(bound, f.at(Point(net.row(k).transpose())));
+    for (Eigen::Index k = 0; k < net.rows(); ++k)
+      bound = std::max(bound, f.at(Point(net.row(k).transpose())));
     return value >= bound - rounding * std::abs(bound);
   }
 
@@ -224,14 +234,16 @@ class SampledSpans {
   Samples u_, v_;
   bool in_hull_;
 
-  /// f is convex and the surface of a span lies in the hull of its control points, so f is nowhere larger than at
-  /// those: spans that cannot exceed the best value are not sampled.
+  /// f is convex and the surface of a span lies in the hull of its control points, so f is nowhere
+  /// larger than at those: spans that cannot exceed the best value are not sampled.
   template <class Function>
   std::vector<Peak> peaks_of(const Function& f) const {
-    const int n = surface_.net()[1], p = u_.table.degree, q = v_.table.degree, rows = p + 3, columns = q + 3;
+    const int n = surface_.net()[1], p = u_.table.degree, q = v_.table.degree, rows = p + 3,
+              columns = q + 3;
     std::vector<double> values(static_cast<std::size_t>(surface_.size()));
     for (std::size_t k = 0; k < values.size(); ++k) {
-      values[k] = f.at(Point(surface_.control_points().row(static_cast<Eigen::Index>(k)).transpose()));
+      values[k] =
+          f.at(Point(surface_.control_points().row(static_cast<Eigen::Index>(k)).transpose()));
     }
     struct Span {
       double bound;
@@ -242,7 +254,8 @@ class SampledSpans {
       for (int j = 0; j < v_.table.size(); j += columns) {
         double bound = -std::numeric_limits<double>::infinity();
         for (int r = 0; r <= p; ++r) {
-          const auto first = values.begin() + (u_.table.first[static_cast<std::size_t>(i)] + r) * n +
+          const auto first = values.begin() +
+                             (u_.table.first[static_cast<std::size_t>(i)] + r) * n +
                              v_.table.first[static_cast<std::size_t>(j)];
           bound = std::max(bound, *std::max_element(first, first + q + 1));
         }
@@ -260,7 +273,8 @@ class SampledSpans {
       if (in_hull_ && !(span.bound > best)) break;
       sample(f, span.i, span.j, samples);
       const auto at = [&](int k, int l) {
-        return samples[static_cast<std::size_t>(k) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(l)];
+        return samples[static_cast<std::size_t>(k) * static_cast<std::size_t>(columns) +
+                       static_cast<std::size_t>(l)];
       };
       for (int k = 0; k < rows; ++k) {
         for (int l = 0; l < columns; ++l) {
@@ -280,7 +294,9 @@ class SampledSpans {
     return peaks;
   }
 
-  static double parameter(const Samples& s, int k) { return s.parameters[static_cast<std::size_t>(k)]; }
+  static double parameter(const Samples& s, int k) {
+    return s.parameters[static_cast<std::size_t>(k)];
+  }
   static double spacing(const Samples& s, int k) {
     double h = 0;
     if (k > 0) h = std::max(h, parameter(s, k) - parameter(s, k - 1));
@@ -300,7 +316,8 @@ class SampledSpans {
         for (int r = 0; r <= p; ++r) {
           const int index = (u_.table.first[static_cast<std::size_t>(k)] + r) * n +
                             v_.table.first[static_cast<std::size_t>(first_v)] + c;
-          const double weight = surface_.rational() ? surface_.weights()[static_cast<std::size_t>(index)] : 1;
+          const double weight =
+              surface_.rational() ? surface_.weights()[static_cast<std::size_t>(index)] : 1;
           Eigen::Vector4d point;
           point << weight * surface_.control_points().row(index).transpose(), weight;
           sum += u_.table.row(k, 0)[r] * point;
@@ -309,8 +326,10 @@ class SampledSpans {
       }
       for (int l = first_v; l < first_v + q + 3; ++l) {
         Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-        for (int c = 0; c <= q; ++c) sum += v_.table.row(l, 0)[c] * line[static_cast<std::size_t>(c)];
-        values[to++] = f.at(Point(surface_.rational() ? Point(sum.head<3>() / sum[3]) : Point(sum.head<3>())));
+        for (int c = 0; c <= q; ++c)
+          sum += v_.table.row(l, 0)[c] * line[static_cast<std::size_t>(c)];
+        values[to++] =
+            f.at(Point(surface_.rational() ? Point(sum.head<3>() / sum[3]) : Point(sum.head<3>())));
       }
     }
   }
@@ -321,11 +340,11 @@ class SampledSpans {
 SurfaceMaximum largest_norm(const Surface& surface) {
   const double size = surface.control_points().cwiseAbs().maxCoeff();
   if (std::isfinite(size) && size > 0 && std::abs(std::ilogb(size)) > 100) {
-    // Squares, and products of squares, of numbers far from 1 over- or underflow; scaling by a power of two is
-    // exact.
+    // Squares, and products of squares, of numbers far from 1 over- or underflow; scaling by a
+    // power of two is exact.
     const int half = -std::ilogb(size) / 2, rest = -std::ilogb(size) - half;
-    const auto scaled =
-        surface.with_control_points(surface.control_points() * std::ldexp(1.0, half) * std::ldexp(1.0, rest));
+    const auto scaled = surface.with_control_points(surface.control_points() *
+                                                    std::ldexp(1.0, half) * std::ldexp(1.0, rest));
     if (scaled) {
       SurfaceMaximum best = largest_norm(*scaled);
       best.value = std::ldexp(best.value, std::ilogb(size));

@@ -9,9 +9,14 @@ namespace {
 /// The present iterate: parameters w and the jet j there.
 class Descent {
  public:
-  Descent(const Point& x, const Patch& patch, const ParameterRectangle& within, const std::array<double, 2>& start,
-          double size)
-      : x_(x), patch_(patch), within_(within), size_(size), w_(start[0], start[1]), j_(patch.jet(w_[0], w_[1])) {}
+  Descent(const Point& x, const Patch& patch, const ParameterRectangle& within,
+          const std::array<double, 2>& start, double size)
+      : x_(x),
+        patch_(patch),
+        within_(within),
+        size_(size),
+        w_(start[0], start[1]),
+        j_(patch.jet(w_[0], w_[1])) {}
 
   void iterate() {
     double before = std::numeric_limits<double>::infinity();
@@ -54,7 +59,8 @@ class Descent {
       const Range &side = within_.side[d], &whole = patch_.domain.side[d];
       if (whole.length() == 0) continue;
       const bool low = w_[k] <= side.lower && g[k] > 0, high = w_[k] >= side.upper && g[k] < 0;
-      const double push = std::abs(g[k]) / (j_[1 + d].norm() * (std::sqrt(f.squared) + 1e-3 * size_) + 1e-300);
+      const double push =
+          std::abs(g[k]) / (j_[1 + d].norm() * (std::sqrt(f.squared) + 1e-3 * size_) + 1e-300);
       f.pressure = std::max(f.pressure, push);
       if (!low && !high) continue;
       const bool border = low ? w_[k] <= whole.lower : w_[k] >= whole.upper;
@@ -85,15 +91,18 @@ class Descent {
     for (std::size_t d = 0; d < 2; ++d) {
       const Range& side = within_.side[d];
       const auto k = static_cast<Eigen::Index>(d);
-      free[d] = side.length() > 0 && !(w_[k] <= side.lower && g[k] >= 0) && !(w_[k] >= side.upper && g[k] <= 0);
+      free[d] = side.length() > 0 && !(w_[k] <= side.lower && g[k] >= 0) &&
+                !(w_[k] >= side.upper && g[k] <= 0);
     }
     return free;
   }
 
   [[nodiscard]] Step step(const Eigen::Vector2d& g, const std::array<bool, 2>& free) const {
     const Point r = j_[0] - x_;
-    const Eigen::Matrix2d metric{{j_[1].dot(j_[1]), j_[1].dot(j_[2])}, {j_[1].dot(j_[2]), j_[2].dot(j_[2])}};
-    Eigen::Matrix2d a = metric + Eigen::Matrix2d{{r.dot(j_[3]), r.dot(j_[4])}, {r.dot(j_[4]), r.dot(j_[5])}};
+    const Eigen::Matrix2d metric{{j_[1].dot(j_[1]), j_[1].dot(j_[2])},
+                                 {j_[1].dot(j_[2]), j_[2].dot(j_[2])}};
+    Eigen::Matrix2d a =
+        metric + Eigen::Matrix2d{{r.dot(j_[3]), r.dot(j_[4])}, {r.dot(j_[4]), r.dot(j_[5])}};
     Step step;
     for (int round = 0; round < 2; ++round) {
       const double determinant = a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0);
@@ -116,7 +125,8 @@ class Descent {
     return step;
   }
 
-  /// Takes a step, shortened until it leads closer to x; returns its length in space, to second order.
+  /// Takes a step, shortened until it leads closer to x; returns its length in space, to second
+  /// order.
   double advance(const Step& step, const std::array<bool, 2>& free) {
     const PatchJet before = j_;
     const double squared = (before[0] - x_).squaredNorm();
@@ -125,7 +135,8 @@ class Descent {
     for (double t = 1;; t *= 0.25) {
       for (Eigen::Index k = 0; k < 2; ++k) {
         const Range& side = within_.side[index(k)];
-        next[k] = free[index(k)] ? std::clamp(w_[k] + t * step.by[k], side.lower, side.upper) : w_[k];
+        next[k] =
+            free[index(k)] ? std::clamp(w_[k] + t * step.by[k], side.lower, side.upper) : w_[k];
       }
       const Eigen::Vector2d moved = next - w_;
       reach = (moved[0] * j_[1] + moved[1] * j_[2]).norm() +
@@ -149,8 +160,8 @@ class Descent {
 
 }  // namespace
 
-Foot descended(const Point& x, const Patch& patch, const ParameterRectangle& within, const std::array<double, 2>& start,
-               double size) {
+Foot descended(const Point& x, const Patch& patch, const ParameterRectangle& within,
+               const std::array<double, 2>& start, double size) {
   Descent descent(x, patch, within, start, size);
   descent.iterate();
   descent.try_cusps();

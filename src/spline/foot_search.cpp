@@ -17,23 +17,27 @@ bool fine_enough(const PatchBounds& b, const ParameterRectangle& at, double size
     if (at.side[d].length() == 0) continue;
     const Range3& t = b[1 + d];
     const double spread = 0.5 * t.diagonal();
-    const double mid = 0.5 * std::hypot(t.axis[0].lower + t.axis[0].upper, t.axis[1].lower + t.axis[1].upper,
-                                        t.axis[2].lower + t.axis[2].upper);
+    const double mid =
+        0.5 * std::hypot(t.axis[0].lower + t.axis[0].upper, t.axis[1].lower + t.axis[1].upper,
+                         t.axis[2].lower + t.axis[2].upper);
     if (spread > 0.2 * mid && t.magnitude() * at.side[d].length() > 0.02 * size) return false;
   }
   return true;
 }
 
-/// The side along which to halve the cell: the longer one in space. If a cell touches a pole and the tangents leaving
-/// it still vary a lot, it is the side around the pole.
+/// The side along which to halve the cell: the longer one in space. If a cell touches a pole and
+/// the tangents leaving it still vary a lot, it is the side around the pole.
 std::size_t side_to_halve(const PatchBounds& b, const ParameterRectangle& at) {
-  const std::array<double, 2> extent = {b[1].magnitude() * at.side[0].length(), b[2].magnitude() * at.side[1].length()};
+  const std::array<double, 2> extent = {b[1].magnitude() * at.side[0].length(),
+                                        b[2].magnitude() * at.side[1].length()};
   if (at.side[0].length() == 0) return 1;
   if (at.side[1].length() == 0) return 0;
   const std::size_t longer = extent[0] >= extent[1] ? 0 : 1, round = 1 - longer;
   const Range3& t = b[1 + round];
   const bool touches = t.axis[0].holds_zero() && t.axis[1].holds_zero() && t.axis[2].holds_zero();
-  return touches && b[4].magnitude() * at.side[round].length() > 0.5 * b[1 + longer].magnitude() ? round : longer;
+  return touches && b[4].magnitude() * at.side[round].length() > 0.5 * b[1 + longer].magnitude()
+             ? round
+             : longer;
 }
 
 std::array<ParameterRectangle, 2> halves(const ParameterRectangle& at, std::size_t side) {
@@ -42,8 +46,8 @@ std::array<ParameterRectangle, 2> halves(const ParameterRectangle& at, std::size
   return h;
 }
 
-/// Of two feet that differ only by rounding: the one with the smaller gradient, then the one further from a
-/// pole.
+/// Of two feet that differ only by rounding: the one with the smaller gradient, then the one
+/// further from a pole.
 bool firmer(const Foot& a, const Foot& b) {
   if (std::abs(a.pressure - b.pressure) > 1e-11) return a.pressure < b.pressure;
   return a.jet[1].cross(a.jet[2]).squaredNorm() > b.jet[1].cross(b.jet[2]).squaredNorm();
@@ -95,7 +99,8 @@ int FootSearch::build_patch(int patch, const ParameterRectangle& at, int depth) 
     return node;
   }
   const auto parts = halves(at, side_to_halve(bounds, at));
-  const std::array<int, 2> child = {build_patch(patch, parts[0], depth + 1), build_patch(patch, parts[1], depth + 1)};
+  const std::array<int, 2> child = {build_patch(patch, parts[0], depth + 1),
+                                    build_patch(patch, parts[1], depth + 1)};
   nodes_[index(node)].child = child;
   Range3 box = nodes_[index(child[0])].box;
   box.include(nodes_[index(child[1])].box);
@@ -116,7 +121,8 @@ int FootSearch::join(std::vector<int> nodes) {
     return r.lower + r.upper;
   };
   const auto half = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
-  std::nth_element(nodes.begin(), half, nodes.end(), [&](int a, int b) { return middle(a) < middle(b); });
+  std::nth_element(nodes.begin(), half, nodes.end(),
+                   [&](int a, int b) { return middle(a) < middle(b); });
   const int left = join({nodes.begin(), half}), right = join({half, nodes.end()});
   nodes_.push_back({box, {left, right}, -1});
   return static_cast<int>(nodes_.size()) - 1;
@@ -140,7 +146,8 @@ FootResult FootSearch::nearest(const Point& x) const {
     if (node.leaf >= 0) {
       const Leaf& leaf = leaves_[index(node.leaf)];
       if (q.feet.empty() && !std::isfinite(q.bound)) {
-        const Foot f = descend(q, leaf.patch, patches_[index(leaf.patch)]->domain, leaf.at.centre());
+        const Foot f =
+            descend(q, leaf.patch, patches_[index(leaf.patch)]->domain, leaf.at.centre());
         q.lower(f.squared, leaf.patch, f.at);
       }
       examine(q, leaf.patch, leaf.at, leaf.bounds, 0);
@@ -175,13 +182,15 @@ FootResult FootSearch::nearest(const Point& x) const {
   }
   result.best = *best;
   for (int round = 0; round < 2; ++round) {  // the second if the first went to a cusp
-    const Foot polished = descend(q, result.best.patch, patches_[index(result.best.patch)]->domain, result.best.at);
+    const Foot polished =
+        descend(q, result.best.patch, patches_[index(result.best.patch)]->domain, result.best.at);
     if (polished.squared > tie || polished.at == result.best.at) break;
     result.best = polished;
   }
   if (result.best.pressed[0] || result.best.pressed[1]) {
     for (const Foot& f : q.feet) {
-      const bool elsewhere = f.patch != result.best.patch || std::abs(f.at[0] - result.best.at[0]) > 1e-3 ||
+      const bool elsewhere = f.patch != result.best.patch ||
+                             std::abs(f.at[0] - result.best.at[0]) > 1e-3 ||
                              std::abs(f.at[1] - result.best.at[1]) > 1e-3;
       if (elsewhere && (f.jet[0] - result.best.jet[0]).norm() < 1e-9 * size_) {
         result.neighbours.push_back(f);
@@ -191,7 +200,8 @@ FootResult FootSearch::nearest(const Point& x) const {
   return result;
 }
 
-void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds bounds, int depth) const {
+void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds bounds,
+                         int depth) const {
   const Patch& p = *patches_[index(patch)];
   for (bool changed = true; changed;) {
     changed = false;
@@ -205,7 +215,8 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
       if (at.side[d].length() == 0) continue;
       const Range slope = way.dot(bounds[6 + d]);
       const double rounding = 1e-14 * way.magnitude() * bounds[6 + d].magnitude();
-      const bool first = at.side[d].lower == p.domain.side[d].lower, last = at.side[d].upper == p.domain.side[d].upper;
+      const bool first = at.side[d].lower == p.domain.side[d].lower,
+                 last = at.side[d].upper == p.domain.side[d].upper;
       if (slope.lower > rounding || (first && slope.lower >= 0)) {
         if (!first) return;
         at.side[d].upper = at.side[d].lower;
@@ -220,7 +231,8 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
   }
   const Range3 way = bounds[0] - q.x;
   const bool free_u = at.side[0].length() > 0, free_v = at.side[1].length() > 0;
-  const Range uu = bounds[1].squared_norm() + way.dot(bounds[3]), vv = bounds[2].squared_norm() + way.dot(bounds[5]);
+  const Range uu = bounds[1].squared_norm() + way.dot(bounds[3]),
+              vv = bounds[2].squared_norm() + way.dot(bounds[5]);
   bool convex = (!free_u || uu.lower > 0) && (!free_v || vv.lower > 0);
   if (convex && free_u && free_v) {
     const double uv = (bounds[1].dot(bounds[2]) + way.dot(bounds[4])).magnitude();
@@ -232,23 +244,24 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
   const double middle = middle_way.squaredNorm();
   if (convex) {
     // A convex function lies above its tangent plane.
-    const double fall =
-        std::abs(middle_way.dot(jet[1])) * at.side[0].length() + std::abs(middle_way.dot(jet[2])) * at.side[1].length();
-    if (q.close(middle - fall)) record(q, descend(q, patch, at, q.patch == patch && at.holds(q.at) ? q.at : c));
+    const double fall = std::abs(middle_way.dot(jet[1])) * at.side[0].length() +
+                        std::abs(middle_way.dot(jet[2])) * at.side[1].length();
+    if (q.close(middle - fall))
+      record(q, descend(q, patch, at, q.patch == patch && at.holds(q.at) ? q.at : c));
     return;
   }
   // |x − S|² >= |x − S(centre)|² − 2 Σ max|∂| half side (mean value form).
   const bool nearer = middle < q.bound;
   q.lower(middle, patch, c);
-  const double fall =
-      way.dot(bounds[1]).magnitude() * at.side[0].length() + way.dot(bounds[2]).magnitude() * at.side[1].length();
+  const double fall = way.dot(bounds[1]).magnitude() * at.side[0].length() +
+                      way.dot(bounds[2]).magnitude() * at.side[1].length();
   if (!q.close(middle - fall)) return;
   if (depth == 0 && nearer) {
     const Foot f = descend(q, patch, p.domain, c);
     q.lower(f.squared, patch, f.at);
   }
-  const double extent =
-      std::max(bounds[1].magnitude() * at.side[0].length(), bounds[2].magnitude() * at.side[1].length());
+  const double extent = std::max(bounds[1].magnitude() * at.side[0].length(),
+                                 bounds[2].magnitude() * at.side[1].length());
   if (extent < smallest_cell * size_ || depth > 60) {
     const double hidden = q.bound - (middle - fall);
     if (hidden > 1e-11 * size_ * (size_ + std::sqrt(q.bound))) q.certified = false;
@@ -258,9 +271,11 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
   halve(q, patch, at, bounds, depth);
 }
 
-void FootSearch::halve(Query& q, int patch, const ParameterRectangle& at, const PatchBounds& bounds, int depth) const {
+void FootSearch::halve(Query& q, int patch, const ParameterRectangle& at, const PatchBounds& bounds,
+                       int depth) const {
   auto parts = halves(at, side_to_halve(bounds, at));
-  std::array<PatchBounds, 2> b = {patches_[index(patch)]->bounds(parts[0]), patches_[index(patch)]->bounds(parts[1])};
+  std::array<PatchBounds, 2> b = {patches_[index(patch)]->bounds(parts[0]),
+                                  patches_[index(patch)]->bounds(parts[1])};
   const bool swap = b[1][0].squared_distance(q.x) < b[0][0].squared_distance(q.x);
   examine(q, patch, parts[swap ? 1 : 0], b[swap ? 1 : 0], depth + 1);
   examine(q, patch, parts[swap ? 0 : 1], b[swap ? 0 : 1], depth + 1);

@@ -12,8 +12,9 @@ namespace knead::detail {
 
 /// S, S_u, S_v, S_uu, S_uv, S_vv at one parameter point.
 using PatchJet = std::array<Point, 6>;
-/// Boxes that contain the same six over a rectangle of parameters, and S_u and S_v divided by positive functions of the
-/// parameters (the same for all coordinates), so that they do not vanish at poles and cusps.
+/// Boxes that contain the same six over a rectangle of parameters, and S_u and S_v divided by
+/// positive functions of the parameters (the same for all coordinates), so that they do not vanish
+/// at poles and cusps.
 using PatchBounds = std::array<Range3, 8>;
 
 struct ParameterRectangle {
@@ -22,22 +23,24 @@ struct ParameterRectangle {
     return {0.5 * (side[0].lower + side[0].upper), 0.5 * (side[1].lower + side[1].upper)};
   }
   [[nodiscard]] bool holds(const std::array<double, 2>& at) const {
-    return at[0] >= side[0].lower && at[0] <= side[0].upper && at[1] >= side[1].lower && at[1] <= side[1].upper;
+    return at[0] >= side[0].lower && at[0] <= side[0].upper && at[1] >= side[1].lower &&
+           at[1] <= side[1].upper;
   }
 };
 
-/// A piece of surface, twice continuously differentiable over the rectangle `domain` (a side may have length 0: a
-/// curve). First derivatives may vanish at its border (poles).
+/// A piece of surface, twice continuously differentiable over the rectangle `domain` (a side may
+/// have length 0: a curve). First derivatives may vanish at its border (poles).
 class Patch {
  public:
-  explicit Patch(ParameterRectangle rectangle, double outward = 1) : domain(rectangle), orientation(outward) {}
+  explicit Patch(ParameterRectangle rectangle, double outward = 1)
+      : domain(rectangle), orientation(outward) {}
   Patch(const Patch&) = delete;
   Patch& operator=(const Patch&) = delete;
   virtual ~Patch() = default;
   [[nodiscard]] virtual PatchBounds bounds(const ParameterRectangle& at) const = 0;
   [[nodiscard]] virtual PatchJet jet(double u, double v) const = 0;
-  /// Called where ∂S along `side` vanishes: true if a whole side of the rectangle is one point (a pole), false if the
-  /// curve itself stops (a cusp, or infinite curvature).
+  /// Called where ∂S along `side` vanishes: true if a whole side of the rectangle is one point (a
+  /// pole), false if the curve itself stops (a cusp, or infinite curvature).
   [[nodiscard]] virtual bool pole(std::size_t side, const std::array<double, 2>& at) const = 0;
 
   ParameterRectangle domain;
@@ -50,18 +53,21 @@ struct Foot {
   int patch = -1;
   std::array<double, 2> at{};
   PatchJet jet{};
-  std::array<bool, 2> pressed{};  ///< the distance would decrease beyond the border in this direction
-  double pressure = 0;            ///< the sine of the deviation from a right angle, to either tangent
+  std::array<bool, 2>
+      pressed{};        ///< the distance would decrease beyond the border in this direction
+  double pressure = 0;  ///< the sine of the deviation from a right angle, to either tangent
 };
 
-/// The foot found from `start` by Newton's iteration on |x − S|² over the rectangle `within` of a patch. Its `patch` is
-/// 0, or −1 if the distance decreases beyond a side of the rectangle that is not the patch's border.
+/// The foot found from `start` by Newton's iteration on |x − S|² over the rectangle `within` of a
+/// patch. Its `patch` is 0, or −1 if the distance decreases beyond a side of the rectangle that is
+/// not the patch's border.
 [[nodiscard]] Foot descended(const Point& x, const Patch& patch, const ParameterRectangle& within,
                              const std::array<double, 2>& start, double size);
 
 struct FootResult {
   Foot best;
-  /// Feet of other patches at the same place as `best`: those that meet there. Only if `best` is pressed.
+  /// Feet of other patches at the same place as `best`: those that meet there. Only if `best` is
+  /// pressed.
   std::vector<Foot> neighbours;
   bool certified = true;
   int cells = 0;  ///< number of cells examined
@@ -69,11 +75,13 @@ struct FootResult {
 
 /// The point of a set of patches that is nearest to x, by branch and bound.
 ///
-/// A cell (a rectangle of a patch) is discarded where its box is further away than the best point so far, or where the
-/// gradient of |x − S|² cannot vanish in it by interval arithmetic (then its minimum lies on its border: if that is the
-/// border of the patch, the search continues there, in one variable less). Where the Hessian is positive definite
-/// throughout the cell, Newton's iteration finds its only minimum; all other cells are halved. Cells below 1e-6 of the
-/// size are not examined further: `certified` says whether they could hide a point nearer by 1e-11 of the size.
+/// A cell (a rectangle of a patch) is discarded where its box is further away than the best point
+/// so far, or where the gradient of |x − S|² cannot vanish in it by interval arithmetic (then its
+/// minimum lies on its border: if that is the border of the patch, the search continues there, in
+/// one variable less). Where the Hessian is positive definite throughout the cell, Newton's
+/// iteration finds its only minimum; all other cells are halved. Cells below 1e-6 of the size are
+/// not examined further: `certified` says whether they could hide a point nearer by 1e-11 of the
+/// size.
 class FootSearch {
  public:
   /// \param size the length to which tolerances are relative
@@ -100,8 +108,10 @@ class FootSearch {
   int build_patch(int patch, const ParameterRectangle& at, int depth);
   int join(std::vector<int> nodes);
   void examine(Query& q, int patch, ParameterRectangle at, PatchBounds bounds, int depth) const;
-  void halve(Query& q, int patch, const ParameterRectangle& at, const PatchBounds& bounds, int depth) const;
-  Foot descend(const Query& q, int patch, const ParameterRectangle& within, const std::array<double, 2>& start) const;
+  void halve(Query& q, int patch, const ParameterRectangle& at, const PatchBounds& bounds,
+             int depth) const;
+  Foot descend(const Query& q, int patch, const ParameterRectangle& within,
+               const std::array<double, 2>& start) const;
   void record(Query& q, const Foot& foot) const;
 
   std::vector<std::unique_ptr<Patch>> patches_;

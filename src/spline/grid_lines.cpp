@@ -10,7 +10,8 @@
 namespace knead {
 namespace {
 
-constexpr double least_speed = 1e-6;  // of the largest: less is a pole, where directions are not determined
+// Of the largest: less is a pole, where directions are not determined.
+constexpr double least_speed = 1e-6;
 
 /// Every span in so many pieces.
 GridLines divided(const KnotVector& knots, const std::vector<int>& pieces) {
@@ -19,30 +20,34 @@ GridLines divided(const KnotVector& knots, const std::vector<int>& pieces) {
   for (int s : knots.spans()) {
     const int count = pieces[at++];
     lines.knot_lines.push_back(static_cast<std::uint32_t>(lines.parameters.size()));
-    for (int k = 0; k < count; ++k) lines.parameters.push_back(knots[s] + (knots[s + 1] - knots[s]) * k / count);
+    for (int k = 0; k < count; ++k)
+      lines.parameters.push_back(knots[s] + (knots[s + 1] - knots[s]) * k / count);
   }
   lines.knot_lines.push_back(static_cast<std::uint32_t>(lines.parameters.size()));
   lines.parameters.push_back(knots.domain().upper);
   return lines;
 }
 
-/// How closely the lines of one direction follow a surface: the largest chord over a whole span, of each, and in how
-/// many pieces it is cut.
+/// How closely the lines of one direction follow a surface: the largest chord over a whole span, of
+/// each, and in how many pieces it is cut.
 struct Direction {
   std::vector<SpanChord> chords;
   std::vector<int> pieces;
 };
 
-/// Into how many parts the tolerance of a window cuts each piece between lines; 1 where it is outside.
-std::vector<int> parts_in_window(const GridLines& coarse, const Direction& of, double lower, double upper,
-                                 double tolerance) {
+/// Into how many parts the tolerance of a window cuts each piece between lines; 1 where it is
+/// outside.
+std::vector<int> parts_in_window(const GridLines& coarse, const Direction& of, double lower,
+                                 double upper, double tolerance) {
   std::vector<int> parts;
   std::size_t span = 0;
   for (std::uint32_t k = 0; k + 1 < coarse.parameters.size(); ++k) {
     if (span + 1 < coarse.knot_lines.size() && coarse.knot_lines[span + 1] == k) ++span;
     const bool outside = coarse.parameters[k + 1] < lower || coarse.parameters[k] > upper;
     const double in_span = of.pieces[span], chord = of.chords[span].drift / (in_span * in_span);
-    parts.push_back(outside ? 1 : static_cast<int>(std::clamp(std::ceil(std::sqrt(chord / tolerance)), 1.0, 1e6)));
+    parts.push_back(
+        outside ? 1
+                : static_cast<int>(std::clamp(std::ceil(std::sqrt(chord / tolerance)), 1.0, 1e6)));
   }
   return parts;
 }
@@ -60,7 +65,8 @@ GridLines divided(const GridLines& coarse, const std::vector<int>& parts) {
     lines.parameters.push_back(coarse.parameters[k]);
     if (k == parts.size()) break;
     const double from = coarse.parameters[k], to = coarse.parameters[k + 1];
-    for (int j = 1; j < parts[k]; ++j) lines.parameters.push_back(from + (to - from) * j / parts[k]);
+    for (int j = 1; j < parts[k]; ++j)
+      lines.parameters.push_back(from + (to - from) * j / parts[k]);
   }
   return lines;
 }
@@ -96,22 +102,26 @@ Expected<std::vector<SpanChord>> span_chords(const Surface& surface, int d) {
   std::array<std::vector<double>, 2> places;
   for (int s : spans) {
     for (int k = 0; k < samples; ++k) {
-      places[static_cast<std::size_t>(d)].push_back(knots[s] + (knots[s + 1] - knots[s]) * (k + 0.5) / samples);
+      places[static_cast<std::size_t>(d)].push_back(knots[s] + (knots[s + 1] - knots[s]) *
+                                                                   (k + 0.5) / samples);
     }
   }
   places[static_cast<std::size_t>(1 - d)] = lines_across(surface.knots(1 - d));
-  const auto u = tabulate_basis(surface.knots(0), places[0], 2), v = tabulate_basis(surface.knots(1), places[1], 2);
+  const auto u = tabulate_basis(surface.knots(0), places[0], 2),
+             v = tabulate_basis(surface.knots(1), places[1], 2);
   if (!u) return std::unexpected(u.error());
   if (!v) return std::unexpected(v.error());
   Evaluation<2> values;
-  if (auto done = evaluate_grid<2>(surface, {&*u, &*v}, 2, values); !done) return std::unexpected(done.error());
+  if (auto done = evaluate_grid<2>(surface, {&*u, &*v}, 2, values); !done)
+    return std::unexpected(done.error());
   const Points& first = d == 0 ? values.at({1, 0}) : values.at({0, 1});
   const Points& second = d == 0 ? values.at({2, 0}) : values.at({0, 2});
   const double slow = least_speed * first.rowwise().norm().maxCoeff();
   std::vector<SpanChord> chords(spans.size());
   const auto columns = static_cast<Eigen::Index>(places[1].size());
   for (Eigen::Index row = 0; row < first.rows(); ++row) {
-    SpanChord& chord = chords[static_cast<std::size_t>((d == 0 ? row / columns : row % columns) / samples)];
+    SpanChord& chord =
+        chords[static_cast<std::size_t>((d == 0 ? row / columns : row % columns) / samples)];
     const Point t = first.row(row).transpose(), along = second.row(row).transpose();
     const double square = t.squaredNorm(), speed = std::sqrt(square);
     const double across = (square > 0 ? Point(along - along.dot(t) / square * t) : along).norm();
@@ -131,7 +141,8 @@ Expected<std::vector<SpanChord>> span_chords(const Surface& surface, int d) {
 std::vector<double> even_parameters(const KnotVector& knots, int pieces) {
   std::vector<double> result;
   for (const int s : knots.spans()) {
-    for (int k = 0; k < pieces; ++k) result.push_back(knots[s] + (knots[s + 1] - knots[s]) * k / pieces);
+    for (int k = 0; k < pieces; ++k)
+      result.push_back(knots[s] + (knots[s + 1] - knots[s]) * k / pieces);
   }
   result.push_back(knots.domain().upper);
   return result;
@@ -139,7 +150,8 @@ std::vector<double> even_parameters(const KnotVector& knots, int pieces) {
 
 GridLines grid_lines(const KnotVector& knots, int detail, int most) {
   assert(detail >= 1);
-  return divided(knots, std::vector<int>(knots.spans().size(), pieces_per_span(knots, detail, most)));
+  return divided(knots,
+                 std::vector<int>(knots.spans().size(), pieces_per_span(knots, detail, most)));
 }
 
 namespace {
@@ -151,7 +163,8 @@ bool allowed(const ChordOptions& options, double rows, double columns) {
 std::array<GridLines, 2> with_window(const Surface& surface, const std::array<Direction, 2>& of,
                                      const ChordOptions& options) {
   const GridWindow& window = *options.window;
-  const std::array coarse = {divided(surface.knots(0), of[0].pieces), divided(surface.knots(1), of[1].pieces)};
+  const std::array coarse = {divided(surface.knots(0), of[0].pieces),
+                             divided(surface.knots(1), of[1].pieces)};
   for (double tolerance = window.tolerance;; tolerance *= 2) {
     std::array<std::vector<int>, 2> parts;
     std::array<double, 2> counts = {1, 1};
@@ -194,7 +207,8 @@ Expected<std::array<GridLines, 2>> grid_lines(const Surface& surface, const Chor
     }
     if (!allowed(options, counts[0], counts[1]) && finer) continue;
     if (options.window) return with_window(surface, of, options);
-    return std::array{divided(surface.knots(0), of[0].pieces), divided(surface.knots(1), of[1].pieces)};
+    return std::array{divided(surface.knots(0), of[0].pieces),
+                      divided(surface.knots(1), of[1].pieces)};
   }
 }
 

@@ -8,7 +8,9 @@ namespace knead::detail {
 
 template <int D>
 HomogeneousNet<D>::HomogeneousNet(const Spline<D>& spline, bool whole)
-    : width_(spline.rational() ? 4 : 3), cartesian_(spline.control_points().data()), weights_(spline.weights().data()) {
+    : width_(spline.rational() ? 4 : 3),
+      cartesian_(spline.control_points().data()),
+      weights_(spline.weights().data()) {
   if (spline.rational() && whole) {
     std::vector<double> points(spline.weights().size() * width_);
     copy(0, spline.weights().size(), points.data());
@@ -32,8 +34,8 @@ double* HomogeneousNet<D>::copy(std::size_t first, std::size_t count, double* to
 }
 
 template <int D>
-bool divide_point(const QuotientRule<D>& rule, const double* homogeneous, std::size_t stride, Eigen::Index row,
-                  std::span<double* const> out) {
+bool divide_point(const QuotientRule<D>& rule, const double* homogeneous, std::size_t stride,
+                  Eigen::Index row, std::span<double* const> out) {
   const double denominator = homogeneous[3];
   if (!(denominator > 0)) return false;
   for (std::size_t k = 0; k < rule.size(); ++k) {
@@ -52,8 +54,8 @@ bool divide_point(const QuotientRule<D>& rule, const double* homogeneous, std::s
 
 template <int D>
 std::unexpected<Error> denominator_error(const std::array<std::size_t, D>& at) {
-  return numerical_error("the rational denominator is not positive", fmt::format("parameter {}", fmt::join(at, ", ")),
-                         "use positive weights");
+  return numerical_error("the rational denominator is not positive",
+                         fmt::format("parameter {}", fmt::join(at, ", ")), "use positive weights");
 }
 
 #define KNEAD_INSTANTIATE(D)                                                                      \

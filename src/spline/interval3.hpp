@@ -10,7 +10,8 @@ namespace knead::detail {
 /// A subscript of a standard container.
 [[nodiscard]] constexpr std::size_t index(Eigen::Index k) { return static_cast<std::size_t>(k); }
 
-/// [lower, upper], closed. Bounds are not rounded outwards: they carry the rounding of ordinary arithmetic.
+/// [lower, upper], closed. Bounds are not rounded outwards: they carry the rounding of ordinary
+/// arithmetic.
 struct Range {
   double lower = 0, upper = 0;
 
@@ -21,7 +22,8 @@ struct Range {
   friend Range operator-(Range a, Range b) { return {a.lower - b.upper, a.upper - b.lower}; }
   friend Range operator+(Range a, double b) { return {a.lower + b, a.upper + b}; }
   friend Range operator*(Range a, Range b) {
-    const double p = a.lower * b.lower, q = a.lower * b.upper, r = a.upper * b.lower, s = a.upper * b.upper;
+    const double p = a.lower * b.lower, q = a.lower * b.upper, r = a.upper * b.lower,
+                 s = a.upper * b.upper;
     return {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))};
   }
   friend Range operator*(double a, Range b) {
@@ -49,17 +51,21 @@ struct Range3 {
     return sum;
   }
   [[nodiscard]] double diagonal() const {
-    return std::hypot(axis[0].upper - axis[0].lower, axis[1].upper - axis[1].lower, axis[2].upper - axis[2].lower);
+    return std::hypot(axis[0].upper - axis[0].lower, axis[1].upper - axis[1].lower,
+                      axis[2].upper - axis[2].lower);
   }
   void include(const Range3& other) {
     for (std::size_t k = 0; k < 3; ++k) {
-      axis[k] = {std::min(axis[k].lower, other.axis[k].lower), std::max(axis[k].upper, other.axis[k].upper)};
+      axis[k] = {std::min(axis[k].lower, other.axis[k].lower),
+                 std::max(axis[k].upper, other.axis[k].upper)};
     }
   }
   [[nodiscard]] Range dot(const Range3& o) const {
     return axis[0] * o.axis[0] + axis[1] * o.axis[1] + axis[2] * o.axis[2];
   }
-  [[nodiscard]] Range squared_norm() const { return axis[0].squared() + axis[1].squared() + axis[2].squared(); }
+  [[nodiscard]] Range squared_norm() const {
+    return axis[0].squared() + axis[1].squared() + axis[2].squared();
+  }
   [[nodiscard]] double magnitude() const {
     return std::hypot(axis[0].magnitude(), axis[1].magnitude(), axis[2].magnitude());
   }

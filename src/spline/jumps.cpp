@@ -12,7 +12,8 @@ std::vector<KnotJumps> derivative_jumps(const KnotVector& knots, int i) {
     last = first;
     while (last < end && knots[last] == knots[first]) ++last;
     const int m = last - first;
-    // 1/Q(ξ + h) = Π 1/((ξ − x_l) + h): one factor after the other, a power series in h up to h^(m−1).
+    // 1/Q(ξ + h) = Π 1/((ξ − x_l) + h): one factor after the other, a power series in h up to
+    // h^(m−1).
     double series[max_degree + 2] = {1};
     for (int l = i; l < end; ++l) {
       if (l >= first && l < last) continue;
@@ -26,7 +27,8 @@ std::vector<KnotJumps> derivative_jumps(const KnotVector& knots, int i) {
     for (int t = 0; t < m; ++t) {
       const int r = p - t;
       if (t > 1) factor /= t;
-      at.jumps[static_cast<std::size_t>(m - 1 - t)] = (r % 2 == 0 ? -factor : factor) * series[m - 1 - t];
+      at.jumps[static_cast<std::size_t>(m - 1 - t)] =
+          (r % 2 == 0 ? -factor : factor) * series[m - 1 - t];
     }
     result.push_back(std::move(at));
   }

@@ -12,7 +12,8 @@ namespace {
 
 using Row = std::array<double, max_degree + 1>;
 
-/// The polar form of the polynomial piece on `span` at p ascending arguments: Σ_r out[r] c_{span−p+r}.
+/// The polar form of the polynomial piece on `span` at p ascending arguments: Σ_r out[r]
+/// c_{span−p+r}.
 void polar_form(const KnotVector& x, int span, const double* arguments, Row& out) {
   const int p = x.degree();
   out.fill(0);
@@ -22,8 +23,8 @@ void polar_form(const KnotVector& x, int span, const double* arguments, Row& out
       return;
     }
   }
-  // Outwards from the span, first to the right and then to the left: in this order each argument leaves only functions
-  // for which the next one has factors of the same sign.
+  // Outwards from the span, first to the right and then to the left: in this order each argument
+  // leaves only functions for which the next one has factors of the same sign.
   Row ordered{};
   const double* inside = std::lower_bound(arguments, arguments + p, x[span]);
   std::reverse_copy(arguments, inside, std::copy(inside, arguments + p, ordered.begin()));
@@ -35,7 +36,8 @@ void polar_form(const KnotVector& x, int span, const double* arguments, Row& out
       const double lower = x[span - k + 1 + r], upper = x[span + 1 + r], length = upper - lower;
       const double value = out[static_cast<std::size_t>(r)];
       // A zero stays a zero of positive sign, whatever its factor.
-      out[static_cast<std::size_t>(r)] = from_left + (value == 0 ? 0 : (upper - t) / length * value);
+      out[static_cast<std::size_t>(r)] =
+          from_left + (value == 0 ? 0 : (upper - t) / length * value);
       from_left = value == 0 ? 0 : (t - lower) / length * value;
     }
     out[static_cast<std::size_t>(k)] = from_left;
@@ -48,7 +50,8 @@ int outside(const KnotVector& x, const KnotVector& y, int i) {
   const Interval domain = y.domain();
   if (y.degree() != p || (y[i + p + 1] > domain.lower && y[i] < domain.upper)) return -1;
   for (int j = 0; j < x.count(); ++j) {
-    if (std::equal(y.knots().begin() + i, y.knots().begin() + i + p + 2, x.knots().begin() + j)) return j;
+    if (std::equal(y.knots().begin() + i, y.knots().begin() + i + p + 2, x.knots().begin() + j))
+      return j;
   }
   return -1;
 }
@@ -58,7 +61,8 @@ std::vector<double> inner_breaks(const KnotVector& knots) {
   std::vector<double> breaks;
   const Interval domain = knots.domain();
   for (const double x : knots.knots()) {
-    if (domain.lower < x && x < domain.upper && (breaks.empty() || breaks.back() < x)) breaks.push_back(x);
+    if (domain.lower < x && x < domain.upper && (breaks.empty() || breaks.back() < x))
+      breaks.push_back(x);
   }
   return breaks;
 }
@@ -69,13 +73,16 @@ Expected<void> check_inserted(const KnotVector& knots, std::span<const double> i
     const auto where = fmt::format("inserted knot {}", k);
     if (!std::isfinite(u)) return input_error("the knot is not a finite number", where);
     if (!knots.domain().contains(u)) {
-      return input_error(fmt::format("the knot {} is outside of the domain", u), where,
-                         fmt::format("insert knots from {} to {}", knots.domain().lower, knots.domain().upper));
+      return input_error(
+          fmt::format("the knot {} is outside of the domain", u), where,
+          fmt::format("insert knots from {} to {}", knots.domain().lower, knots.domain().upper));
     }
-    const auto before = std::count(inserted.begin(), inserted.begin() + static_cast<std::ptrdiff_t>(k) + 1, u);
+    const auto before =
+        std::count(inserted.begin(), inserted.begin() + static_cast<std::ptrdiff_t>(k) + 1, u);
     if (knots.multiplicity(u) + before > knots.degree() + 1) {
-      return input_error(fmt::format("the knot {} would be repeated more than {} times", u, knots.degree() + 1), where,
-                         fmt::format("it stands there {} times already", knots.multiplicity(u)));
+      return input_error(
+          fmt::format("the knot {} would be repeated more than {} times", u, knots.degree() + 1),
+          where, fmt::format("it stands there {} times already", knots.multiplicity(u)));
     }
   }
   return {};
@@ -90,12 +97,16 @@ std::vector<double> merged(std::span<const double> knots, std::vector<double> mo
 }  // namespace
 
 Expected<KnotVector> with_knots(const KnotVector& knots, std::span<const double> inserted) {
-  if (auto valid = check_inserted(knots, inserted); !valid) return std::unexpected(std::move(valid.error()));
-  return KnotVector::create(knots.degree(), merged(knots.knots(), {inserted.begin(), inserted.end()}));
+  if (auto valid = check_inserted(knots, inserted); !valid)
+    return std::unexpected(std::move(valid.error()));
+  return KnotVector::create(knots.degree(),
+                            merged(knots.knots(), {inserted.begin(), inserted.end()}));
 }
 
-Expected<KnotVector> with_periodic_knots(const KnotVector& knots, std::span<const double> inserted) {
-  if (auto valid = check_inserted(knots, inserted); !valid) return std::unexpected(std::move(valid.error()));
+Expected<KnotVector> with_periodic_knots(const KnotVector& knots,
+                                         std::span<const double> inserted) {
+  if (auto valid = check_inserted(knots, inserted); !valid)
+    return std::unexpected(std::move(valid.error()));
   const auto [a, b] = knots.domain();
   if (knots.clamped_start() || knots.clamped_end()) {
     return input_error("clamped knots are not periodic", {}, "insert without periodicity");
@@ -107,14 +118,16 @@ Expected<KnotVector> with_periodic_knots(const KnotVector& knots, std::span<cons
                          "insert knots inside the domain");
     }
     for (const double image : {inserted[k] - (b - a), inserted[k] + (b - a)}) {
-      if ((knots[0] < image && image < a) || (b < image && image < knots.knots().back())) more.push_back(image);
+      if ((knots[0] < image && image < a) || (b < image && image < knots.knots().back()))
+        more.push_back(image);
     }
   }
   const auto all = merged(knots.knots(), std::move(more));
   // The p knots next to the domain on either side; the knots at its ends stay.
   const auto before = std::ranges::lower_bound(knots.knots(), a) - knots.knots().begin();
   const auto after = knots.knots().end() - std::ranges::upper_bound(knots.knots(), b);
-  const auto first = std::ranges::lower_bound(all, a) - before, last = std::ranges::upper_bound(all, b) + after;
+  const auto first = std::ranges::lower_bound(all, a) - before,
+             last = std::ranges::upper_bound(all, b) + after;
   return KnotVector::create(knots.degree(), {first, last});
 }
 
@@ -141,7 +154,8 @@ KnotVector bezier_knots(const KnotVector& knots) {
   for (const double x : inner_breaks(knots)) breaks.push_back(x);
   breaks.push_back(knots.domain().upper);
   std::vector<double> all;
-  for (const double x : breaks) all.insert(all.end(), static_cast<std::size_t>(knots.degree() + 1), x);
+  for (const double x : breaks)
+    all.insert(all.end(), static_cast<std::size_t>(knots.degree() + 1), x);
   return *KnotVector::create(knots.degree(), std::move(all));
 }
 
@@ -163,8 +177,8 @@ Expected<Refinement> Refinement::create(KnotVector from, KnotVector to) {
                        "keep the degree, or raise it by one");
   }
   if (from.domain().lower != to.domain().lower || from.domain().upper != to.domain().upper) {
-    return input_error(fmt::format("the domain [{}, {}] is not [{}, {}]", to.domain().lower, to.domain().upper,
-                                   from.domain().lower, from.domain().upper));
+    return input_error(fmt::format("the domain [{}, {}] is not [{}, {}]", to.domain().lower,
+                                   to.domain().upper, from.domain().lower, from.domain().upper));
   }
   for (const double u : inner_breaks(from)) {
     const int needed = from.multiplicity(u) + q - p;
@@ -196,7 +210,8 @@ Expected<Refinement> Refinement::create(KnotVector from, KnotVector to) {
     } else {
       Row others{}, part{};
       for (int left_out = 0; left_out < q; ++left_out) {
-        std::copy(arguments + left_out + 1, arguments + q, std::copy(arguments, arguments + left_out, others.begin()));
+        std::copy(arguments + left_out + 1, arguments + q,
+                  std::copy(arguments, arguments + left_out, others.begin()));
         polar_form(x, span, others.data(), part);
         for (std::size_t r = 0; r < row.size(); ++r) row[r] += part[r];
       }
@@ -214,7 +229,8 @@ Expected<Refinement> Refinement::create(KnotVector from, KnotVector to) {
 
 void Refinement::apply(const double* in, double* out, int outer, int inner) const {
   const auto step = static_cast<std::size_t>(inner);
-  const auto rows = static_cast<std::size_t>(to_.count()), columns = static_cast<std::size_t>(from_.count());
+  const auto rows = static_cast<std::size_t>(to_.count()),
+             columns = static_cast<std::size_t>(from_.count());
   for (std::size_t o = 0; o < static_cast<std::size_t>(outer); ++o) {
     for (std::size_t i = 0; i < rows; ++i) {
       double* const to = out + (o * rows + i) * step;

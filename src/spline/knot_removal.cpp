@@ -16,7 +16,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// One row per control point of the direction: for each line of the net, the fields' homogeneous coordinates.
+/// One row per control point of the direction: for each line of the net, the fields' homogeneous
+/// coordinates.
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Several fields (3 columns each) and a weight at (row, line): columns line · width … of `Rows`.
@@ -32,8 +33,8 @@ struct Layout {
   }
 };
 
-/// The effect of removing one knot u of multiplicity m on the rows first … last: their coefficients must satisfy
-/// Σ (−1)^(k − first) size_k c_k = 0.
+/// The effect of removing one knot u of multiplicity m on the rows first … last: their coefficients
+/// must satisfy Σ (−1)^(k − first) size_k c_k = 0.
 struct Relation {
   int first = 0, last = 0, knot = 0;
   std::vector<double> size;         ///< of rows first … last, the largest 1
@@ -72,7 +73,8 @@ std::optional<Relation> relation(const KnotVector& y, int knot) {
   return r;
 }
 
-/// Σ_k (−1)^k size_k c_k for all columns, and Σ_k size_k w_k over the rows that may change, per line.
+/// Σ_k (−1)^k size_k c_k for all columns, and Σ_k size_k w_k over the rows that may change, per
+/// line.
 void violation(const Rows& c, const Layout& layout, const Relation& r, Eigen::RowVectorXd& jump,
                Eigen::VectorXd& total) {
   jump.setZero(c.cols());
@@ -81,7 +83,8 @@ void violation(const Rows& c, const Layout& layout, const Relation& r, Eigen::Ro
     const double size = r.size[static_cast<std::size_t>(i - r.first)];
     jump += ((i - r.first) % 2 == 0 ? size : -size) * c.row(i);
     if (r.fixed(i, static_cast<int>(c.rows()))) continue;
-    for (Index line = 0; line < layout.lines; ++line) total[line] += size * layout.weight(c, i, line);
+    for (Index line = 0; line < layout.lines; ++line)
+      total[line] += size * layout.weight(c, i, line);
   }
 }
 
@@ -101,7 +104,8 @@ double smallest_change(const Rows& c, const Layout& layout, const Relation& r) {
       const double weight = jump[line * layout.width() + 3 * layout.fields];
       for (int i = r.first; i <= r.last; ++i) {
         if (r.fixed(i, static_cast<int>(c.rows()))) continue;
-        worst = std::max(worst, (value - weight * layout.cartesian(c, i, line, f)).norm() / total[line]);
+        worst = std::max(worst,
+                         (value - weight * layout.cartesian(c, i, line, f)).norm() / total[line]);
       }
     }
   }
@@ -119,10 +123,12 @@ Rows without_knot(Rows c, const Layout& layout, const Relation& r) {
     for (Index line = 0; line < layout.lines; ++line) {
       const double share = layout.weight(c, i, line) / total[line];
       c.row(i).segment(line * layout.width(), layout.width()) -=
-          ((i - r.first) % 2 == 0 ? share : -share) * jump.segment(line * layout.width(), layout.width());
+          ((i - r.first) % 2 == 0 ? share : -share) *
+          jump.segment(line * layout.width(), layout.width());
     }
   }
-  // New rows from both ends, dividing by the larger coefficient each; the remaining equation in the middle holds.
+  // New rows from both ends, dividing by the larger coefficient each; the remaining equation in the
+  // middle holds.
   Rows result(count - 1, c.cols());
   result.topRows(r.first + 1) = c.topRows(r.first + 1);
   result.bottomRows(count - r.last) = c.bottomRows(count - r.last);
@@ -140,9 +146,10 @@ Rows without_knot(Rows c, const Layout& layout, const Relation& r) {
   return result;
 }
 
-/// A bound for the distance of the spline `coarse` from the spline `fine`, both with positive weights; infinite if
-/// there is none.
-double certified_distance(const Rows& coarse, const Rows& fine, const Layout& layout, const Refinement& refinement) {
+/// A bound for the distance of the spline `coarse` from the spline `fine`, both with positive
+/// weights; infinite if there is none.
+double certified_distance(const Rows& coarse, const Rows& fine, const Layout& layout,
+                          const Refinement& refinement) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   Eigen::Array3Xd lower(3, layout.fields), upper(3, layout.fields);
   lower.setConstant(infinite);
@@ -168,7 +175,8 @@ double certified_distance(const Rows& coarse, const Rows& fine, const Layout& la
         const Point point = layout.cartesian(fine, i, line, f);
         double distance = (point - layout.cartesian(back, i, line, f)).norm();
         if (layout.rational) {
-          const auto range = (point.array() - lower.col(f)).abs().max((point.array() - upper.col(f)).abs());
+          const auto range =
+              (point.array() - lower.col(f)).abs().max((point.array() - upper.col(f)).abs());
           distance = (back_w * distance + std::abs(w - back_w) * range.matrix().norm()) / w;
         }
         // Written so that a NaN does not pass.
@@ -179,7 +187,9 @@ double certified_distance(const Rows& coarse, const Rows& fine, const Layout& la
   }
   largest = std::max({largest, lower.abs().maxCoeff(), upper.abs().maxCoeff()});
   const int p = refinement.from().degree();
-  return std::isnan(bound) ? infinite : bound + 16 * (p + 2) * std::numeric_limits<double>::epsilon() * largest;
+  return std::isnan(bound)
+             ? infinite
+             : bound + 16 * (p + 2) * std::numeric_limits<double>::epsilon() * largest;
 }
 
 KnotVector without(const KnotVector& knots, int index) {
@@ -215,15 +225,16 @@ struct Reduction {
 };
 
 /// Removes one more knot; false if none can be removed.
-bool remove_one(Reduction& state, const Rows& original, const KnotVector& original_knots, const Layout& layout,
-                double tolerance) {
+bool remove_one(Reduction& state, const Rows& original, const KnotVector& original_knots,
+                const Layout& layout, double tolerance) {
   std::vector<std::pair<double, Relation>> candidates;
   for (const int knot : inner_knots(state.knots)) {
     if (std::ranges::find(state.refused, state.knots[knot]) != state.refused.end()) continue;
     auto found = relation(state.knots, knot);
     if (!found) continue;
     const auto known = state.change.find(state.knots[knot]);
-    const double change = known != state.change.end() ? known->second : smallest_change(state.rows, layout, *found);
+    const double change =
+        known != state.change.end() ? known->second : smallest_change(state.rows, layout, *found);
     state.change[state.knots[knot]] = change;
     if (change <= tolerance) candidates.emplace_back(change, *std::move(found));
   }
@@ -232,8 +243,8 @@ bool remove_one(Reduction& state, const Rows& original, const KnotVector& origin
     Rows rows = without_knot(state.rows, layout, r);
     KnotVector knots = without(state.knots, r.knot);
     const auto back = Refinement::create(knots, original_knots);
-    const double bound =
-        back ? certified_distance(rows, original, layout, *back) : std::numeric_limits<double>::infinity();
+    const double bound = back ? certified_distance(rows, original, layout, *back)
+                              : std::numeric_limits<double>::infinity();
     if (bound > tolerance) {
       state.refused.push_back(state.knots[r.knot]);
       continue;
@@ -256,14 +267,17 @@ bool remove_one(Reduction& state, const Rows& original, const KnotVector& origin
 }
 
 template <int D>
-Expected<void> validate(const Spline<D>& spline, double tolerance, std::span<const Points> companions) {
+Expected<void> validate(const Spline<D>& spline, double tolerance,
+                        std::span<const Points> companions) {
   if (!std::isfinite(tolerance) || tolerance < 0) {
-    return input_error(fmt::format("the tolerance {} is not a length", tolerance), {}, "give a number of at least 0");
+    return input_error(fmt::format("the tolerance {} is not a length", tolerance), {},
+                       "give a number of at least 0");
   }
   for (std::size_t k = 0; k < spline.weights().size(); ++k) {
     if (!(spline.weights()[k] > 0)) {
       return input_error(fmt::format("the weight {} is not positive", spline.weights()[k]),
-                         fmt::format("control point {}", k), "knots are removed where all weights are positive");
+                         fmt::format("control point {}", k),
+                         "knots are removed where all weights are positive");
     }
   }
   for (std::size_t f = 0; f < companions.size(); ++f) {
@@ -280,10 +294,12 @@ template <int D>
 Expected<KnotRemoval<D>> remove_knots(const Spline<D>& spline, int direction, double tolerance,
                                       std::span<const Points> companions) {
   assert(0 <= direction && direction < D);
-  if (auto valid = validate<D>(spline, tolerance, companions); !valid) return std::unexpected(valid.error());
+  if (auto valid = validate<D>(spline, tolerance, companions); !valid)
+    return std::unexpected(valid.error());
   const auto net = spline.net();
   const auto d = static_cast<std::size_t>(direction);
-  const Index inner = std::accumulate(net.begin() + direction + 1, net.end(), 1, std::multiplies<>());
+  const Index inner =
+      std::accumulate(net.begin() + direction + 1, net.end(), 1, std::multiplies<>());
   const Index lines = spline.size() / net[d];
   const Layout layout{lines, static_cast<Index>(companions.size()) + 1, spline.rational()};
   const auto field = [&](Index f) -> const Points& {
@@ -305,7 +321,13 @@ Expected<KnotRemoval<D>> remove_knots(const Spline<D>& spline, int direction, do
       if (spline.rational()) original(i, line * layout.width() + 3 * layout.fields) = weight;
     }
   }
-  Reduction state{spline.knots(direction), original, std::vector<int>(static_cast<std::size_t>(net[d])), {}, {}, {}, 0};
+  Reduction state{spline.knots(direction),
+                  original,
+                  std::vector<int>(static_cast<std::size_t>(net[d])),
+                  {},
+                  {},
+                  {},
+                  0};
   std::iota(state.origin.begin(), state.origin.end(), 0);
   while (remove_one(state, original, spline.knots(direction), layout, tolerance)) {
   }
@@ -319,9 +341,11 @@ Expected<KnotRemoval<D>> remove_knots(const Spline<D>& spline, int direction, do
       const Index to = number(line, i, count), from = number(line, origin, net[d]);
       for (Index f = 0; f < layout.fields; ++f) {
         fields[static_cast<std::size_t>(f)].row(to) =
-            origin >= 0 ? field(f).row(from).eval() : layout.cartesian(state.rows, i, line, f).transpose().eval();
+            origin >= 0 ? field(f).row(from).eval()
+                        : layout.cartesian(state.rows, i, line, f).transpose().eval();
       }
-      if (spline.rational()) weights[static_cast<std::size_t>(to)] = layout.weight(state.rows, i, line);
+      if (spline.rational())
+        weights[static_cast<std::size_t>(to)] = layout.weight(state.rows, i, line);
     }
   }
   auto knots = spline.knots();
@@ -330,11 +354,13 @@ Expected<KnotRemoval<D>> remove_knots(const Spline<D>& spline, int direction, do
   if (!result) return std::unexpected(std::move(result.error()));
   fields.erase(fields.begin());
   std::ranges::sort(state.removed);
-  return KnotRemoval<D>{*std::move(result), std::move(fields), std::move(state.removed), state.bound};
+  return KnotRemoval<D>{*std::move(result), std::move(fields), std::move(state.removed),
+                        state.bound};
 }
 
-#define KNEAD_INSTANTIATE(D) \
-  template Expected<KnotRemoval<D>> remove_knots<D>(const Spline<D>&, int, double, std::span<const Points>);
+#define KNEAD_INSTANTIATE(D)                                                       \
+  template Expected<KnotRemoval<D>> remove_knots<D>(const Spline<D>&, int, double, \
+                                                    std::span<const Points>);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)
 KNEAD_INSTANTIATE(3)

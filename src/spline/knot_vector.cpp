@@ -10,25 +10,28 @@ namespace knead {
 
 Expected<KnotVector> KnotVector::create(int degree, std::vector<double> knots) {
   if (degree < 1 || degree > max_degree) {
-    return input_error(fmt::format("degree {} is out of range", degree), {}, fmt::format("use 1 to {}", max_degree));
+    return input_error(fmt::format("degree {} is out of range", degree), {},
+                       fmt::format("use 1 to {}", max_degree));
   }
   const int p = degree, total = static_cast<int>(knots.size());
   if (total < 2 * (p + 1)) {
-    return input_error(fmt::format("{} knots are too few for degree {}", total, p), fmt::format("knot {}", total),
-                       fmt::format("give at least {}", 2 * (p + 1)));
+    return input_error(fmt::format("{} knots are too few for degree {}", total, p),
+                       fmt::format("knot {}", total), fmt::format("give at least {}", 2 * (p + 1)));
   }
   for (int i = 0, run = 1; i < total; ++i) {
     const double x = knots[static_cast<std::size_t>(i)];
-    if (!std::isfinite(x)) return input_error("the knot is not a finite number", fmt::format("knot {}", i));
+    if (!std::isfinite(x))
+      return input_error("the knot is not a finite number", fmt::format("knot {}", i));
     if (i == 0) continue;
     const double before = knots[static_cast<std::size_t>(i - 1)];
     if (x < before) {
-      return input_error(fmt::format("the knots decrease from {} to {}", before, x), fmt::format("knot {}", i),
-                         "sort the knots");
+      return input_error(fmt::format("the knots decrease from {} to {}", before, x),
+                         fmt::format("knot {}", i), "sort the knots");
     }
     run = x == before ? run + 1 : 1;
     if (run > p + 1) {
-      return input_error(fmt::format("the knot {} is repeated more than {} times", x, p + 1), fmt::format("knot {}", i),
+      return input_error(fmt::format("the knot {} is repeated more than {} times", x, p + 1),
+                         fmt::format("knot {}", i),
                          fmt::format("degree {} allows a multiplicity of {} at most", p, p + 1));
     }
   }
@@ -43,8 +46,8 @@ Expected<KnotVector> KnotVector::create(int degree, std::vector<double> knots) {
 Expected<KnotVector> KnotVector::clamped_uniform(int degree, int count, double a, double b) {
   if (degree < 1 || degree > max_degree) return create(degree, {});
   if (count < degree + 1) {
-    return input_error(fmt::format("{} control points are too few for degree {}", count, degree), {},
-                       fmt::format("use at least {}", degree + 1));
+    return input_error(fmt::format("{} control points are too few for degree {}", count, degree),
+                       {}, fmt::format("use at least {}", degree + 1));
   }
   std::vector<double> knots(static_cast<std::size_t>(count + degree + 1), a);
   const int spans = count - degree;
@@ -58,8 +61,10 @@ Expected<KnotVector> KnotVector::clamped_uniform(int degree, int count, double a
 int KnotVector::find_span(double u, Side side) const {
   assert(domain().contains(u));
   const auto first = knots_.begin() + degree_, last = knots_.begin() + count();
-  // The right span starts at the last knot <= u, the left one at the last knot < u; both are kept inside the domain.
-  auto it = side == Side::right ? std::upper_bound(first, last, u) : std::lower_bound(first, last, u);
+  // The right span starts at the last knot <= u, the left one at the last knot < u; both are kept
+  // inside the domain.
+  auto it =
+      side == Side::right ? std::upper_bound(first, last, u) : std::lower_bound(first, last, u);
   if (it == first) it = std::upper_bound(first, last, *first);
   if (it == last) it = std::lower_bound(first, last, *last);
   return static_cast<int>(it - knots_.begin()) - 1;

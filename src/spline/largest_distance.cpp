@@ -47,15 +47,18 @@ double largest_distance(const Surface& a, const Surface& b) {
     assert(a.knots()[d].domain().lower == b.knots()[d].domain().lower &&
            a.knots()[d].domain().upper == b.knots()[d].domain().upper);
     at[d] = samples(a.knots()[d], b.knots()[d]);
-    for (std::size_t k = 1; k < at[d].size(); ++k) step[d] = std::max(step[d], at[d][k] - at[d][k - 1]);
+    for (std::size_t k = 1; k < at[d].size(); ++k)
+      step[d] = std::max(step[d], at[d][k] - at[d][k - 1]);
   }
   const std::array<std::span<const double>, 2> grid = {at[0], at[1]};
   const auto on_a = evaluate_grid<2>(a, grid), on_b = evaluate_grid<2>(b, grid);
   if (!on_a || !on_b) return std::numeric_limits<double>::quiet_NaN();
   Eigen::Index row = 0;
-  double largest = std::sqrt((on_a->points() - on_b->points()).rowwise().squaredNorm().maxCoeff(&row));
+  double largest =
+      std::sqrt((on_a->points() - on_b->points()).rowwise().squaredNorm().maxCoeff(&row));
   const auto columns = static_cast<Eigen::Index>(at[1].size());
-  best = {at[0][static_cast<std::size_t>(row / columns)], at[1][static_cast<std::size_t>(row % columns)]};
+  best = {at[0][static_cast<std::size_t>(row / columns)],
+          at[1][static_cast<std::size_t>(row % columns)]};
   for (double share = 1; share > 1e-6;) {
     bool better = false;
     for (std::size_t d = 0; d < 2; ++d) {

@@ -15,9 +15,10 @@ void unit_normals(const Evaluation<2>& evaluation, Points& result) {
   double* to = result.data();
   const detail::GridKernels& kernels = detail::grid_kernels();
   constexpr double work = 30;  // with a root and a division
-  detail::parallel_for(u.rows(), detail::block_size(u.rows(), work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    kernels.normals(from_u + 3 * begin, from_v + 3 * begin, end - begin, to + 3 * begin);
-  });
+  detail::parallel_for(
+      u.rows(), detail::block_size(u.rows(), work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        kernels.normals(from_u + 3 * begin, from_v + 3 * begin, end - begin, to + 3 * begin);
+      });
 }
 
 Points unit_normals(const Evaluation<2>& evaluation) {
@@ -32,7 +33,8 @@ Expected<Points> unit_normals(const Surface& surface, const Parameters<2>& param
   return unit_normals(*found);
 }
 
-Expected<Points> unit_normals_on_grid(const Surface& surface, const std::array<std::span<const double>, 2>& parameters,
+Expected<Points> unit_normals_on_grid(const Surface& surface,
+                                      const std::array<std::span<const double>, 2>& parameters,
                                       Side side) {
   const auto found = evaluate_grid<2>(surface, parameters, 1, side);
   if (!found) return std::unexpected(found.error());

@@ -32,7 +32,8 @@ class QuotientRule {
           below = below && rest[d] >= 0;
           for (int i = 1; below && i <= indices[l][d]; ++i) factor = factor * (rest[d] + i) / i;
         }
-        if (below) terms_[k].push_back({l, static_cast<std::size_t>(multi_index_position<D>(rest)), factor});
+        if (below)
+          terms_[k].push_back({l, static_cast<std::size_t>(multi_index_position<D>(rest)), factor});
       }
     }
   }

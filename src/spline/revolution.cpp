@@ -16,14 +16,16 @@ double weight(int eighth) { return eighth % 2 == 0 ? 1 : half_root; }
 
 Expected<KnotVector> quarter_knots(int quarters) {
   std::vector<double> knots(3, 0.0);
-  for (int k = 1; k < quarters; ++k) knots.insert(knots.end(), 2, static_cast<double>(k) / quarters);
+  for (int k = 1; k < quarters; ++k)
+    knots.insert(knots.end(), 2, static_cast<double>(k) / quarters);
   knots.insert(knots.end(), 3, 1.0);
   return KnotVector::create(2, std::move(knots));
 }
 
 }  // namespace
 
-Expected<Curve> circle_quarters(std::array<double, 2> centre, double radius, int first, int quarters) {
+Expected<Curve> circle_quarters(std::array<double, 2> centre, double radius, int first,
+                                int quarters) {
   assert(quarters >= 1);
   auto knots = quarter_knots(quarters);
   if (!knots) return std::unexpected(knots.error());
@@ -49,14 +51,16 @@ Expected<Surface> revolve(const Curve& profile) {
     for (int j = 0; j < n; ++j) {
       const auto at = profile.control_points().row(j);
       if (at[1] != 0) {
-        return input_error("the profile leaves the plane y = 0", "control point " + std::to_string(j),
-                           "give control points (r, 0, z)");
+        return input_error("the profile leaves the plane y = 0",
+                           "control point " + std::to_string(j), "give control points (r, 0, z)");
       }
       points.row(i * n + j) << at[0] * cosine, at[0] * sine, at[2];
-      weights.push_back(weight(i) * (profile.rational() ? profile.weights()[static_cast<std::size_t>(j)] : 1));
+      weights.push_back(weight(i) *
+                        (profile.rational() ? profile.weights()[static_cast<std::size_t>(j)] : 1));
     }
   }
-  return Surface::create({*std::move(round), profile.knots(0)}, std::move(points), std::move(weights));
+  return Surface::create({*std::move(round), profile.knots(0)}, std::move(points),
+                         std::move(weights));
 }
 
 }  // namespace knead

@@ -17,9 +17,10 @@ constexpr int most_iterations = 60;  // bisection alone would reach the last bit
 
 /// A side of a cell of the grid that the plane crosses.
 struct CrossedSide {
-  int direction = 0;                   ///< the parameter that runs
-  double at = 0;                       ///< the other one
-  std::array<double, 2> bracket = {};  ///< of the one that runs; the plane's value is negative at the first
+  int direction = 0;  ///< the parameter that runs
+  double at = 0;      ///< the other one
+  /// Of the one that runs; the plane's value is negative at the first.
+  std::array<double, 2> bracket = {};
   std::array<int, 2> next = {-1, -1};  ///< the crossed sides to which curves go on
 };
 
@@ -41,15 +42,18 @@ class Crossings {
   int side(int i, int j, int direction) {
     const double from = value(i, j), to = direction == 0 ? value(i + 1, j) : value(i, j + 1);
     if ((from >= 0) == (to >= 0)) return -1;
-    const auto [found, fresh] = numbers_.try_emplace(2 * (static_cast<std::int64_t>(i) * columns_ + j) + direction,
-                                                     static_cast<int>(sides.size()));
+    const auto [found, fresh] =
+        numbers_.try_emplace(2 * (static_cast<std::int64_t>(i) * columns_ + j) + direction,
+                             static_cast<int>(sides.size()));
     if (!fresh) return found->second;
     const auto& along = grid_[static_cast<std::size_t>(direction)];
     const auto k = static_cast<std::size_t>(direction == 0 ? i : j);
     CrossedSide& made = sides.emplace_back();
     made.direction = direction;
-    made.at = direction == 0 ? grid_[1][static_cast<std::size_t>(j)] : grid_[0][static_cast<std::size_t>(i)];
-    made.bracket = from < 0 ? std::array{along[k], along[k + 1]} : std::array{along[k + 1], along[k]};
+    made.at = direction == 0 ? grid_[1][static_cast<std::size_t>(j)]
+                             : grid_[0][static_cast<std::size_t>(i)];
+    made.bracket =
+        from < 0 ? std::array{along[k], along[k + 1]} : std::array{along[k + 1], along[k]};
     return found->second;
   }
   void join(int a, int b) {
@@ -60,14 +64,16 @@ class Crossings {
   }
   void cell(int i, int j) {
     // Round the cell: below, right, above, left.
-    const std::array<int, 4> round = {side(i, j, 0), side(i + 1, j, 1), side(i, j + 1, 0), side(i, j, 1)};
+    const std::array<int, 4> round = {side(i, j, 0), side(i + 1, j, 1), side(i, j + 1, 0),
+                                      side(i, j, 1)};
     std::vector<int> crossed;
     for (const int s : round) {
       if (s >= 0) crossed.push_back(s);
     }
     if (crossed.size() == 2) join(crossed[0], crossed[1]);
     if (crossed.size() != 4) return;
-    // A saddle: the middle is on the side of two opposite corners, which the curves do not separate.
+    // A saddle: the middle is on the side of two opposite corners, which the curves do not
+    // separate.
     const double middle = value(i, j) + value(i + 1, j) + value(i, j + 1) + value(i + 1, j + 1);
     const bool first = (middle >= 0) == (value(i, j) >= 0);
     join(round[0], round[first ? 1 : 3]);
@@ -81,8 +87,8 @@ class Crossings {
 };
 
 /// The roots of all sides at once: Newton iteration, or bisection where that leaves the bracket.
-Expected<Parameters<2>> roots(const Surface& surface, const SectionPlane& plane, std::vector<CrossedSide>& sides,
-                              double accuracy) {
+Expected<Parameters<2>> roots(const Surface& surface, const SectionPlane& plane,
+                              std::vector<CrossedSide>& sides, double accuracy) {
   Parameters<2> at(static_cast<Eigen::Index>(sides.size()), 2);
   for (Eigen::Index k = 0; k < at.rows(); ++k) {
     const CrossedSide& s = sides[static_cast<std::size_t>(k)];
@@ -120,7 +126,8 @@ Point section_curvature(const Evaluation<2>& s, Eigen::Index k, const Point& acr
   const Point t = along / sine, b = t.cross(across);
   // t = p S_u + q S_v
   const double p = t.cross(v).dot(n) / area, q = u.cross(t).dot(n) / area;
-  const Point bend = p * p * s.at({2, 0}).row(k).transpose() + 2 * p * q * s.at({1, 1}).row(k).transpose() +
+  const Point bend = p * p * s.at({2, 0}).row(k).transpose() +
+                     2 * p * q * s.at({1, 1}).row(k).transpose() +
                      q * q * s.at({0, 2}).row(k).transpose();
   return bend.dot(n) / b.dot(n) * b;
 }
@@ -152,14 +159,15 @@ std::vector<std::vector<int>> curves_of(const std::vector<CrossedSide>& sides) {
 
 }  // namespace
 
-Expected<std::vector<SectionComb>> section_combs(const Surface& surface, const SectionPlane& plane, double tolerance) {
+Expected<std::vector<SectionComb>> section_combs(const Surface& surface, const SectionPlane& plane,
+                                                 double tolerance) {
   if (!(std::abs(plane.normal.norm() - 1) <= 1e-9) || !std::isfinite(plane.offset)) {
-    return std::unexpected(
-        Error{ErrorKind::usage, "this is no plane", "normal", "give a normal of length 1 and a finite offset"});
+    return std::unexpected(Error{ErrorKind::usage, "this is no plane", "normal",
+                                 "give a normal of length 1 and a finite offset"});
   }
   if (!(tolerance > 0)) {
-    return std::unexpected(
-        Error{ErrorKind::usage, "the tolerance of chords is not positive", "tolerance", "give a length"});
+    return std::unexpected(Error{ErrorKind::usage, "the tolerance of chords is not positive",
+                                 "tolerance", "give a length"});
   }
   ChordOptions options;
   options.tolerance = tolerance;

@@ -57,7 +57,8 @@ Expected<Spline<D>> refined(const Spline<D>& spline, int direction, const Refine
     }
     const double weight = weights[static_cast<std::size_t>(row)];
     if (weight == 0) {
-      return numerical_error("a weight comes out zero", fmt::format("direction {}, row {}", direction, i),
+      return numerical_error("a weight comes out zero",
+                             fmt::format("direction {}, row {}", direction, i),
                              "use positive weights");
     }
     points.row(row) /= weight;
@@ -66,7 +67,8 @@ Expected<Spline<D>> refined(const Spline<D>& spline, int direction, const Refine
 }
 
 template <int D>
-Expected<Spline<D>> insert_knots(const Spline<D>& spline, const std::array<std::vector<double>, D>& inserted) {
+Expected<Spline<D>> insert_knots(const Spline<D>& spline,
+                                 const std::array<std::vector<double>, D>& inserted) {
   Spline<D> result = spline;
   for (int d = 0; d < D; ++d) {
     const auto& list = inserted[static_cast<std::size_t>(d)];
@@ -87,7 +89,8 @@ Expected<Spline<D>> elevate_degree(const Spline<D>& spline, int direction, int t
   Spline<D> result = spline;
   for (int k = 0; k < times; ++k) {
     auto knots = elevated_knots(result.knots(direction));
-    if (!knots) return std::unexpected(knots.error().within(fmt::format("direction {}", direction)));
+    if (!knots)
+      return std::unexpected(knots.error().within(fmt::format("direction {}", direction)));
     auto refinement = Refinement::create(result.knots(direction), *std::move(knots));
     if (!refinement) return std::unexpected(std::move(refinement.error()));
     auto next = refined(result, direction, *refinement);
@@ -104,12 +107,14 @@ Expected<Spline<D>> refine_region(const Spline<D>& spline, const std::array<Inte
     const auto [lower, upper] = region[static_cast<std::size_t>(d)];
     const auto where = fmt::format("direction {}", d);
     if (!std::isfinite(lower) || !std::isfinite(upper) || lower > upper) {
-      return input_error(fmt::format("the region from {} to {} is no interval", lower, upper), where);
+      return input_error(fmt::format("the region from {} to {} is no interval", lower, upper),
+                         where);
     }
     const Interval domain = spline.knots(d).domain();
     if (upper < domain.lower || domain.upper < lower) {
-      return input_error(fmt::format("the region from {} to {} is outside of the domain", lower, upper), where,
-                         fmt::format("the domain is [{}, {}]", domain.lower, domain.upper));
+      return input_error(
+          fmt::format("the region from {} to {} is outside of the domain", lower, upper), where,
+          fmt::format("the domain is [{}, {}]", domain.lower, domain.upper));
     }
     midpoints[static_cast<std::size_t>(d)] = span_midpoints(spline.knots(d), {lower, upper});
   }
@@ -129,11 +134,12 @@ Expected<Spline<D>> bezier_pieces(const Spline<D>& spline) {
   return result;
 }
 
-#define KNEAD_INSTANTIATE(D)                                                                                 \
-  template Expected<Spline<D>> refined<D>(const Spline<D>&, int, const Refinement&);                         \
-  template Expected<Spline<D>> insert_knots<D>(const Spline<D>&, const std::array<std::vector<double>, D>&); \
-  template Expected<Spline<D>> elevate_degree<D>(const Spline<D>&, int, int);                                \
-  template Expected<Spline<D>> refine_region<D>(const Spline<D>&, const std::array<Interval, D>&);           \
+#define KNEAD_INSTANTIATE(D)                                                                       \
+  template Expected<Spline<D>> refined<D>(const Spline<D>&, int, const Refinement&);               \
+  template Expected<Spline<D>> insert_knots<D>(const Spline<D>&,                                   \
+                                               const std::array<std::vector<double>, D>&);         \
+  template Expected<Spline<D>> elevate_degree<D>(const Spline<D>&, int, int);                      \
+  template Expected<Spline<D>> refine_region<D>(const Spline<D>&, const std::array<Interval, D>&); \
   template Expected<Spline<D>> bezier_pieces<D>(const Spline<D>&);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)
@@ -146,7 +152,8 @@ Expected<Surface> with_clamped_ends(const Surface& surface) {
     const KnotVector& knots = surface.knots()[d];
     if (knots.clamped()) continue;
     for (const double end : {knots.domain().lower, knots.domain().upper}) {
-      ends[d].insert(ends[d].end(), static_cast<std::size_t>(knots.degree() + 1 - knots.multiplicity(end)), end);
+      ends[d].insert(ends[d].end(),
+                     static_cast<std::size_t>(knots.degree() + 1 - knots.multiplicity(end)), end);
     }
   }
   const auto inserted = insert_knots<2>(surface, ends);
@@ -158,7 +165,8 @@ Expected<Surface> with_clamped_ends(const Surface& surface) {
     const auto all = inserted->knots()[d].knots();
     const Interval domain = surface.knots()[d].domain();
     std::vector<double> inside;
-    std::ranges::copy_if(all, std::back_inserter(inside), [&](double x) { return domain.contains(x); });
+    std::ranges::copy_if(all, std::back_inserter(inside),
+                         [&](double x) { return domain.contains(x); });
     first[d] = static_cast<int>(std::ranges::lower_bound(all, domain.lower) - all.begin());
     auto made = KnotVector::create(knots[d].degree(), std::move(inside));
     if (!made) return std::unexpected(made.error());
@@ -171,7 +179,8 @@ Expected<Surface> with_clamped_ends(const Surface& surface) {
     const int from = (i + first[0]) * inserted->net()[1] + first[1];
     points.middleRows(i * columns, columns) = inserted->control_points().middleRows(from, columns);
     if (!surface.rational()) continue;
-    const auto row = inserted->weights().subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(columns));
+    const auto row = inserted->weights().subspan(static_cast<std::size_t>(from),
+                                                 static_cast<std::size_t>(columns));
     weights.insert(weights.end(), row.begin(), row.end());
   }
   return Surface::create(std::move(knots), std::move(points), std::move(weights));

@@ -8,7 +8,8 @@
 
 namespace knead {
 
-/// S and its derivatives to order 2 (00, 10, 01, 20, 11, 02) at one point, without traversing the whole net.
+/// S and its derivatives to order 2 (00, 10, 01, 20, 11, 02) at one point, without traversing the
+/// whole net.
 struct SurfaceJet {
   std::array<Point, 6> d;
 };
@@ -19,17 +20,20 @@ std::array<Eigen::Vector4d, Count> homogeneous_jet(const Surface& surface, doubl
   constexpr int order = Count == 1 ? 0 : 2;
   const KnotVector& ku = surface.knots(0);
   const KnotVector& kv = surface.knots(1);
-  const int p = ku.degree(), q = kv.degree(), n = kv.count(), su = ku.find_span(u), sv = kv.find_span(v);
+  const int p = ku.degree(), q = kv.degree(), n = kv.count(), su = ku.find_span(u),
+            sv = kv.find_span(v);
   std::array<double, static_cast<std::size_t>(order + 1) * (max_degree + 1)> nu, nv;
   basis_derivatives(ku, su, u, order, nu.data());
   basis_derivatives(kv, sv, v, order, nv.data());
-  static constexpr std::array<std::array<int, 2>, 6> orders = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+  static constexpr std::array<std::array<int, 2>, 6> orders = {
+      {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
   std::array<Eigen::Vector4d, Count> h;
   h.fill(Eigen::Vector4d::Zero());
   for (int r = 0; r <= p; ++r) {
     for (int c = 0; c <= q; ++c) {
       const int index = (su - p + r) * n + sv - q + c;
-      const double weight = surface.rational() ? surface.weights()[static_cast<std::size_t>(index)] : 1;
+      const double weight =
+          surface.rational() ? surface.weights()[static_cast<std::size_t>(index)] : 1;
       Eigen::Vector4d point;
       point << weight * surface.control_points().row(index).transpose(), weight;
       for (std::size_t k = 0; k < Count; ++k) {
@@ -54,7 +58,8 @@ inline SurfaceJet surface_jet(const Surface& surface, double u, double v) {
   auto& d = jet.d;
   for (std::size_t k = 0; k < 6; ++k) d[k] = h[k].head<3>();
   if (!surface.rational()) return jet;
-  const double w = h[0][3], wu = h[1][3], wv = h[2][3];  // the quotient rule: derivatives of w S = A
+  const double w = h[0][3], wu = h[1][3],
+               wv = h[2][3];  // the quotient rule: derivatives of w S = A
   d[0] /= w;
   d[1] = (d[1] - wu * d[0]) / w;
   d[2] = (d[2] - wv * d[0]) / w;

@@ -21,7 +21,8 @@ Point foot_normal(const Foot& foot, const Patch& patch) {
   PatchJet j = foot.jet;
   for (std::size_t d = 0; d < 2; ++d) {
     const Point n = j[1].cross(j[2]);
-    if (n.norm() > 1e-9 * (j[1].squaredNorm() + j[2].squaredNorm())) return patch.orientation * n.normalized();
+    if (n.norm() > 1e-9 * (j[1].squaredNorm() + j[2].squaredNorm()))
+      return patch.orientation * n.normalized();
     j = nudged(patch, foot.at, d);
   }
   const Point n = j[1].cross(j[2]);
@@ -30,7 +31,8 @@ Point foot_normal(const Foot& foot, const Patch& patch) {
 
 namespace {
 
-/// The surface near a foot: its derivatives, taken slightly off a pole, and the parameters along which it continues.
+/// The surface near a foot: its derivatives, taken slightly off a pole, and the parameters along
+/// which it continues.
 struct Vicinity {
   PatchJet jet;
   std::array<bool, 2> free;
@@ -39,7 +41,8 @@ struct Vicinity {
 Vicinity vicinity(const Foot& foot, const Patch& patch, double size) {
   Vicinity v{foot.jet, {!foot.pressed[0], !foot.pressed[1]}};
   for (std::size_t d = 0; d < 2; ++d) {
-    const bool vanishes = v.jet[1 + d].norm() * std::max(length(patch.domain.side[d]), 1e-3) < 1e-9 * size;
+    const bool vanishes =
+        v.jet[1 + d].norm() * std::max(length(patch.domain.side[d]), 1e-3) < 1e-9 * size;
     if (!v.free[d] || !vanishes) continue;
     const bool pole = v.free[1 - d] && patch.pole(d, foot.at);
     if (!pole) {
@@ -53,8 +56,8 @@ Vicinity vicinity(const Foot& foot, const Patch& patch, double size) {
   return v;
 }
 
-/// The Hessian where the surface continues along both parameters, n its normal on the side of r.normal:
-/// −T G⁻¹ L (G − φ L)⁻¹ Tᵀ, G and L the fundamental forms.
+/// The Hessian where the surface continues along both parameters, n its normal on the side of
+/// r.normal: −T G⁻¹ L (G − φ L)⁻¹ Tᵀ, G and L the fundamental forms.
 Eigen::Matrix3d hessian_of_surface(const DistanceJet& r, const PatchJet& j, const Point& n,
                                    const Eigen::Matrix3d& across) {
   Eigen::Matrix<double, 3, 2> t;
@@ -70,8 +73,10 @@ Eigen::Matrix3d hessian_of_surface(const DistanceJet& r, const PatchJet& j, cons
   return -(across * t) * middle * (across * t).transpose();
 }
 
-/// The same along an edge with derivatives e and ee, around which the distance is rotationally symmetric.
-Eigen::Matrix3d hessian_of_edge(const DistanceJet& r, const Point& e, const Point& ee, const Eigen::Matrix3d& across) {
+/// The same along an edge with derivatives e and ee, around which the distance is rotationally
+/// symmetric.
+Eigen::Matrix3d hessian_of_edge(const DistanceJet& r, const Point& e, const Point& ee,
+                                const Eigen::Matrix3d& across) {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   const double bend = r.normal.dot(ee), g = e.squaredNorm(), m = g - r.distance * bend;
   if (m > 1e-14 * g) hessian -= bend / (g * m) * e * e.transpose();
@@ -81,7 +86,8 @@ Eigen::Matrix3d hessian_of_edge(const DistanceJet& r, const Point& e, const Poin
 
 }  // namespace
 
-DistanceJet distance_jet(const Point& x, const Foot& foot, const Patch& patch, double sign, double size) {
+DistanceJet distance_jet(const Point& x, const Foot& foot, const Patch& patch, double sign,
+                         double size) {
   DistanceJet r;
   const Point offset = x - foot.jet[0];
   const double away = offset.norm();

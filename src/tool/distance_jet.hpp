@@ -12,6 +12,7 @@ struct DistanceJet {
 };
 /// The unit normal S_u × S_v at a foot (at a pole, of a point very near it); zero where undefined.
 [[nodiscard]] Point foot_normal(const Foot& foot, const Patch& patch);
-[[nodiscard]] DistanceJet distance_jet(const Point& x, const Foot& foot, const Patch& patch, double sign, double size);
+[[nodiscard]] DistanceJet distance_jet(const Point& x, const Foot& foot, const Patch& patch,
+                                       double sign, double size);
 
 }  // namespace knead::detail

@@ -7,8 +7,8 @@
 
 namespace knead {
 
-/// Σ f N_i N_j H over Gauss points of one element with the basis functions N, H a symmetric 3 × 3 matrix: the products
-/// of basis functions are found once per point, for all six entries of H.
+/// Σ f N_i N_j H over Gauss points of one element with the basis functions N, H a symmetric 3 × 3
+/// matrix: the products of basis functions are found once per point, for all six entries of H.
 class ElementHessian {
  public:
   void begin(const std::vector<int>& rows) {

@@ -18,7 +18,8 @@ struct ContactPoint {
   std::array<int, 3> at{};  ///< Gauss point in every direction of the patch
   double factor = 0;        ///< Gauss weight / rational denominator²; the basis carries w N
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-  int part = -1;  ///< the visible part of that point's cell, where an edge cuts it; −1: the Gauss point itself
+  int part = -1;  ///< the visible part of that point's cell, where an edge cuts it; −1: the Gauss
+                  ///< point itself
   int grid = 0;   ///< of the patch's `ToolGrids`
 };
 
@@ -43,22 +44,25 @@ struct WatchedElements {
 /// Takes a matrix between the coordinates of some points: row 3 k + c is coordinate c of points[k].
 using AddBlock = std::function<void(std::span<const int> points, const Eigen::MatrixXd& block)>;
 
-/// A potential of the positions of all control points: the solver's view of tools, friction and limits.
+/// A potential of the positions of all control points: the solver's view of tools, friction and
+/// limits.
 class Potential {
  public:
   virtual ~Potential() = default;
 
-  /// At the control points x (N × 3). With `watched`, contacts of those elements only: x is read at their control
-  /// points, and the cost depends on their number.
-  [[nodiscard]] virtual PotentialState evaluate(const Points& x, const WatchedElements* watched = nullptr) const = 0;
+  /// At the control points x (N × 3). With `watched`, contacts of those elements only: x is read at
+  /// their control points, and the cost depends on their number.
+  [[nodiscard]] virtual PotentialState evaluate(const Points& x,
+                                                const WatchedElements* watched = nullptr) const = 0;
   /// Whether a tool, friction or a limit acts on an element that is not among these.
   [[nodiscard]] virtual bool acts_beyond(const WatchedElements& these, const Points& x) const = 0;
-  /// Adds H v to `out`: the Hessian at `state` applied to N × 3 directions, both used only where contacts act. It may
-  /// be indefinite.
+  /// Adds H v to `out`: the Hessian at `state` applied to N × 3 directions, both used only where
+  /// contacts act. It may be indefinite.
   virtual void apply_hessian(const PotentialState& state, const Points& v, Points& out) const = 0;
   /// Calls `add` with symmetric blocks whose sum is that Hessian.
   virtual void each_hessian_block(const PotentialState& state, const AddBlock& add) const = 0;
-  /// Sets marks[i] where a contact of `state` acts on control point i: elsewhere force and Hessian are zero.
+  /// Sets marks[i] where a contact of `state` acts on control point i: elsewhere force and Hessian
+  /// are zero.
   virtual void mark(const PotentialState& state, std::vector<char>& marks) const = 0;
   /// Marks the neighbours of marked control points in their nets too.
   virtual void widen(std::vector<char>& marks) const = 0;

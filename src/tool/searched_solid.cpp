@@ -12,7 +12,8 @@ SearchedSolid::SearchedSolid(Patches patches, Inside inside, std::array<bool, 3>
   box = extent;
   size = feature;
   for (auto& patch : patches) orient(*patch);
-  search_ = std::make_unique<FootSearch>(std::move(patches), 0.5 * (extent.upper - extent.lower).maxCoeff());
+  search_ = std::make_unique<FootSearch>(std::move(patches),
+                                         0.5 * (extent.upper - extent.lower).maxCoeff());
 }
 
 Nearest SearchedSolid::nearest(const Point& x) const {
@@ -31,13 +32,14 @@ Nearest SearchedSolid::nearest(const Point& x) const {
     y[k] = -y[k];
   }
   const FootResult found = search_->nearest(y);
-  const DistanceJet d =
-      distance_jet(y, found.best, search_->patch(found.best.patch), inside_(y) ? -1 : 1, search_->size());
+  const DistanceJet d = distance_jet(y, found.best, search_->patch(found.best.patch),
+                                     inside_(y) ? -1 : 1, search_->size());
   Nearest r;
   r.converged = found.certified;
   r.distance = d.distance;
   r.point = frame * found.best.jet[0];
-  if (round_ && rho == 0 && std::abs(d.normal.x()) > 1e-12) return r;  // a circle of points is nearest
+  if (round_ && rho == 0 && std::abs(d.normal.x()) > 1e-12)
+    return r;  // a circle of points is nearest
   r.normal = frame * d.normal;
   r.hessian = frame * d.hessian * frame.transpose();
   return r;

@@ -12,13 +12,13 @@ namespace knead::detail {
 using Patches = std::vector<std::unique_ptr<Patch>>;
 using Inside = std::function<bool(const Point&)>;
 
-/// A solid whose surface is made of patches. It is symmetric in the folded coordinates: only the octant, quarter or
-/// half where they are positive has patches.
+/// A solid whose surface is made of patches. It is symmetric in the folded coordinates: only the
+/// octant, quarter or half where they are positive has patches.
 class SearchedSolid final : public ShapeKernel {
  public:
   /// \param round the solid is a solid of revolution about z and its patches are meridians in y = 0
-  SearchedSolid(Patches patches, Inside inside, std::array<bool, 3> fold, bool round, const BoundingBox& extent,
-                double feature);
+  SearchedSolid(Patches patches, Inside inside, std::array<bool, 3> fold, bool round,
+                const BoundingBox& extent, double feature);
 
   Nearest nearest(const Point& x) const override;
 

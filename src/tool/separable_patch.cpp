@@ -24,7 +24,8 @@ struct MonotoneCurve::Factors {
   double zz2;     ///< σ^(2mp−2)
   double m1, m2;  ///< σ^(m−1), σ^(m−2)
   double zm2;     ///< σ^(mp+m−2)
-  double r1 = 0, r2 = 0;  ///< for bounds: σ^(mp−1−k), σ^(m−1−k), k the smaller of mp − 1 and m − 1, where that is > 0
+  double r1 = 0, r2 = 0;  ///< for bounds: σ^(mp−1−k), σ^(m−1−k), k the smaller of mp − 1 and m − 1,
+                          ///< where that is > 0
 };
 
 MonotoneCurve MonotoneCurve::segment(const Vector2& from, const Vector2& to) {
@@ -34,7 +35,8 @@ MonotoneCurve MonotoneCurve::segment(const Vector2& from, const Vector2& to) {
   return c;
 }
 
-MonotoneCurve MonotoneCurve::arc(const Vector2& centre, const Vector2& size, double exponent, bool exchanged) {
+MonotoneCurve MonotoneCurve::arc(const Vector2& centre, const Vector2& size, double exponent,
+                                 bool exchanged) {
   MonotoneCurve c;
   c.straight_ = false;
   c.exchanged_ = exchanged;
@@ -43,12 +45,14 @@ MonotoneCurve MonotoneCurve::arc(const Vector2& centre, const Vector2& size, dou
   c.p_ = 2 / exponent;
   c.m_ = c.p_ >= 2 || c.p_ == 1 ? 1 : static_cast<int>(std::ceil(exponent));
   std::vector<Factors> table;
-  for (int k = 0; k <= halves; ++k) table.push_back(c.computed(static_cast<double>(k) / halves, true));
+  for (int k = 0; k <= halves; ++k)
+    table.push_back(c.computed(static_cast<double>(k) / halves, true));
   c.table_ = std::make_shared<const std::vector<Factors>>(std::move(table));
   return c;
 }
 
-/// A search halves [0, 1] again and again: what it asks for was computed when the curve was made, but for descents.
+/// A search halves [0, 1] again and again: what it asks for was computed when the curve was made,
+/// but for descents.
 MonotoneCurve::Factors MonotoneCurve::factors(double sigma, bool bounds) const {
   const double place = sigma * halves;
   const int k = static_cast<int>(place);
@@ -115,7 +119,8 @@ std::array<std::array<Range, 2>, 4> MonotoneCurve::over(const Range& sigma) cons
   const Range w1 = {b.w1, a.w1}, w2 = {b.w2, a.w2};
   r[0] = {Range{b.x, a.x}, Range{a.y, b.y}};
   r[1] = {-m * (Range{a.z1, b.z1} * w1), m * (Range{a.m1, b.m1} * w1)};
-  r[2] = {m * m * (p_ + 1) * (Range{a.zz2, b.zz2} * w2), -m * m * (p_ + 1) * (Range{a.zm2, b.zm2} * w2)};
+  r[2] = {m * m * (p_ + 1) * (Range{a.zz2, b.zz2} * w2),
+          -m * m * (p_ + 1) * (Range{a.zm2, b.zm2} * w2)};
   if (mp != 1) r[2][0] = r[2][0] + -m * (mp - 1) * (Range{a.z2, b.z2} * w1);
   if (m_ > 1) r[2][1] = r[2][1] + m * (m - 1) * (Range{a.m2, b.m2} * w1);
   r[3] = r[1];
@@ -133,14 +138,17 @@ std::array<std::array<Range, 2>, 4> MonotoneCurve::over(const Range& sigma) cons
 
 PatchBounds SeparablePatch::bounds(const ParameterRectangle& at) const {
   const auto f = meridian_.over(at.side[0]), g = parallel_.over(at.side[1]);
-  constexpr std::array<std::array<std::size_t, 2>, 6> order = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+  constexpr std::array<std::array<std::size_t, 2>, 6> order = {
+      {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
   PatchBounds b;
   for (std::size_t k = 0; k < 6; ++k) {
     const auto [du, dv] = order[k];
-    const std::array<Range, 3> c = {f[du][0] * g[dv][0], f[du][0] * g[dv][1], dv == 0 ? f[du][1] : Range{0, 0}};
+    const std::array<Range, 3> c = {f[du][0] * g[dv][0], f[du][0] * g[dv][1],
+                                    dv == 0 ? f[du][1] : Range{0, 0}};
     for (std::size_t a = 0; a < 3; ++a) {
       const auto i = static_cast<Eigen::Index>(a);
-      b[k].axis[static_cast<std::size_t>(axes_[a])] = scale_[i] * c[a] + (k == 0 ? offset_[i] : 0.0);
+      b[k].axis[static_cast<std::size_t>(axes_[a])] =
+          scale_[i] * c[a] + (k == 0 ? offset_[i] : 0.0);
     }
   }
   // f >= 0 is a common factor of S_v.
@@ -156,7 +164,8 @@ PatchBounds SeparablePatch::bounds(const ParameterRectangle& at) const {
 
 PatchJet SeparablePatch::jet(double u, double v) const {
   const auto f = meridian_.at(u), g = parallel_.at(v);
-  constexpr std::array<std::array<std::size_t, 2>, 6> order = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+  constexpr std::array<std::array<std::size_t, 2>, 6> order = {
+      {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
   PatchJet j;
   for (std::size_t k = 0; k < 6; ++k) {
     const auto [du, dv] = order[k];

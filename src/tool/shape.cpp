@@ -37,7 +37,8 @@ class Check {
   }
   Check& bound(bool right, double x, const char* field, const std::string& remedy) {
     if (!right && !error_) {
-      error_ = Error{ErrorKind::input, fmt::format("{} cannot be the {}", x, field), field, "use " + remedy};
+      error_ = Error{ErrorKind::input, fmt::format("{} cannot be the {}", x, field), field,
+                     "use " + remedy};
     }
     return *this;
   }
@@ -62,11 +63,16 @@ struct Validate {
   void operator()(const EllipsoidShape& s) { check.positive_all(s.semi_axes, "semi_axes"); }
   void operator()(const BoxShape& s) {
     check.positive_all(s.half_sizes, "half_sizes").at_least_zero(s.rounding, "rounding");
-    check.bound(s.rounding <= vector(s.half_sizes).minCoeff(), s.rounding, "rounding", "at most the least half size");
+    check.bound(s.rounding <= vector(s.half_sizes).minCoeff(), s.rounding, "rounding",
+                "at most the least half size");
   }
-  void operator()(const CylinderShape& s) { check.positive(s.radius, "radius").positive(s.half_height, "half_height"); }
+  void operator()(const CylinderShape& s) {
+    check.positive(s.radius, "radius").positive(s.half_height, "half_height");
+  }
   void operator()(const ConeShape& s) {
-    check.at_least_zero(s.radius, "radius").positive(s.height, "height").at_least_zero(s.top_radius, "top_radius");
+    check.at_least_zero(s.radius, "radius")
+        .positive(s.height, "height")
+        .at_least_zero(s.top_radius, "top_radius");
     check.positive(s.radius + s.top_radius, "radius");
   }
   void operator()(const CapsuleShape& s) {
@@ -85,8 +91,12 @@ struct Validate {
     check.positive_all(s.semi_axes, "semi_axes").exponent(s.e1, "e1").exponent(s.e2, "e2");
   }
   void operator()(const SupertoroidShape& s) {
-    check.positive(s.major, "major").positive_all(s.semi_axes, "semi_axes").exponent(s.e1, "e1").exponent(s.e2, "e2");
-    check.bound(s.semi_axes[0] < s.major, s.semi_axes[0], "semi_axes", "a radial semi-axis below the major radius");
+    check.positive(s.major, "major")
+        .positive_all(s.semi_axes, "semi_axes")
+        .exponent(s.e1, "e1")
+        .exponent(s.e2, "e2");
+    check.bound(s.semi_axes[0] < s.major, s.semi_axes[0], "semi_axes",
+                "a radial semi-axis below the major radius");
   }
   void operator()(const SplineShape& s) {
     if (!s.surface) check.bound(false, 0, "surface", "a surface of the document");
@@ -97,7 +107,9 @@ struct Validate {
 /// The smallest feature of a solid of revolution, with its two scales across and along the axis.
 struct RevolutionFeature {
   double across, along;
-  double operator()(const CylinderShape& s) const { return std::min(across * s.radius, along * s.half_height); }
+  double operator()(const CylinderShape& s) const {
+    return std::min(across * s.radius, along * s.half_height);
+  }
   double operator()(const ConeShape& s) const {
     return std::min(across * std::max(s.radius, s.top_radius), along * 0.5 * s.height);
   }
@@ -106,9 +118,15 @@ struct RevolutionFeature {
   double operator()(const BowlShape& s) const { return std::min(across, along) * s.thickness; }
 };
 
-CylinderShape scaled(const CylinderShape& s, double r, double z) { return {s.radius * r, s.half_height * z}; }
-ConeShape scaled(const ConeShape& s, double r, double z) { return {s.radius * r, s.height * z, s.top_radius * r}; }
-CapsuleShape scaled(const CapsuleShape& s, double r, double) { return {s.radius * r, s.half_height * r}; }
+CylinderShape scaled(const CylinderShape& s, double r, double z) {
+  return {s.radius * r, s.half_height * z};
+}
+ConeShape scaled(const ConeShape& s, double r, double z) {
+  return {s.radius * r, s.height * z, s.top_radius * r};
+}
+CapsuleShape scaled(const CapsuleShape& s, double r, double) {
+  return {s.radius * r, s.half_height * r};
+}
 TorusShape scaled(const TorusShape& s, double r, double) { return {s.major * r, s.minor * r}; }
 BowlShape scaled(const BowlShape& s, double r, double) { return {s.radius * r, s.thickness * r}; }
 
@@ -131,7 +149,8 @@ struct Build {
     return detail::box_kernel(vector(s.half_sizes).cwiseProduct(scale), s.rounding * scale.x());
   }
   Expected<Kernel> operator()(const PlaneShape&) const { return detail::plane_kernel(); }
-  // With round sections these are an ellipsoid and a torus, whose nearest points have a closed form.
+  // With round sections these are an ellipsoid and a torus, whose nearest points have a closed
+  // form.
   Expected<Kernel> operator()(const SuperellipsoidShape& s) const {
     if (s.e1 == 1 && s.e2 == 1) return (*this)(EllipsoidShape{s.semi_axes});
     return detail::superellipsoid_kernel(s, scale);
@@ -141,14 +160,20 @@ struct Build {
       return (*this)(TorusShape{s.major, s.semi_axes[0]});
     return detail::supertoroid_kernel(s, scale);
   }
-  Expected<Kernel> operator()(const SplineShape& s) const { return detail::spline_kernel(*s.surface, scale); }
+  Expected<Kernel> operator()(const SplineShape& s) const {
+    return detail::spline_kernel(*s.surface, scale);
+  }
 
-  Expected<Kernel> operator()(const BuildsItself auto& s) const { return detail::shape_kernel(s, scale); }
+  Expected<Kernel> operator()(const BuildsItself auto& s) const {
+    return detail::shape_kernel(s, scale);
+  }
 
-  /// Solids of revolution: straight meridians keep their form when only the axis is scaled differently.
+  /// Solids of revolution: straight meridians keep their form when only the axis is scaled
+  /// differently.
   template <class Solid>
   Expected<Kernel> operator()(const Solid& s) const {
-    constexpr bool straight = std::is_same_v<Solid, CylinderShape> || std::is_same_v<Solid, ConeShape>;
+    constexpr bool straight =
+        std::is_same_v<Solid, CylinderShape> || std::is_same_v<Solid, ConeShape>;
     Kernel kernel;
     if (equal() || (straight && scale.x() == scale.y())) {
       const Solid grown = scaled(s, scale.x(), scale.z());
@@ -163,9 +188,11 @@ struct Build {
 
 std::optional<Error> wrong_pose(const Eigen::Quaterniond& rotation, const Point& position) {
   if (!(std::abs(rotation.coeffs().norm() - 1) < 1e-9)) {
-    return Error{ErrorKind::input, "the quaternion is not of length 1", "rotation", "use a unit quaternion"};
+    return Error{ErrorKind::input, "the quaternion is not of length 1", "rotation",
+                 "use a unit quaternion"};
   }
-  if (!position.allFinite()) return Error{ErrorKind::input, "a coordinate is not a finite number", "position"};
+  if (!position.allFinite())
+    return Error{ErrorKind::input, "a coordinate is not a finite number", "position"};
   return std::nullopt;
 }
 
@@ -176,7 +203,8 @@ Expected<PlacedShape> PlacedShape::create(const Shape& shape, const Placement& p
   std::visit([&](const auto& s) { validate(s); }, shape);
   validate.check.positive_all(placement.scale, "scale");
   if (validate.check.error()) return std::unexpected(*validate.check.error());
-  if (const auto error = wrong_pose(placement.rotation, placement.position)) return std::unexpected(*error);
+  if (const auto error = wrong_pose(placement.rotation, placement.position))
+    return std::unexpected(*error);
   auto kernel = std::visit(Build{vector(placement.scale)}, shape);
   if (!kernel) return std::unexpected(kernel.error());
   PlacedShape placed;
@@ -188,7 +216,8 @@ Expected<PlacedShape> PlacedShape::create(const Shape& shape, const Placement& p
   return placed;
 }
 
-Expected<PlacedShape> PlacedShape::moved(const Eigen::Quaterniond& rotation, const Point& position) const {
+Expected<PlacedShape> PlacedShape::moved(const Eigen::Quaterniond& rotation,
+                                         const Point& position) const {
   if (const auto error = wrong_pose(rotation, position)) return std::unexpected(*error);
   PlacedShape placed = *this;
   placed.placement_.rotation = rotation;
@@ -235,7 +264,8 @@ double PlacedShape::size() const { return kernel_->size; }
 BoundingBox PlacedShape::bounding_box() const {
   const Point half = 0.5 * (kernel_->box.upper - kernel_->box.lower);
   if (!half.allFinite()) return kernel_->box;
-  const Point centre = rotation_ * kernel_->box.centre() + placement_.position, reach = rotation_.cwiseAbs() * half;
+  const Point centre = rotation_ * kernel_->box.centre() + placement_.position,
+              reach = rotation_.cwiseAbs() * half;
   return {centre - reach, centre + reach};
 }
 

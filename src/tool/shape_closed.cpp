@@ -58,7 +58,8 @@ class Box final : public ShapeKernel {
   }
   Nearest nearest(const Point& x) const override {
     Nearest r;
-    const Point side = x.unaryExpr([](double c) { return std::signbit(c) ? -1.0 : 1.0; }), folded = x.cwiseAbs();
+    const Point side = x.unaryExpr([](double c) { return std::signbit(c) ? -1.0 : 1.0; }),
+                folded = x.cwiseAbs();
     const Point beyond = (folded - core_).cwiseMax(0.0);
     const double reach = beyond.stableNorm();
     if (reach > 0) {
@@ -94,10 +95,10 @@ class Box final : public ShapeKernel {
   double rounding_;
 };
 
-/// The nearest point solves y_i = a_i² x_i / (τ + a_i² − a_0²), a_0 the smallest semi-axis, with τ the root of the
-/// convex decreasing g(τ) = Σ (a_i x_i / (τ + a_i² − a_0²))² − 1 on τ > 0: Newton's iteration from the left of the root
-/// increases towards it and always converges (D. Eberly, Distance from a Point to an Ellipsoid; here with Newton's
-/// iteration).
+/// The nearest point solves y_i = a_i² x_i / (τ + a_i² − a_0²), a_0 the smallest semi-axis, with τ
+/// the root of the convex decreasing g(τ) = Σ (a_i x_i / (τ + a_i² − a_0²))² − 1 on τ > 0: Newton's
+/// iteration from the left of the root increases towards it and always converges (D. Eberly,
+/// Distance from a Point to an Ellipsoid; here with Newton's iteration).
 class Ellipsoid final : public ShapeKernel {
  public:
   explicit Ellipsoid(const Point& semi_axes) : a_(semi_axes) {
@@ -107,7 +108,8 @@ class Ellipsoid final : public ShapeKernel {
   }
   Nearest nearest(const Point& x) const override {
     Nearest r;
-    const Point side = x.unaryExpr([](double c) { return std::signbit(c) ? -1.0 : 1.0; }), folded = x.cwiseAbs();
+    const Point side = x.unaryExpr([](double c) { return std::signbit(c) ? -1.0 : 1.0; }),
+                folded = x.cwiseAbs();
     const Point weighted = a_.cwiseProduct(folded);
     const Point y = foot(weighted);
     Point n = y.cwiseQuotient(a_).cwiseQuotient(a_ / size);  // in units that cannot overflow
@@ -120,7 +122,8 @@ class Ellipsoid final : public ShapeKernel {
       r.normal.setZero();
       return r;
     }
-    // With B = diag(1/a²)/|∇F/2| the shape operator is W = P B P, and ∇²φ = W (I + φ W)^-1 on the tangent plane.
+    // With B = diag(1/a²)/|∇F/2| the shape operator is W = P B P, and ∇²φ = W (I + φ W)^-1 on the
+    // tangent plane.
     const Point b = (a_.cwiseAbs2() / size).cwiseInverse() / slope;
     Eigen::Matrix<double, 3, 2> t;
     t.col(0) = r.normal.unitOrthogonal();
@@ -147,10 +150,12 @@ class Ellipsoid final : public ShapeKernel {
       return sum;
     };
     double tau = 0, slope = 0;
-    for (int i = 0; i < 3; ++i) tau = std::max(tau, weighted[i] - gap_[i]);  // term i alone is 1 there: g >= 0
+    for (int i = 0; i < 3; ++i)
+      tau = std::max(tau, weighted[i] - gap_[i]);  // term i alone is 1 there: g >= 0
     bool rooted = tau > 0;
     if (!rooted) {
-      // Nothing along the shortest axis (or underflow): g(0) decides between a root and the medial disc.
+      // Nothing along the shortest axis (or underflow): g(0) decides between a root and the medial
+      // disc.
       double sum = -1;
       for (int i = 0; i < 3; ++i) {
         if (gap_[i] > 0) sum += (weighted[i] / gap_[i]) * (weighted[i] / gap_[i]);
@@ -166,7 +171,8 @@ class Ellipsoid final : public ShapeKernel {
         tau = next;
       }
       Point y;
-      for (int i = 0; i < 3; ++i) y[i] = weighted[i] == 0 ? 0 : a_[i] * (weighted[i] / (tau + gap_[i]));
+      for (int i = 0; i < 3; ++i)
+        y[i] = weighted[i] == 0 ? 0 : a_[i] * (weighted[i] / (tau + gap_[i]));
       return y;
     }
     Point y = Point::Zero();
@@ -199,7 +205,9 @@ class Ellipsoid final : public ShapeKernel {
 
 Kernel sphere_kernel(double radius) { return std::make_unique<Sphere>(radius); }
 Kernel ellipsoid_kernel(const Point& semi_axes) { return std::make_unique<Ellipsoid>(semi_axes); }
-Kernel box_kernel(const Point& half_sizes, double rounding) { return std::make_unique<Box>(half_sizes, rounding); }
+Kernel box_kernel(const Point& half_sizes, double rounding) {
+  return std::make_unique<Box>(half_sizes, rounding);
+}
 Kernel plane_kernel() { return std::make_unique<Plane>(); }
 
 }  // namespace knead::detail

@@ -28,9 +28,9 @@ using Kernel = std::unique_ptr<ShapeKernel>;
 [[nodiscard]] Kernel box_kernel(const Point& half_sizes, double rounding);
 [[nodiscard]] Kernel plane_kernel();
 
-/// One piece of a meridian in the half plane (ρ, z), ρ >= 0: the segment from a to b with its outward normal on the
-/// right when going from a to b, or a quarter of an ellipse
-/// a + (cos · b.x, sin · b.y), 0 <= angle <= π/2, whose outside is away from a (outward) or towards it.
+/// One piece of a meridian in the half plane (ρ, z), ρ >= 0: the segment from a to b with its
+/// outward normal on the right when going from a to b, or a quarter of an ellipse a + (cos · b.x,
+/// sin · b.y), 0 <= angle <= π/2, whose outside is away from a (outward) or towards it.
 struct MeridianPiece {
   enum class Kind { segment, arc } kind = Kind::segment;
   Eigen::Vector2d a, b;
@@ -52,13 +52,14 @@ using Meridian = std::vector<MeridianPiece>;
 [[nodiscard]] Kernel revolution_kernel(const Shape& shape, Meridian pieces);
 
 /// Any solid, unequally scaled, by search.
-[[nodiscard]] Kernel scaled_revolution_kernel(const Shape& shape, const Meridian& pieces, const Point& scale);
+[[nodiscard]] Kernel scaled_revolution_kernel(const Shape& shape, const Meridian& pieces,
+                                              const Point& scale);
 [[nodiscard]] Kernel scaled_box_kernel(const BoxShape& shape, const Point& scale);
 [[nodiscard]] Kernel superellipsoid_kernel(const SuperellipsoidShape& shape, const Point& scale);
 [[nodiscard]] Kernel supertoroid_kernel(const SupertoroidShape& shape, const Point& scale);
 
-/// Whether x lies outside of a solid of which that is known in a fraction of the time that its nearest point takes: a
-/// superellipsoid or a supertoroid. False: it does not, or nothing is known.
+/// Whether x lies outside of a solid of which that is known in a fraction of the time that its
+/// nearest point takes: a superellipsoid or a supertoroid. False: it does not, or nothing is known.
 [[nodiscard]] bool is_outside(const PlacedShape& placed, const Point& x);
 
 /// The surface scaled in its own coordinates. Errors: a Bézier weight that is not positive.

@@ -55,7 +55,8 @@ Foot2 foot_of(const MeridianPiece& piece, const Vector2& q) {
     f.distance = sign * (norm - r);
     f.squared = (norm - r) * (norm - r);
     f.tie = norm == 0;
-    const Vector2 direction = f.tie ? Vector2(0, std::copysign(1.0, piece.b.y())) : Vector2(v / norm);
+    const Vector2 direction =
+        f.tie ? Vector2(0, std::copysign(1.0, piece.b.y())) : Vector2(v / norm);
     f.point = piece.a + r * direction;
     f.normal = sign * direction;
     f.curvature = f.tie ? 0 : sign / norm;
@@ -71,8 +72,10 @@ class Revolution final : public ShapeKernel {
   Revolution(const Shape& shape, Meridian pieces) : shape_(shape), pieces_(std::move(pieces)) {
     double radius = 0, low = std::numeric_limits<double>::infinity(), high = -low;
     for (const MeridianPiece& p : pieces_) {
-      const Vector2 a = p.kind == MeridianPiece::Kind::arc ? Vector2(p.a + Vector2(p.b.x(), 0)) : p.a;
-      const Vector2 b = p.kind == MeridianPiece::Kind::arc ? Vector2(p.a + Vector2(0, p.b.y())) : p.b;
+      const Vector2 a =
+          p.kind == MeridianPiece::Kind::arc ? Vector2(p.a + Vector2(p.b.x(), 0)) : p.a;
+      const Vector2 b =
+          p.kind == MeridianPiece::Kind::arc ? Vector2(p.a + Vector2(0, p.b.y())) : p.b;
       radius = std::max({radius, a.x(), b.x()});
       low = std::min({low, a.y(), b.y()});
       high = std::max({high, a.y(), b.y()});
@@ -87,15 +90,18 @@ class Revolution final : public ShapeKernel {
     for (const MeridianPiece& piece : pieces_) {
       const Foot2 f = foot_of(piece, q);
       // Of two ends at the same place, the one reached along its normal determines the side.
-      if (f.squared < best.squared || (f.squared == best.squared && f.smooth && !best.smooth)) best = f;
+      if (f.squared < best.squared || (f.squared == best.squared && f.smooth && !best.smooth))
+        best = f;
     }
     if (!best.smooth) {
       const double away = std::sqrt(best.squared);
       best.distance = in_meridian(shape_, q.x(), q.y()) ? -away : away;
-      if (away > 0) best.normal = (q - best.point) / best.distance, best.curvature = 1 / best.distance;
+      if (away > 0)
+        best.normal = (q - best.point) / best.distance, best.curvature = 1 / best.distance;
     }
     Nearest r;
-    const Point e = rho > 0 ? Point(x.x() / rho, x.y() / rho, 0) : Point::UnitX(), up = Point::UnitZ();
+    const Point e = rho > 0 ? Point(x.x() / rho, x.y() / rho, 0) : Point::UnitX(),
+                up = Point::UnitZ();
     r.distance = best.distance;
     r.point = best.point.x() * e + best.point.y() * up;
     if (best.tie || (rho == 0 && best.normal.x() != 0)) return r;  // a circle of points is nearest
@@ -135,7 +141,8 @@ Meridian meridian(const CapsuleShape& s) {
 
 Meridian meridian(const TorusShape& s) {
   const double r = s.minor;
-  return {arc(s.major, 0, r, r), arc(s.major, 0, r, -r), arc(s.major, 0, -r, r), arc(s.major, 0, -r, -r)};
+  return {arc(s.major, 0, r, r), arc(s.major, 0, r, -r), arc(s.major, 0, -r, r),
+          arc(s.major, 0, -r, -r)};
 }
 
 Meridian meridian(const BowlShape& s) {
@@ -146,14 +153,17 @@ Meridian meridian(const BowlShape& s) {
 }
 
 bool in_meridian(const Shape& shape, double rho, double z) {
-  if (const auto* c = std::get_if<CylinderShape>(&shape)) return rho <= c->radius && std::abs(z) <= c->half_height;
+  if (const auto* c = std::get_if<CylinderShape>(&shape))
+    return rho <= c->radius && std::abs(z) <= c->half_height;
   if (const auto* c = std::get_if<ConeShape>(&shape)) {
-    return z >= 0 && z <= c->height && rho * c->height <= c->radius * (c->height - z) + c->top_radius * z;
+    return z >= 0 && z <= c->height &&
+           rho * c->height <= c->radius * (c->height - z) + c->top_radius * z;
   }
   if (const auto* c = std::get_if<CapsuleShape>(&shape)) {
     return std::hypot(rho, std::max(0.0, std::abs(z) - c->half_height)) <= c->radius;
   }
-  if (const auto* t = std::get_if<TorusShape>(&shape)) return std::hypot(rho - t->major, z) <= t->minor;
+  if (const auto* t = std::get_if<TorusShape>(&shape))
+    return std::hypot(rho - t->major, z) <= t->minor;
   if (const auto* b = std::get_if<BowlShape>(&shape)) {
     const double r = std::hypot(rho, z);
     return z <= 0 && r <= b->radius && r >= b->radius - b->thickness;

@@ -15,15 +15,18 @@ constexpr ParameterRectangle meridian_only = {{Range{0, 1}, Range{0, 0}}};
 
 constexpr std::array<bool, 2> both_halves = {false, true};
 
-/// Adds the patches swept by a meridian curve over the first quarter of the superellipse of exponent e.
-void sweep(Patches& patches, const MonotoneCurve& meridian, double e, const Point& scale, bool round = false) {
+/// Adds the patches swept by a meridian curve over the first quarter of the superellipse of
+/// exponent e.
+void sweep(Patches& patches, const MonotoneCurve& meridian, double e, const Point& scale,
+           bool round = false) {
   if (round) {
     const MonotoneCurve start = MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), 1, false);
     patches.push_back(std::make_unique<SeparablePatch>(meridian_only, meridian, start, scale));
     return;
   }
   for (bool exchanged : both_halves) {
-    const MonotoneCurve parallel = MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), e, exchanged);
+    const MonotoneCurve parallel =
+        MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), e, exchanged);
     patches.push_back(std::make_unique<SeparablePatch>(whole, meridian, parallel, scale));
   }
 }
@@ -48,8 +51,8 @@ bool in_superellipsoid(const SuperellipsoidShape& s, const Point& x) {
 }
 
 bool in_supertoroid(const SupertoroidShape& s, const Point& x) {
-  return in_superellipse((superellipse_norm(x.x(), x.y(), s.e2) - s.major) / s.semi_axes[0], x.z() / s.semi_axes[1],
-                         s.e1);
+  return in_superellipse((superellipse_norm(x.x(), x.y(), s.e2) - s.major) / s.semi_axes[0],
+                         x.z() / s.semi_axes[1], s.e1);
 }
 
 }  // namespace
@@ -60,8 +63,10 @@ bool is_outside(const PlacedShape& placed, const Point& x) {
     const Point y = at.rotation.conjugate() * (x - at.position);
     return Point(y.x() / at.scale[0], y.y() / at.scale[1], y.z() / at.scale[2]);
   };
-  if (const auto* s = std::get_if<SuperellipsoidShape>(&placed.shape())) return !in_superellipsoid(*s, own());
-  if (const auto* s = std::get_if<SupertoroidShape>(&placed.shape())) return !in_supertoroid(*s, own());
+  if (const auto* s = std::get_if<SuperellipsoidShape>(&placed.shape()))
+    return !in_superellipsoid(*s, own());
+  if (const auto* s = std::get_if<SupertoroidShape>(&placed.shape()))
+    return !in_supertoroid(*s, own());
   return false;
 }
 
@@ -78,13 +83,14 @@ Kernel scaled_revolution_kernel(const Shape& shape, const Meridian& pieces, cons
     }
   }
   const Kernel plain = revolution_kernel(shape, pieces);
-  const BoundingBox extent = {plain->box.lower.cwiseProduct(scale), plain->box.upper.cwiseProduct(scale)};
+  const BoundingBox extent = {plain->box.lower.cwiseProduct(scale),
+                              plain->box.upper.cwiseProduct(scale)};
   const auto inside = [shape, scale](const Point& x) {
     const Point y = x.cwiseQuotient(scale);
     return in_meridian(shape, std::hypot(y.x(), y.y()), y.z());
   };
-  return std::make_unique<SearchedSolid>(std::move(patches), inside, std::array<bool, 3>{!round, !round, false}, round,
-                                         extent, 0.0);
+  return std::make_unique<SearchedSolid>(
+      std::move(patches), inside, std::array<bool, 3>{!round, !round, false}, round, extent, 0.0);
 }
 
 Kernel scaled_box_kernel(const BoxShape& shape, const Point& scale) {
@@ -99,14 +105,14 @@ Kernel scaled_box_kernel(const BoxShape& shape, const Point& scale) {
     const auto [i, j, k] = axes;
     // The face x_j = outer_j over the core's x_i and x_k, and the edge along x_k.
     if (core[i] > 0 && core[k] > 0) {
-      patches.push_back(
-          std::make_unique<SeparablePatch>(whole, up, across, Point(core[i], outer[j], core[k]), Point::Zero(), axes));
+      patches.push_back(std::make_unique<SeparablePatch>(
+          whole, up, across, Point(core[i], outer[j], core[k]), Point::Zero(), axes));
     }
     for (bool exchanged : both_halves) {
       if (core[k] == 0) break;
       const auto arc = MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), 1, exchanged);
-      patches.push_back(std::make_unique<SeparablePatch>(whole, up, arc, Point(reach[i], reach[j], core[k]),
-                                                         Point(core[i], core[j], 0), axes));
+      patches.push_back(std::make_unique<SeparablePatch>(
+          whole, up, arc, Point(reach[i], reach[j], core[k]), Point(core[i], core[j], 0), axes));
     }
   }
   for (bool one : both_halves) {
@@ -119,7 +125,8 @@ Kernel scaled_box_kernel(const BoxShape& shape, const Point& scale) {
   const auto inside = [core, reach](const Point& x) {
     return (x.cwiseAbs() - core).cwiseMax(0.0).cwiseQuotient(reach).squaredNorm() <= 1;
   };
-  return std::make_unique<SearchedSolid>(std::move(patches), inside, std::array<bool, 3>{true, true, true}, false,
+  return std::make_unique<SearchedSolid>(std::move(patches), inside,
+                                         std::array<bool, 3>{true, true, true}, false,
                                          BoundingBox{-outer, outer}, outer.minCoeff());
 }
 
@@ -132,7 +139,8 @@ Kernel superellipsoid_kernel(const SuperellipsoidShape& s, const Point& scale) {
   const auto inside = [a, e1 = s.e1, e2 = s.e2](const Point& x) {
     return in_superellipse(superellipse_norm(x.x() / a.x(), x.y() / a.y(), e2), x.z() / a.z(), e1);
   };
-  return std::make_unique<SearchedSolid>(std::move(patches), inside, std::array<bool, 3>{true, true, true}, false,
+  return std::make_unique<SearchedSolid>(std::move(patches), inside,
+                                         std::array<bool, 3>{true, true, true}, false,
                                          BoundingBox{-a, a}, a.minCoeff());
 }
 
@@ -142,14 +150,19 @@ Kernel supertoroid_kernel(const SupertoroidShape& s, const Point& scale) {
   for (double side : {1.0, -1.0}) {
     for (bool exchanged : both_halves) {
       const Vector2 tube(side * s.semi_axes[0], s.semi_axes[1]);
-      sweep(patches, MonotoneCurve::arc(Vector2(s.major, 0), tube, s.e1, exchanged), s.e2, scale, round);
+      sweep(patches, MonotoneCurve::arc(Vector2(s.major, 0), tube, s.e1, exchanged), s.e2, scale,
+            round);
     }
   }
-  const auto inside = [s, scale](const Point& x) { return in_supertoroid(s, x.cwiseQuotient(scale)); };
+  const auto inside = [s, scale](const Point& x) {
+    return in_supertoroid(s, x.cwiseQuotient(scale));
+  };
   const Point outer(scale.x() * (s.major + s.semi_axes[0]), scale.y() * (s.major + s.semi_axes[0]),
                     scale.z() * s.semi_axes[1]);
-  const double feature = std::min({scale.x() * s.semi_axes[0], scale.y() * s.semi_axes[0], outer.z()});
-  return std::make_unique<SearchedSolid>(std::move(patches), inside, std::array<bool, 3>{!round, !round, true}, round,
+  const double feature =
+      std::min({scale.x() * s.semi_axes[0], scale.y() * s.semi_axes[0], outer.z()});
+  return std::make_unique<SearchedSolid>(std::move(patches), inside,
+                                         std::array<bool, 3>{!round, !round, true}, round,
                                          BoundingBox{-outer, outer}, feature);
 }
 

@@ -9,7 +9,8 @@ namespace {
 
 class SplineKernel final : public ShapeKernel {
  public:
-  SplineKernel(std::vector<std::unique_ptr<Patch>> patches, double extent) : search_(std::move(patches), extent) {
+  SplineKernel(std::vector<std::unique_ptr<Patch>> patches, double extent)
+      : search_(std::move(patches), extent) {
     const Range3& b = search_.box();
     for (int k = 0; k < 3; ++k) {
       box.lower[k] = b.axis[static_cast<std::size_t>(k)].lower;
@@ -26,8 +27,9 @@ class SplineKernel final : public ShapeKernel {
   }
 
  private:
-  /// 1 where x is outside. On a crease the sum of the adjacent normals decides (J. Baerentzen and H. Aanaes,
-  /// Signed distance computation using the angle weighted pseudonormal; on an edge both angles are equal).
+  /// 1 where x is outside. On a crease the sum of the adjacent normals decides (J. Baerentzen and
+  /// H. Aanaes, Signed distance computation using the angle weighted pseudonormal; on an edge both
+  /// angles are equal).
   [[nodiscard]] double side(const Point& x, const FootResult& found) const {
     const bool pressed = found.best.pressed[0] || found.best.pressed[1];
     if (pressed && found.neighbours.empty()) return 1;
@@ -45,8 +47,10 @@ Expected<Kernel> spline_kernel(const Surface& surface, const Point& scale) {
   auto patches = bezier_patches(surface, scale);
   if (!patches) return std::unexpected(patches.error());
   const Points& net = surface.control_points();
-  const Eigen::Vector3d extent = (net.colwise().maxCoeff() - net.colwise().minCoeff()).transpose().cwiseProduct(scale);
-  if (!(extent.norm() > 0)) return input_error("all control points are the same", "surface", "use a surface");
+  const Eigen::Vector3d extent =
+      (net.colwise().maxCoeff() - net.colwise().minCoeff()).transpose().cwiseProduct(scale);
+  if (!(extent.norm() > 0))
+    return input_error("all control points are the same", "surface", "use a surface");
   return std::make_unique<SplineKernel>(std::move(*patches), 0.5 * extent.norm());
 }
 

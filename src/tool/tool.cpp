@@ -18,7 +18,8 @@ Expected<Tool> validated(const Tool& tool) {
     return input_error(fmt::format("{} is not a range", tool.range), "range", "use a number > 0");
   }
   if (!std::isfinite(tool.friction) || tool.friction < 0) {
-    return input_error(fmt::format("{} is not a friction coefficient", tool.friction), "friction", "use a number >= 0");
+    return input_error(fmt::format("{} is not a friction coefficient", tool.friction), "friction",
+                       "use a number >= 0");
   }
   if (!(tool.plasticity >= 0 && tool.plasticity <= 1)) {
     return input_error(fmt::format("{} is not a plasticity", tool.plasticity), "plasticity",
@@ -41,7 +42,8 @@ Expected<Surface> flipped(const Surface& s) {
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < n; ++j) {
       const int from = (m - 1 - i) * n + j;
-      points.row(i * n + j) = s.control_points().row(from).cwiseProduct(Eigen::RowVector3d(-1, 1, 1));
+      points.row(i * n + j) =
+          s.control_points().row(from).cwiseProduct(Eigen::RowVector3d(-1, 1, 1));
       if (s.rational()) weights.push_back(s.weights()[static_cast<std::size_t>(from)]);
     }
   }
@@ -51,10 +53,12 @@ Expected<Surface> flipped(const Surface& s) {
 }  // namespace
 
 Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, const Point& normal) {
-  // All shapes but surfaces are symmetric in their own x: reflected in space and in x they are merely rotated.
+  // All shapes but surfaces are symmetric in their own x: reflected in space and in x they are
+  // merely rotated.
   const Placement& at = tool.shape.placement();
   const Eigen::Matrix3d reflection = Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
-  const Eigen::Matrix3d turn = reflection * at.rotation.toRotationMatrix() * Eigen::Vector3d(-1, 1, 1).asDiagonal();
+  const Eigen::Matrix3d turn =
+      reflection * at.rotation.toRotationMatrix() * Eigen::Vector3d(-1, 1, 1).asDiagonal();
   Placement image = at;
   image.rotation = Eigen::Quaterniond(turn).normalized();
   image.position = at.position - 2 * normal.dot(at.position - point) * normal;
@@ -70,8 +74,10 @@ Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, con
   const double size = std::isfinite(tool.shape.size()) ? tool.shape.size() : 1;
   bool same = true;
   for (int k = 0; k < 40 && same; ++k) {
-    const double t = 2.399963 * k, z = (k + 0.5) / 20 - 1, r = std::sqrt(1 - z * z);  // a spiral around the tool
-    const Point x = at.position + (1 + 0.1 * (k % 7)) * size * Point(r * std::cos(t), r * std::sin(t), z);
+    const double t = 2.399963 * k, z = (k + 0.5) / 20 - 1,
+                 r = std::sqrt(1 - z * z);  // a spiral around the tool
+    const Point x =
+        at.position + (1 + 0.1 * (k % 7)) * size * Point(r * std::cos(t), r * std::sin(t), z);
     same = std::abs(tool.shape.nearest(x).distance - placed->nearest(x).distance) <= 1e-9 * size;
   }
   if (same) return std::nullopt;
@@ -83,8 +89,10 @@ Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, con
 ModelTool::ModelTool(const Tool& tool, const Point& centre, double length)
     : tool_(tool), length_(length), range_(tool.range / length) {
   const Placement& at = tool.shape.placement();
-  // Finite minus finite: the placement stays valid unless it overflows, in which case the shape is out of reach anyway.
-  if (auto moved = tool.shape.moved(at.rotation, at.position - centre)) tool_.shape = std::move(*moved);
+  // Finite minus finite: the placement stays valid unless it overflows, in which case the shape is
+  // out of reach anyway.
+  if (auto moved = tool.shape.moved(at.rotation, at.position - centre))
+    tool_.shape = std::move(*moved);
   size_ = std::min(tool.shape.size() / length, 1.0);
   const BoundingBox box = tool_.shape.bounding_box();
   const double margin = tool.collides() ? 0 : range_;
@@ -103,7 +111,9 @@ void ModelTool::set_offset(double offset) {
   offset_ = offset;
 }
 
-double ModelTool::distance(const Point& x) const { return tool_.shape.nearest(Point(length_ * x)).distance / length_; }
+double ModelTool::distance(const Point& x) const {
+  return tool_.shape.nearest(Point(length_ * x)).distance / length_;
+}
 
 bool ModelTool::may_reach(const Point& lower, const Point& upper) const {
   if (!overlaps(lower, upper)) return false;
@@ -122,7 +132,8 @@ ToolAction ModelTool::action(const Point& x) const {
     action.clear = beyond.cwiseMax(0).norm();
     return action;
   }
-  if (tool_.collides() && offset_ == 0 && detail::is_outside(tool_.shape, length_ * x)) return action;
+  if (tool_.collides() && offset_ == 0 && detail::is_outside(tool_.shape, length_ * x))
+    return action;
   const Nearest near = tool_.shape.nearest(Point(length_ * x));
   const double phi = near.distance / length_ - offset_, k = tool_.stiffness;
   double slope = 0, curvature = 0;  // ψ'(φ) and ψ''(φ)
@@ -150,7 +161,8 @@ ToolAction ModelTool::action(const Point& x) const {
   action.active = true;
   action.normal = near.normal;
   action.force = -slope * near.normal;
-  action.hessian = curvature * near.normal * near.normal.transpose() + slope * length_ * near.hessian;
+  action.hessian =
+      curvature * near.normal * near.normal.transpose() + slope * length_ * near.hessian;
   return action;
 }
 

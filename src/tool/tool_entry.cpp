@@ -14,7 +14,8 @@ constexpr std::size_t refined = 12;
 
 }  // namespace
 
-/// The search for the deepest penetration of a tool: samples, then a compass search from the deepest ones.
+/// The search for the deepest penetration of a tool: samples, then a compass search from the
+/// deepest ones.
 template <int D>
 class ToolLoad<D>::EntrySearch {
  public:
@@ -45,7 +46,8 @@ class ToolLoad<D>::EntrySearch {
 
   [[nodiscard]] double depth_at(const Element& element, const std::array<double, D>& u) const {
     std::array<std::array<double, max_degree + 1>, D> n;
-    for (std::size_t d = 0; d < D; ++d) basis_values(load_.knots_[d], span(element, d), u[d], n[d].data());
+    for (std::size_t d = 0; d < D; ++d)
+      basis_values(load_.knots_[d], span(element, d), u[d], n[d].data());
     double sum[3] = {0, 0, 0}, denominator = 0;
     std::size_t at = 0;
     load_.for_each_control_point(element, [&](int row) {
@@ -81,20 +83,24 @@ class ToolLoad<D>::EntrySearch {
     std::vector<double> progress;   // see `progress_along`
   };
 
-  /// The Gauss points of a span, or as many as this tool would have if it were alone: a smaller one may need more.
+  /// The Gauss points of a span, or as many as this tool would have if it were alone: a smaller one
+  /// may need more.
   [[nodiscard]] int points_for_tool(const Element& element, std::size_t d) const {
     const int all = element.end[d] - element.begin[d], per_piece = load_.knots_[d].degree() + 1;
     const double length = load_.lengths_[d][static_cast<std::size_t>(element.span[d])];
-    return static_cast<int>(std::min<double>(all, per_piece * pieces_of_span(length, per_piece, tool_.size())));
+    return static_cast<int>(
+        std::min<double>(all, per_piece * pieces_of_span(length, per_piece, tool_.size())));
   }
 
   void tabulate(const Element& element, std::size_t d) {
     const KnotVector& knots = load_.knots_[d];
-    const int at = span(element, d), count = samples_per_gauss_point[D - 1] * points_for_tool(element, d);
+    const int at = span(element, d),
+              count = samples_per_gauss_point[D - 1] * points_for_tool(element, d);
     const double begin = knots[at], end = knots[at + 1];
     Line& line = lines_[d];
     line.degree = knots.degree();
-    const auto width = static_cast<std::size_t>(line.degree + 1), size = static_cast<std::size_t>(count + 1);
+    const auto width = static_cast<std::size_t>(line.degree + 1),
+               size = static_cast<std::size_t>(count + 1);
     line.u.resize(size);
     line.values.resize(size * width);
     line.progress.assign(size, 0.0);
@@ -119,8 +125,8 @@ class ToolLoad<D>::EntrySearch {
     return 0.5 * (upper - lower).norm() - tool_.distance(0.5 * (lower + upper)) < least_depth();
   }
 
-  /// Visits the samples of directions d … D − 1, for which level d holds the control points. The last direction leaps
-  /// over samples that are too near to a shallow one to be deep.
+  /// Visits the samples of directions d … D − 1, for which level d holds the control points. The
+  /// last direction leaps over samples that are too near to a shallow one to be deep.
   void visit(std::size_t d, Candidate& c) {
     if (leaps_ && load_.in_hull_ && d > 0 && all_shallow(d)) return;
     const Line& line = lines_[d];
@@ -143,7 +149,8 @@ class ToolLoad<D>::EntrySearch {
     }
   }
 
-  /// A sample on the line of control points, where the functions of the last direction have values n.
+  /// A sample on the line of control points, where the functions of the last direction have values
+  /// n.
   void look(const double* n, Candidate& c) {
     ++visited_;
     const std::ptrdiff_t functions = levels_.functions;
@@ -166,7 +173,8 @@ class ToolLoad<D>::EntrySearch {
     levels_.gather(element.first, x_.data() + 3 * static_cast<std::ptrdiff_t>(first_));
     levels_.box(lower, upper);
     if (load_.in_hull_ && !tool_.may_reach(lower, upper)) return;
-    // Between samples the shape may penetrate further, but by no more than the extent of its control points.
+    // Between samples the shape may penetrate further, but by no more than the extent of its
+    // control points.
     reach_ = (upper - lower).norm();
     levels_.multiply_by_weights(element.first);
     for (std::size_t d = 0; d < D; ++d) tabulate(element, d);
@@ -176,7 +184,8 @@ class ToolLoad<D>::EntrySearch {
 
   void keep(const Candidate& c) {
     if (candidates_.size() == refined) candidates_.pop_back();
-    candidates_.insert(std::ranges::upper_bound(candidates_, c.depth, std::greater{}, &Candidate::depth), c);
+    candidates_.insert(
+        std::ranges::upper_bound(candidates_, c.depth, std::greater{}, &Candidate::depth), c);
   }
 
   /// The depth found by a compass search within the candidate's element.
@@ -184,7 +193,8 @@ class ToolLoad<D>::EntrySearch {
     in_cut_ = masked_ && load_.visibility(c.element) == VisibleMask::cut;
     for (double h = 1; h > 1e-6; h /= 2) {
       for (std::size_t d = 0; d < D; ++d) {
-        const double begin = load_.knots_[d][span(c.element, d)], end = load_.knots_[d][span(c.element, d) + 1];
+        const double begin = load_.knots_[d][span(c.element, d)],
+                     end = load_.knots_[d][span(c.element, d) + 1];
         for (const double sign : {-1.0, 1.0}) {
           std::array<double, D> u = c.u;
           u[d] = std::clamp(u[d] + sign * h * c.spacing[d], begin, end);

@@ -18,8 +18,9 @@
 namespace knead {
 
 const detail::ElementKernels& detail::element_kernels(InstructionSet set) {
-  return avx2_element_kernels != nullptr && set >= InstructionSet::avx2 ? *avx2_element_kernels
-                                                                        : *vector128_element_kernels;
+  return avx2_element_kernels != nullptr && set >= InstructionSet::avx2
+             ? *avx2_element_kernels
+             : *vector128_element_kernels;
 }
 
 namespace {
@@ -43,7 +44,9 @@ Expected<std::vector<double>> span_lengths(const Spline<D>& spline, std::size_t 
   const Points& tangent = grid->at(first);
   std::size_t inner = 1, outer = 1;
   for (std::size_t d = 0; d < D; ++d)
-    (d < direction ? outer : d > direction ? inner : outer) *= d == direction ? 1 : q[d].weights.size();
+    (d < direction   ? outer
+     : d > direction ? inner
+                     : outer) *= d == direction ? 1 : q[d].weights.size();
   const std::size_t size = q[direction].weights.size();
   const auto per_span = static_cast<std::size_t>(spline.knots()[direction].degree() + 1);
   std::vector<double> result(size / per_span, 0.0);
@@ -52,8 +55,8 @@ Expected<std::vector<double>> span_lengths(const Spline<D>& spline, std::size_t 
       for (std::size_t i = 0; i < inner; ++i) {
         double length = 0;
         for (std::size_t at = s * per_span; at < (s + 1) * per_span; ++at) {
-          length +=
-              q[direction].weights[at] * tangent.row(static_cast<Eigen::Index>((o * size + at) * inner + i)).norm();
+          length += q[direction].weights[at] *
+                    tangent.row(static_cast<Eigen::Index>((o * size + at) * inner + i)).norm();
         }
         result[s] = std::max(result[s], length);
       }
@@ -63,8 +66,9 @@ Expected<std::vector<double>> span_lengths(const Spline<D>& spline, std::size_t 
 }
 
 std::unexpected<Error> too_small(double detail) {
-  return input_error(fmt::format("a tool of size {:.3g} is too small for this surface", detail), "tool",
-                     "use a larger tool, or sculpt a smaller surface", {ErrorCode::tool_too_small, {{"size", detail}}});
+  return input_error(fmt::format("a tool of size {:.3g} is too small for this surface", detail),
+                     "tool", "use a larger tool, or sculpt a smaller surface",
+                     {ErrorCode::tool_too_small, {{"size", detail}}});
 }
 
 /// Pieces per span, so that Gauss points lie closer than detail / points_per_detail.
@@ -84,20 +88,23 @@ Expected<std::vector<int>> pieces(const std::vector<double>& lengths, int per_sp
 
 double pieces_of_span(double length, int per_piece, double detail) {
   constexpr double points_per_detail = 6;
-  // Rounded up with a little slack, so that a length that is a whole multiple up to rounding counts as whole.
+  // Rounded up with a little slack, so that a length that is a whole multiple up to rounding counts
+  // as whole.
   return std::max(1.0, std::ceil(length * points_per_detail / (detail * per_piece) * (1 - 1e-6)));
 }
 
 std::vector<double> progress_along(const BasisTable& basis) {
   std::vector<double> result(static_cast<std::size_t>(basis.size()), 0.0);
   for (int k = 0; k < basis.size(); ++k) {
-    for (int r = 1; r <= basis.degree; ++r) result[static_cast<std::size_t>(k)] += r * basis.row(k, 0)[r];
+    for (int r = 1; r <= basis.degree; ++r)
+      result[static_cast<std::size_t>(k)] += r * basis.row(k, 0)[r];
   }
   return result;
 }
 
 template <int D>
-Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainScaling<D>& scaling, double detail) {
+Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainScaling<D>& scaling,
+                                          double detail) {
   ToolLoad load;
   load.net_ = spline.net();
   load.detail_ = detail / scaling.length;
@@ -117,9 +124,10 @@ Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainS
     load.knots_.push_back(spline.knots()[d]);
   }
   if (points > max_points && !std::isfinite(detail)) {
-    return input_error(fmt::format("forces on this net would be integrated over {:.0f} points, more than {:.0f}",
-                                   points, static_cast<double>(max_points)),
-                       "net", "use a coarser net, or a lower degree");
+    return input_error(
+        fmt::format("forces on this net would be integrated over {:.0f} points, more than {:.0f}",
+                    points, static_cast<double>(max_points)),
+        "net", "use a coarser net, or a lower degree");
   }
   if (points > max_points) return too_small(detail);
   load.divide(counts);
@@ -152,7 +160,8 @@ std::optional<ToolLoad<D>> ToolLoad<D>::split() {
   bool coarsest = true;
   for (std::size_t d = 0; d < D; ++d) {
     const int per_piece = knots_[d].degree() + 1;
-    coarsest = coarsest && quadrature_[d].basis.size() == per_piece * static_cast<int>(lengths_[d].size());
+    coarsest =
+        coarsest && quadrature_[d].basis.size() == per_piece * static_cast<int>(lengths_[d].size());
     for (double length : lengths_[d])
       counts[d].push_back(static_cast<int>(pieces_of_span(length, per_piece, 2 * detail_)));
   }
@@ -178,7 +187,8 @@ void ToolLoad<D>::transpose() {
     t.values.resize(static_cast<std::size_t>((basis.degree + 1) * t.stride));
     for (int k = 0; k < count; ++k) {
       const double* n = basis.row(starts[s] + k, 0);
-      for (int j = 0; j <= basis.degree; ++j) t.values[static_cast<std::size_t>(j * t.stride + k)] = n[j];
+      for (int j = 0; j <= basis.degree; ++j)
+        t.values[static_cast<std::size_t>(j * t.stride + k)] = n[j];
     }
     transposed_.push_back(std::move(t));
   }
@@ -209,8 +219,10 @@ void ToolLoad<D>::show(std::shared_ptr<const VisibleRegion> region) {
     for (const VisibleMask::Part& part : mask->parts()) {
       for (std::size_t d = 0; d < 2; ++d) {
         const KnotVector& knots = knots_[d];
-        const int p = knots.degree(), span = quadrature_[d].basis.first[static_cast<std::size_t>(part.cell[d])] + p;
-        basis_values(knots, span, knots.domain().lower + part.middle[d] * knots.domain().length(), n.data());
+        const int p = knots.degree(),
+                  span = quadrature_[d].basis.first[static_cast<std::size_t>(part.cell[d])] + p;
+        basis_values(knots, span, knots.domain().lower + part.middle[d] * knots.domain().length(),
+                     n.data());
         part_values_.insert(part_values_.end(), n.begin(), n.begin() + p + 1);
       }
     }
@@ -227,7 +239,8 @@ long long ToolLoad<D>::points() const {
 }
 
 template <int D>
-void ToolLoad<D>::apply_hessian(std::span<const ContactPoint> contacts, int first, const Points& v, Points& out) const {
+void ToolLoad<D>::apply_hessian(std::span<const ContactPoint> contacts, int first, const Points& v,
+                                Points& out) const {
   FieldAtPoints field(*this, v, first);
   ForcesOfPoints forces(*this, first, out);
   for (const ContactPoint& contact : contacts) {
@@ -249,7 +262,8 @@ void ToolLoad<D>::apply_hessian(std::span<const ContactPoint> contacts, int firs
 }
 
 template <int D>
-void ToolLoad<D>::each_hessian_block(std::span<const ContactPoint> contacts, int first, const AddBlock& add) const {
+void ToolLoad<D>::each_hessian_block(std::span<const ContactPoint> contacts, int first,
+                                     const AddBlock& add) const {
   std::vector<int> rows;
   std::vector<double> basis;
   ElementHessian sum;
@@ -270,7 +284,8 @@ void ToolLoad<D>::each_hessian_block(std::span<const ContactPoint> contacts, int
 }
 
 template <int D>
-void ToolLoad<D>::mark(std::span<const ContactPoint> contacts, int first, std::vector<char>& marks) const {
+void ToolLoad<D>::mark(std::span<const ContactPoint> contacts, int first,
+                       std::vector<char>& marks) const {
   Element element, last;
   last.first.fill(-1);
   for (const ContactPoint& contact : contacts) {
@@ -278,7 +293,8 @@ void ToolLoad<D>::mark(std::span<const ContactPoint> contacts, int first, std::v
       element.first[d] = quadrature_[d].basis.first[static_cast<std::size_t>(contact.at[d])];
     }
     if (element.first == last.first) continue;
-    for_each_control_point(element, [&](int row) { marks[static_cast<std::size_t>(first + row)] = 1; });
+    for_each_control_point(element,
+                           [&](int row) { marks[static_cast<std::size_t>(first + row)] = 1; });
     last.first = element.first;
   }
 }
@@ -303,7 +319,8 @@ void ToolLoad<D>::widen(int first, std::vector<char>& marks) const {
 
 template <int D>
 std::vector<int> ToolLoad<D>::elements_of(int first, const std::vector<char>& marks) const {
-  // Only elements between the first and the last marked control point of every direction can be meant.
+  // Only elements between the first and the last marked control point of every direction can be
+  // meant.
   std::array<int, D> lower = net_, upper{};
   for (int i = 0; i < control_points(); ++i) {
     if (!marks[static_cast<std::size_t>(first + i)]) continue;
@@ -327,7 +344,8 @@ std::vector<int> ToolLoad<D>::elements_of(int first, const std::vector<char>& ma
   std::vector<int> result;
   for_each_element(begin, end, [&](const Element& element) {
     bool all = true;
-    for_each_control_point(element, [&](int row) { all = all && marks[static_cast<std::size_t>(first + row)] != 0; });
+    for_each_control_point(
+        element, [&](int row) { all = all && marks[static_cast<std::size_t>(first + row)] != 0; });
     if (!all) return;
     result.push_back(number(element));
   });
@@ -335,13 +353,14 @@ std::vector<int> ToolLoad<D>::elements_of(int first, const std::vector<char>& ma
 }
 
 template <int D>
-FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const ModelTool> tools, double slip,
-                                     ToolPass pass) const {
+FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const ModelTool> tools,
+                                     double slip, ToolPass pass) const {
   FrictionAnchors result;
   result.slip = slip;
   std::vector<const ModelTool*> rubbing;
   for (const ModelTool& tool : tools) {
-    if (tool.tool().collides() && tool.tool().friction > 0 && takes_in_pass(tool, pass)) rubbing.push_back(&tool);
+    if (tool.tool().collides() && tool.tool().friction > 0 && takes_in_pass(tool, pass))
+      rubbing.push_back(&tool);
   }
   if (rubbing.empty()) return result;
   std::size_t elements = 1;
@@ -363,28 +382,8 @@ FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const
   return result;
 }
 
-template <int D>
-Expected<ToolGrids<D>> ToolGrids<D>::create(const Spline<D>& spline, const DomainScaling<D>& scaling, double detail) {
-  auto finest = ToolLoad<D>::create(spline, scaling, detail);
-  if (!finest) return std::unexpected(finest.error());
-  ToolGrids result;
-  for (std::optional<ToolLoad<D>> next = std::move(*finest); next;) {
-    result.grids_.push_back(std::move(*next));
-    next = result.grids_.back().split();
-  }
-  return result;
-}
-
-template <int D>
-void ToolGrids<D>::show(const std::shared_ptr<const VisibleRegion>& region) {
-  for (ToolLoad<D>& grid : grids_) grid.show(region);
-}
-
 template class ToolLoad<1>;
 template class ToolLoad<2>;
 template class ToolLoad<3>;
-template class ToolGrids<1>;
-template class ToolGrids<2>;
-template class ToolGrids<3>;
 
 }  // namespace knead

@@ -4,7 +4,8 @@
 
 namespace knead {
 
-/// The Gauss points of one span per direction, the first control points that affect it, and the span's number.
+/// The Gauss points of one span per direction, the first control points that affect it, and the
+/// span's number.
 template <int D>
 struct ToolLoad<D>::Element {
   std::array<int, D> begin, end, first, span;
@@ -48,7 +49,8 @@ typename ToolLoad<D>::Element ToolLoad<D>::element(int number) const {
 template <int D>
 int ToolLoad<D>::number(const Element& element) const {
   int result = 0;
-  for (std::size_t d = 0; d < D; ++d) result = result * static_cast<int>(starts_[d].size()) + element.span[d];
+  for (std::size_t d = 0; d < D; ++d)
+    result = result * static_cast<int>(starts_[d].size()) + element.span[d];
   return result;
 }
 
@@ -56,7 +58,8 @@ int ToolLoad<D>::number(const Element& element) const {
 template <int D>
 std::ptrdiff_t ToolLoad<D>::index(const Element& element, const std::array<int, 3>& at) {
   std::ptrdiff_t result = 0;
-  for (std::size_t d = 0; d < D; ++d) result = result * (element.end[d] - element.begin[d]) + at[d] - element.begin[d];
+  for (std::size_t d = 0; d < D; ++d)
+    result = result * (element.end[d] - element.begin[d]) + at[d] - element.begin[d];
   return result;
 }
 
@@ -78,8 +81,8 @@ void ToolLoad<D>::for_each_element(const F& f) const {
 /// The same for the spans from `begin` to before `end` in every direction.
 template <int D>
 template <class F>
-void ToolLoad<D>::for_each_element(const std::array<std::size_t, D>& begin, const std::array<std::size_t, D>& end,
-                                   const F& f) const {
+void ToolLoad<D>::for_each_element(const std::array<std::size_t, D>& begin,
+                                   const std::array<std::size_t, D>& end, const F& f) const {
   for (std::size_t d = 0; d < D; ++d) {
     if (begin[d] >= end[d]) return;
   }
@@ -112,7 +115,8 @@ void ToolLoad<D>::for_each_control_point(const Element& element, const F& f) con
   direction(direction, 0, 0);
 }
 
-/// f(its first control point) for every line, along the last direction, of the control points of an element.
+/// f(its first control point) for every line, along the last direction, of the control points of an
+/// element.
 template <int D>
 template <class F>
 void ToolLoad<D>::for_each_line(const std::array<int, D>& first, const F& f) const {
@@ -124,7 +128,8 @@ void ToolLoad<D>::for_each_line(const std::array<int, D>& first, const F& f) con
   direction(direction, 0, 0);
 }
 
-/// The values of the basis functions of direction d at one Gauss point, or at the visible part of its cell.
+/// The values of the basis functions of direction d at one Gauss point, or at the visible part of
+/// its cell.
 template <int D>
 const double* ToolLoad<D>::values(const std::array<int, 3>& at, int part, std::size_t d) const {
   if (part < 0) return quadrature_[d].basis.row(at[d], 0);
@@ -136,8 +141,8 @@ const double* ToolLoad<D>::values(const std::array<int, 3>& at, int part, std::s
   return part_values_.data() + static_cast<std::size_t>(part) * width + before;
 }
 
-/// f(row of the control point, value of its basis function times its weight) at one Gauss point, or at the visible part
-/// of its cell.
+/// f(row of the control point, value of its basis function times its weight) at one Gauss point, or
+/// at the visible part of its cell.
 template <int D>
 template <class F>
 void ToolLoad<D>::for_each_function(const std::array<int, 3>& at, int part, const F& f) const {
@@ -147,7 +152,9 @@ void ToolLoad<D>::for_each_function(const std::array<int, 3>& at, int part, cons
     const int base = row * net_[d] + table.first[static_cast<std::size_t>(at[d])];
     for (int r = 0; r <= table.degree; ++r) {
       if (d + 1 == D) {
-        f(base + r, weights_.empty() ? product * n[r] : product * n[r] * weights_[static_cast<std::size_t>(base + r)]);
+        f(base + r, weights_.empty()
+                        ? product * n[r]
+                        : product * n[r] * weights_[static_cast<std::size_t>(base + r)]);
       } else {
         self(self, d + 1, base + r, product * n[r]);
       }
@@ -168,8 +175,8 @@ int ToolLoad<D>::visibility(const Element& element) const {
 
 /// What stands for a Gauss point where edges cut its cell: a visible part of that.
 template <int D>
-typename ToolLoad<D>::Sample ToolLoad<D>::visible_part(const Sample& whole, int part, const Points& x,
-                                                       int first) const {
+typename ToolLoad<D>::Sample ToolLoad<D>::visible_part(const Sample& whole, int part,
+                                                       const Points& x, int first) const {
   Sample s = whole;
   s.part = part;
   s.weight *= mask_->parts()[static_cast<std::size_t>(part)].share;
@@ -184,11 +191,12 @@ typename ToolLoad<D>::Sample ToolLoad<D>::visible_part(const Sample& whole, int 
   return s;
 }
 
-/// f(sample) for what stands for a Gauss point of an element that edges cut: the point, the visible part of its cell,
-/// or nothing.
+/// f(sample) for what stands for a Gauss point of an element that edges cut: the point, the visible
+/// part of its cell, or nothing.
 template <int D>
 template <class F>
-void ToolLoad<D>::for_what_is_seen(const Sample& whole, const Points& x, int first, const F& f) const {
+void ToolLoad<D>::for_what_is_seen(const Sample& whole, const Points& x, int first,
+                                   const F& f) const {
   const int state = mask_->state(whole.at[0], whole.at[1]);
   if (state == VisibleMask::full) f(whole);
   if (state >= 0) f(visible_part(whole, state, x, first));

@@ -13,8 +13,8 @@ namespace knead {
 
 namespace detail {
 
-/// Where a tool is known not to act: around a place that it was asked about. Points of rational splines are not leapt
-/// over, and where friction acts none are.
+/// Where a tool is known not to act: around a place that it was asked about. Points of rational
+/// splines are not leapt over, and where friction acts none are.
 struct ClearBall {
   Point centre = Point::Zero();
   double radius = -1;
@@ -41,14 +41,15 @@ struct ClearBall {
 
 namespace {
 
-/// Potential, slope / displacement and curvature of friction that grips with force `grip` after `slip`: quadratic up to
-/// `slip`, linear beyond.
+/// Potential, slope / displacement and curvature of friction that grips with force `grip` after
+/// `slip`: quadratic up to `slip`, linear beyond.
 struct Grip {
   double potential, slope, curvature;
 };
 
 Grip grip_at(double displacement, double grip, double slip) {
-  if (displacement < slip) return {0.5 * grip / slip * displacement * displacement, grip / slip, grip / slip};
+  if (displacement < slip)
+    return {0.5 * grip / slip * displacement * displacement, grip / slip, grip / slip};
   return {grip * (displacement - 0.5 * slip), grip / displacement, 0};
 }
 
@@ -67,11 +68,13 @@ detail::ToolReach reach_of(const ModelTool& tool) {
 
 }  // namespace
 
-/// One evaluation of the potential on a patch: which elements an actor may reach, and its effect at their points.
+/// One evaluation of the potential on a patch: which elements an actor may reach, and its effect at
+/// their points.
 template <int D>
 class ToolLoad<D>::Evaluation {
  public:
-  Evaluation(const ToolLoad& load, const Points& x, int first, int patch, const Actors& actors, PotentialState& state)
+  Evaluation(const ToolLoad& load, const Points& x, int first, int patch, const Actors& actors,
+             PotentialState& state)
       : load_(load),
         x_(x),
         first_(first),
@@ -96,7 +99,8 @@ class ToolLoad<D>::Evaluation {
   }
 
   void run() {
-    if (actors_.beyond != nullptr) return run_but(actors_.beyond->elements[static_cast<std::size_t>(patch_)]);
+    if (actors_.beyond != nullptr)
+      return run_but(actors_.beyond->elements[static_cast<std::size_t>(patch_)]);
     if (actors_.watched == nullptr) return run_but({});
     const std::vector<int>& watched = actors_.watched->elements[static_cast<std::size_t>(patch_)];
     state_.contacts.reserve(state_.contacts.size() + 8 * watched.size());
@@ -111,8 +115,8 @@ class ToolLoad<D>::Evaluation {
     const auto direction = [&](auto self, std::size_t d, std::size_t row) -> void {
       const std::vector<int>& starts = load_.starts_[d];
       for (span[d] = 0; span[d] < starts.size(); ++span[d]) {
-        const std::size_t first =
-            row * static_cast<std::size_t>(load_.net_[d]) + static_cast<std::size_t>(starts[span[d]]);
+        const std::size_t first = row * static_cast<std::size_t>(load_.net_[d]) +
+                                  static_cast<std::size_t>(starts[span[d]]);
         if (d + 1 < D) {
           self(self, d + 1, first);
           continue;
@@ -130,14 +134,17 @@ class ToolLoad<D>::Evaluation {
 
   void visit(const Element& element) {
     if (Interruption::asked_for()) return;
-    const int visible = actors_.pass == ToolPass::all ? VisibleMask::full : load_.visibility(element);
+    const int visible =
+        actors_.pass == ToolPass::all ? VisibleMask::full : load_.visibility(element);
     if (visible == VisibleMask::hidden) return;
     find_near(element);
     const bool limited = actors_.limit != nullptr && may_exceed(element);
     if (near_.empty() && !limited) return;
     Point lower, upper;
     sweep_.enter(element, lower, upper);
-    if (load_.in_hull_) std::erase_if(near_, [&](std::size_t t) { return !actors_.tools[t].may_reach(lower, upper); });
+    if (load_.in_hull_)
+      std::erase_if(near_,
+                    [&](std::size_t t) { return !actors_.tools[t].may_reach(lower, upper); });
     if (near_.empty() && !limited) return;
     double longest = 0;
     for (std::size_t d = 0; d < D; ++d)
@@ -151,10 +158,10 @@ class ToolLoad<D>::Evaluation {
   struct Visitor {
     Evaluation& here;
     const Element& element;
-    double longest;                             // of its spans
-    std::ptrdiff_t gripped;                     // where its points' anchors of friction begin; −1: none
-    bool limited;                               // a point may be further away than the limit allows
-    bool cut;                                   // by the edges of the visible part
+    double longest;          // of its spans
+    std::ptrdiff_t gripped;  // where its points' anchors of friction begin; −1: none
+    bool limited;            // a point may be further away than the limit allows
+    bool cut;                // by the edges of the visible part
     bool everywhere = limited || gripped >= 0;  // friction and the limit act away from tools
 
     [[nodiscard]] bool skip(const Point& lower, const Point& upper) const {
@@ -190,8 +197,9 @@ class ToolLoad<D>::Evaluation {
 
   /// Where the anchors of friction at an element's points begin; −1: it has none.
   [[nodiscard]] std::ptrdiff_t anchors_of(const Element& element) const {
-    return actors_.friction == nullptr ? -1
-                                       : actors_.friction->elements[static_cast<std::size_t>(load_.number(element))];
+    return actors_.friction == nullptr
+               ? -1
+               : actors_.friction->elements[static_cast<std::size_t>(load_.number(element))];
   }
 
   /// f(i) for every control point of the patch that is used.
@@ -202,12 +210,13 @@ class ToolLoad<D>::Evaluation {
       return;
     }
     for (const int row : actors_.watched->rows) {
-      if (row >= first_ && row < first_ + static_cast<int>(count_)) f(static_cast<std::size_t>(row - first_));
+      if (row >= first_ && row < first_ + static_cast<int>(count_))
+        f(static_cast<std::size_t>(row - first_));
     }
   }
 
-  /// On which sides of every tool's box each control point lies; then, for the first control point of every element,
-  /// on which sides all of the element's do.
+  /// On which sides of every tool's box each control point lies; then, for the first control point
+  /// of every element, on which sides all of the element's do.
   void find_sides() {
     count_ = static_cast<std::size_t>(load_.control_points());
     sides_.resize(count_ * actors_.tools.size());
@@ -228,7 +237,8 @@ class ToolLoad<D>::Evaluation {
     }
   }
 
-  /// Whether a tool may reach the element with this first control point, by the sides of all its control points.
+  /// Whether a tool may reach the element with this first control point, by the sides of all its
+  /// control points.
   [[nodiscard]] bool is_near(std::size_t tool, std::size_t first) const {
     return !load_.in_hull_ || sides_[tool * count_ + first] == 0;
   }
@@ -239,9 +249,11 @@ class ToolLoad<D>::Evaluation {
     near_.clear();
     std::size_t first = 0;
     for (std::size_t d = 0; d < D; ++d) {
-      first = first * static_cast<std::size_t>(load_.net_[d]) + static_cast<std::size_t>(element.first[d]);
+      first = first * static_cast<std::size_t>(load_.net_[d]) +
+              static_cast<std::size_t>(element.first[d]);
     }
-    std::ranges::copy_if(taken_, std::back_inserter(near_), [&](std::size_t t) { return is_near(t, first); });
+    std::ranges::copy_if(taken_, std::back_inserter(near_),
+                         [&](std::size_t t) { return is_near(t, first); });
   }
 
   /// Whether every tool that is near acts on nothing in a box.
@@ -263,8 +275,9 @@ class ToolLoad<D>::Evaluation {
   [[nodiscard]] bool may_exceed(const Element& element) const {
     if (!load_.in_hull_) return true;
     bool result = false;
-    load_.for_each_control_point(element,
-                                 [&](int row) { result = result || displacements_[row] > actors_.limit->distance; });
+    load_.for_each_control_point(element, [&](int row) {
+      result = result || displacements_[row] > actors_.limit->distance;
+    });
     return result;
   }
 
@@ -278,7 +291,8 @@ class ToolLoad<D>::Evaluation {
         for (int c = 0; c < 3; ++c) to[c] += s.weight * s.inverse * n * force[c];
       });
     }
-    state_.contacts.push_back({patch_, s.at, s.weight * s.inverse * s.inverse, hessian, s.part, load_.grid_});
+    state_.contacts.push_back(
+        {patch_, s.at, s.weight * s.inverse * s.inverse, hessian, s.part, load_.grid_});
   }
 
   /// Tools. `longest` is the element's longest span. Returns how far around no tool acts.
@@ -305,13 +319,15 @@ class ToolLoad<D>::Evaluation {
     const int anchor = actors_.friction->index[static_cast<std::size_t>(index)];
     if (anchor < 0) return;
     const auto& a = actors_.friction->anchors[static_cast<std::size_t>(anchor)];
-    const Eigen::Matrix3d tangential = Eigen::Matrix3d::Identity() - a.normal * a.normal.transpose();
+    const Eigen::Matrix3d tangential =
+        Eigen::Matrix3d::Identity() - a.normal * a.normal.transpose();
     const Point displacement = tangential * (s.place - a.place);
     const double length = displacement.norm();
     const Grip grip = grip_at(length, a.grip, actors_.friction->slip);
     Eigen::Matrix3d hessian = grip.slope * tangential;
     if (length > 0) {
-      hessian += (grip.curvature - grip.slope) / (length * length) * displacement * displacement.transpose();
+      hessian += (grip.curvature - grip.slope) / (length * length) * displacement *
+                 displacement.transpose();
     }
     push(s, grip.potential, -grip.slope * displacement, hessian);
   }
@@ -327,7 +343,8 @@ class ToolLoad<D>::Evaluation {
       });
     }
     const Point displacement = s.place - original;
-    const double length = displacement.norm(), beyond = length - actors_.limit->distance, k = actors_.limit->stiffness;
+    const double length = displacement.norm(), beyond = length - actors_.limit->distance,
+                 k = actors_.limit->stiffness;
     if (!(beyond > 0)) return;
     state_.limited = true;
     const Point n = displacement / length;
@@ -345,17 +362,21 @@ class ToolLoad<D>::Evaluation {
   ForcesOfPoints forces_;
   std::vector<detail::ClearBall> clear_;  // by tool
   const detail::ElementKernels& kernels_ = detail::element_kernels();
-  std::optional<FieldAtPoints> original_;   // that the limit is measured from
-  std::size_t count_ = 0;                   // of control points
-  std::vector<unsigned char> sides_;        // by first control point of an element, tool after tool
-  Eigen::VectorXd displacements_;           // of the control points: their hull bounds the displacement of every point
-  std::vector<std::size_t> taken_, near_;   // the tools of this grid and pass, and those near an element
+  std::optional<FieldAtPoints> original_;  // that the limit is measured from
+  std::size_t count_ = 0;                  // of control points
+  std::vector<unsigned char> sides_;       // by first control point of an element, tool after tool
+  Eigen::VectorXd
+      displacements_;  // of the control points: their hull bounds the displacement of every point
+  std::vector<std::size_t> taken_,
+      near_;  // the tools of this grid and pass, and those near an element
   std::vector<detail::ToolReach> reaches_;  // of the tools
 };
 
 template <int D>
-void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& actors, PotentialState& state) const {
-  const bool none = std::ranges::none_of(actors.tools, [&](const auto& t) { return takes_in_pass(t, actors.pass); });
+void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& actors,
+                           PotentialState& state) const {
+  const bool none = std::ranges::none_of(
+      actors.tools, [&](const auto& t) { return takes_in_pass(t, actors.pass); });
   if (none && actors.friction == nullptr && actors.limit == nullptr) return;
   Evaluation(*this, x, first, patch, actors, state).run();
 }

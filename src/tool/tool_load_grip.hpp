@@ -34,7 +34,8 @@ struct ToolLoad<D>::Gripping {
       result.index.resize(result.index.size() + static_cast<std::size_t>(points(element)), -1);
     }
     int& at = result.index[static_cast<std::size_t>(begin + index(element, s.at))];
-    const FrictionAnchors::Anchor anchor{tool.tool().friction * action.force.norm(), action.normal, s.place};
+    const FrictionAnchors::Anchor anchor{tool.tool().friction * action.force.norm(), action.normal,
+                                         s.place};
     if (at < 0) {
       at = static_cast<int>(result.anchors.size());
       result.anchors.push_back(anchor);

@@ -10,17 +10,20 @@
 
 namespace knead {
 
-/// Numbers that stand for the control points of an element or, of some first directions, for one index: by the indices
-/// of the other directions but the last, then coordinate, then index of the last. Level d holds those of directions
-/// d … D − 1; a line is level D − 1.
+/// Numbers that stand for the control points of an element or, of some first directions, for one
+/// index: by the indices of the other directions but the last, then coordinate, then index of the
+/// last. Level d holds those of directions d … D − 1; a line is level D − 1.
 template <int D>
 class ToolLoad<D>::ElementLevels {
  public:
   /// \param coordinates 3, or 4 of homogeneous coordinates.
   ElementLevels(const ToolLoad& load, std::ptrdiff_t coordinates)
-      : functions(load.quadrature_[D - 1].basis.degree + 1), load_(load), homogeneous_(coordinates == 4) {
+      : functions(load.quadrature_[D - 1].basis.degree + 1),
+        load_(load),
+        homogeneous_(coordinates == 4) {
     sizes[D - 1] = detail::ElementKernels::rounded_up(coordinates * functions);
-    for (std::size_t d = D - 1; d-- > 0;) sizes[d] = sizes[d + 1] * (load.quadrature_[d].basis.degree + 1);
+    for (std::size_t d = D - 1; d-- > 0;)
+      sizes[d] = sizes[d + 1] * (load.quadrature_[d].basis.degree + 1);
     for (std::size_t d = 0; d < D; ++d) numbers[d].resize(static_cast<std::size_t>(sizes[d]));
   }
 
@@ -28,7 +31,8 @@ class ToolLoad<D>::ElementLevels {
   [[nodiscard]] const double* operator[](std::size_t d) const { return numbers[d].data(); }
   [[nodiscard]] std::ptrdiff_t line() const { return sizes[D - 1]; }
 
-  /// f(row of its first control point, line of level 0) for the lines of control points from `first` on.
+  /// f(row of its first control point, line of level 0) for the lines of control points from
+  /// `first` on.
   template <class F>
   void for_each_line(const std::array<int, D>& first, const F& f) {
     double* line = numbers[0].data();
@@ -50,16 +54,20 @@ class ToolLoad<D>::ElementLevels {
 
   /// The box of what was gathered.
   void box(Point& lower, Point& upper) const {
-    constexpr auto most = static_cast<std::size_t>(detail::ElementKernels::rounded_up(4 * (max_degree + 1)));
+    constexpr auto most =
+        static_cast<std::size_t>(detail::ElementKernels::rounded_up(4 * (max_degree + 1)));
     std::array<double, most> least, greatest;
     kernels_.bounds(numbers[0].data(), sizes[0] / line(), line(), least.data(), greatest.data());
     for (std::ptrdiff_t c = 0; c < 3; ++c) {
-      lower[c] = *std::min_element(least.data() + c * functions, least.data() + (c + 1) * functions);
-      upper[c] = *std::max_element(greatest.data() + c * functions, greatest.data() + (c + 1) * functions);
+      lower[c] =
+          *std::min_element(least.data() + c * functions, least.data() + (c + 1) * functions);
+      upper[c] =
+          *std::max_element(greatest.data() + c * functions, greatest.data() + (c + 1) * functions);
     }
   }
 
-  /// Multiplies what was gathered by the weights, which become the fourth coordinate, if there is one.
+  /// Multiplies what was gathered by the weights, which become the fourth coordinate, if there is
+  /// one.
   void multiply_by_weights(const std::array<int, D>& first) {
     if (load_.weights_.empty() && !homogeneous_) return;
     for_each_line(first, [&](std::ptrdiff_t row, double* line) {
@@ -75,7 +83,8 @@ class ToolLoad<D>::ElementLevels {
   void bounds(std::size_t d, Point& lower, Point& upper) const {
     lower.setConstant(std::numeric_limits<double>::infinity());
     upper = -lower;
-    for (const double* line = numbers[d].data(); line < numbers[d].data() + sizes[d]; line += this->line()) {
+    for (const double* line = numbers[d].data(); line < numbers[d].data() + sizes[d];
+         line += this->line()) {
       for (std::ptrdiff_t j = 0; j < functions; ++j) {
         const double w = homogeneous_ ? line[3 * functions + j] : 1;
         const Point p = Point(line[j], line[functions + j], line[2 * functions + j]) / w;
@@ -110,22 +119,25 @@ class ToolLoad<D>::ElementLevels {
   bool homogeneous_;
 };
 
-/// Where sums over Gauss points stand that are made one direction at a time. Points that agree in their first d indices
-/// share what directions d … D−1 of the net have been summed to: with points in the order of `Sweep`, a point costs
-/// p + 1 terms and not (p + 1)^D. Any order gives the same sums to rounding.
+/// Where sums over Gauss points stand that are made one direction at a time. Points that agree in
+/// their first d indices share what directions d … D−1 of the net have been summed to: with points
+/// in the order of `Sweep`, a point costs p + 1 terms and not (p + 1)^D. Any order gives the same
+/// sums to rounding.
 template <int D>
 class ToolLoad<D>::PointSums {
  protected:
   explicit PointSums(const ToolLoad& load) : load_(load), levels_(load, 3) { last_.fill(-1); }
 
-  /// The first direction in which a point differs from the last one; −1: other control points affect it.
+  /// The first direction in which a point differs from the last one; −1: other control points
+  /// affect it.
   [[nodiscard]] int differs(const std::array<int, 3>& at) const {
     int first = D;
     for (std::size_t d = D; d-- > 0;) {
       if (at[d] == last_[d]) continue;
       if (last_[d] < 0) return -1;
       const std::vector<int>& starts = load_.quadrature_[d].basis.first;
-      if (starts[static_cast<std::size_t>(at[d])] != starts[static_cast<std::size_t>(last_[d])]) return -1;
+      if (starts[static_cast<std::size_t>(at[d])] != starts[static_cast<std::size_t>(last_[d])])
+        return -1;
       first = static_cast<int>(d);
     }
     return first;
@@ -134,12 +146,17 @@ class ToolLoad<D>::PointSums {
   /// Of the control points that affect the last point, the first in every direction.
   [[nodiscard]] std::array<int, D> first_control_point() const {
     std::array<int, D> first;
-    for (std::size_t d = 0; d < D; ++d) first[d] = load_.quadrature_[d].basis.first[static_cast<std::size_t>(last_[d])];
+    for (std::size_t d = 0; d < D; ++d)
+      first[d] = load_.quadrature_[d].basis.first[static_cast<std::size_t>(last_[d])];
     return first;
   }
   /// The values of the functions of direction d at the last point.
-  [[nodiscard]] const double* functions(std::size_t d) const { return load_.quadrature_[d].basis.row(last_[d], 0); }
-  [[nodiscard]] std::ptrdiff_t count(std::size_t d) const { return load_.quadrature_[d].basis.degree + 1; }
+  [[nodiscard]] const double* functions(std::size_t d) const {
+    return load_.quadrature_[d].basis.row(last_[d], 0);
+  }
+  [[nodiscard]] std::ptrdiff_t count(std::size_t d) const {
+    return load_.quadrature_[d].basis.degree + 1;
+  }
 
   const ToolLoad& load_;
   const detail::ElementKernels& kernels_ = detail::element_kernels();
@@ -164,7 +181,8 @@ class ToolLoad<D>::FieldAtPoints : private PointSums {
       levels.multiply_by_weights(this->first_control_point());
     }
     for (auto e = static_cast<std::size_t>(std::max(d, 0)); e + 1 < D; ++e) {
-      this->kernels_.combine(this->functions(e), this->count(e), levels[e], levels.sizes[e + 1], levels[e + 1]);
+      this->kernels_.combine(this->functions(e), this->count(e), levels[e], levels.sizes[e + 1],
+                             levels[e + 1]);
     }
     const double *n = this->functions(D - 1), *line = levels[D - 1];
     Point sum = Point::Zero();
@@ -210,7 +228,8 @@ class ToolLoad<D>::ForcesOfPoints : private PointSums {
   void sum_from(int d) {
     auto& levels = this->levels_;
     for (std::size_t e = D - 1; e-- > static_cast<std::size_t>(std::max(d, 0));) {
-      this->kernels_.spread(this->functions(e), this->count(e), levels[e + 1], levels.sizes[e + 1], levels[e]);
+      this->kernels_.spread(this->functions(e), this->count(e), levels[e + 1], levels.sizes[e + 1],
+                            levels[e]);
       std::ranges::fill(levels.numbers[e + 1], 0.0);
     }
     if (d >= 0) return;

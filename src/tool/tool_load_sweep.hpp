@@ -8,8 +8,8 @@
 
 namespace knead {
 
-/// The Gauss points of one element after another, from control points contracted one direction at a time, of a rational
-/// spline in homogeneous coordinates.
+/// The Gauss points of one element after another, from control points contracted one direction at a
+/// time, of a rational spline in homogeneous coordinates.
 template <int D>
 class ToolLoad<D>::Sweep {
  public:
@@ -30,11 +30,12 @@ class ToolLoad<D>::Sweep {
   }
 
   /// `visitor` is asked
-  ///   skip(lower, upper): whether a row or a layer of points, whose control points lie in a box, may be left out; only
+  ///   skip(lower, upper): whether a row or a layer of points, whose control points lie in a box,
+  ///   may be left out; only
   ///     where points are more than twice as many as control points, else asking takes as long;
   ///   reached(places, count): at which of some points, a bit each, it wants to
-  ///   act(sample), which returns how far around no point is acted on: points of a polynomial within that are left out;
-  ///   clear(place): the same where it did not want to act.
+  ///   act(sample), which returns how far around no point is acted on: points of a polynomial
+  ///   within that are left out; clear(place): the same where it did not want to act.
   template <class Visitor>
   void run(Visitor& visitor) {
     std::size_t points = 1, controls = 1;
@@ -79,8 +80,8 @@ class ToolLoad<D>::Sweep {
     longest_step_ = -1;
     for (int k = begin; k < end;) {
       const int count = std::min<int>(end - k, Kernels::most_points);
-      kernels_.places(levels_[d], rational_, functions_, basis.values.data() + (k - begin), basis.stride,
-                      Kernels::rounded_up(count), places);
+      kernels_.places(levels_[d], rational_, functions_, basis.values.data() + (k - begin),
+                      basis.stride, Kernels::rounded_up(count), places);
       const unsigned all = (1U << count) - 1;
       unsigned left = visitor.reached(places, Kernels::rounded_up(count)) & all;
       int next = k + count;

@@ -13,7 +13,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity(),
+                 nan = std::numeric_limits<double>::quiet_NaN();
 
 MatrixXd random_matrix(int rows, int columns, unsigned seed) {
   std::mt19937 random(seed);
@@ -32,7 +33,8 @@ TEST(Decompositions, EmptyMatricesHaveNoPivots) {
     for (int k = 0; k < columns; ++k) EXPECT_EQ(qr->order()[k], k);
     EXPECT_EQ(qr->remainder(0), MatrixXd::Zero(rows, columns));
     EXPECT_EQ(qr->coefficients(0), MatrixXd(0, columns));
-    EXPECT_EQ(*least_squares(MatrixXd(rows, columns), VectorXd(VectorXd::Ones(rows))), VectorXd::Zero(columns));
+    EXPECT_EQ(*least_squares(MatrixXd(rows, columns), VectorXd(VectorXd::Ones(rows))),
+              VectorXd::Zero(columns));
   }
 }
 
@@ -49,8 +51,9 @@ TEST(Decompositions, EmptySystemsHaveEmptySolutions) {
 }
 
 TEST(Decompositions, RankIsThatOfTheProduct) {
-  for (const auto& [rows, columns, rank] : {std::tuple{6, 4, 0}, std::tuple{6, 4, 2}, std::tuple{3, 7, 1},
-                                            std::tuple{1, 1, 0}, std::tuple{5, 5, 5}, std::tuple{1, 4, 1}}) {
+  for (const auto& [rows, columns, rank] :
+       {std::tuple{6, 4, 0}, std::tuple{6, 4, 2}, std::tuple{3, 7, 1}, std::tuple{1, 1, 0},
+        std::tuple{5, 5, 5}, std::tuple{1, 4, 1}}) {
     const MatrixXd a = random_matrix(rows, rank, 1) * random_matrix(rank, columns, 2);
     const auto qr = PivotedQr::create(a);
     ASSERT_TRUE(qr);
@@ -79,7 +82,8 @@ TEST(Decompositions, NumbersThatAreNotFiniteAreNamed) {
     EXPECT_EQ(refused.error().where, "(2, 1)");
     EXPECT_FALSE(left_singular(a));
     EXPECT_FALSE(least_squares(a, VectorXd(VectorXd::Ones(3))));
-    EXPECT_FALSE(least_squares(MatrixXd(MatrixXd::Identity(3, 3)), VectorXd(VectorXd::Constant(3, wrong))));
+    EXPECT_FALSE(
+        least_squares(MatrixXd(MatrixXd::Identity(3, 3)), VectorXd(VectorXd::Constant(3, wrong))));
     EXPECT_FALSE(solve_square(a, MatrixXd::Ones(3, 1)));
     EXPECT_FALSE(solve_square(MatrixXd::Identity(3, 3), MatrixXd::Constant(3, 1, wrong)));
     EXPECT_FALSE(rank_of(a));
@@ -133,7 +137,8 @@ TEST(Decompositions, EigenvaluesIncreaseAndRecomposeTheMatrix) {
   const auto eigen = symmetric_eigen(a);
   ASSERT_TRUE(eigen);
   for (int k = 1; k < 4; ++k) EXPECT_LE(eigen->values[k - 1], eigen->values[k]);
-  EXPECT_LE((eigen->vectors * eigen->values.asDiagonal() * eigen->vectors.transpose() - a).norm(), 1e-14);
+  EXPECT_LE((eigen->vectors * eigen->values.asDiagonal() * eigen->vectors.transpose() - a).norm(),
+            1e-14);
 }
 
 TEST(Decompositions, LaterMatricesOfASparseFactorMayHaveAnotherPattern) {

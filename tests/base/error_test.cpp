@@ -6,20 +6,24 @@ namespace knead {
 namespace {
 
 TEST(Error, MessageNamesFileLinePlaceCauseAndRemedy) {
-  const Error error{ErrorKind::input, "the knots decrease", "knot 7", "sort the knots", "wing.step", 12};
+  const Error error{ErrorKind::input, "the knots decrease", "knot 7",
+                    "sort the knots", "wing.step",          12};
   EXPECT_EQ(error.message(), "wing.step:12: knot 7: the knots decrease; sort the knots");
 }
 
 TEST(Error, MessageLeavesOutWhatIsUnknown) {
   EXPECT_EQ(Error(ErrorKind::input, "it is empty").message(), "it is empty");
   EXPECT_EQ(Error(ErrorKind::input, "it is empty", "list").message(), "list: it is empty");
-  EXPECT_EQ(Error(ErrorKind::input, "it is empty", {}, "fill it").message(), "it is empty; fill it");
-  EXPECT_EQ(Error(ErrorKind::input, "it is empty", {}, {}, "a.step").message(), "a.step: it is empty");
+  EXPECT_EQ(Error(ErrorKind::input, "it is empty", {}, "fill it").message(),
+            "it is empty; fill it");
+  EXPECT_EQ(Error(ErrorKind::input, "it is empty", {}, {}, "a.step").message(),
+            "a.step: it is empty");
   EXPECT_EQ(Error(ErrorKind::input, "it is empty", {}, {}, {}, 3).message(), "line 3: it is empty");
 }
 
 TEST(Error, MessageIsOneLine) {
-  const Error error{ErrorKind::input, "the knots decrease", "knot 7", "sort the knots", "wing.step", 12};
+  const Error error{ErrorKind::input, "the knots decrease", "knot 7",
+                    "sort the knots", "wing.step",          12};
   EXPECT_EQ(error.message().find('\n'), std::string::npos);
 }
 

@@ -50,7 +50,8 @@ TEST_P(GaussLegendre, MomentsUpToDegreeTwoNMinusOneAreExact) {
       size += w[k] * testing::magnitude(power);
     }
     const Quad exact = degree % 2 == 0 ? Quad(2) / (degree + 1) : Quad(0);
-    // Weights and abscissae are off by their rounding to double, which the power multiplies by `degree`.
+    // Weights and abscissae are off by their rounding to double, which the power multiplies by
+    // `degree`.
     const double bound = epsilon * (1 + degree) * static_cast<double>(size);
     EXPECT_LE(static_cast<double>(testing::magnitude(sum - exact)), bound) << "degree " << degree;
   }

@@ -20,7 +20,8 @@ TEST(InstructionSet, HoldsAtLeastThePortableOnesSlowestFirst) {
 TEST(InstructionSet, TheFastestIsTheDefaultUnlessTheEnvironmentNamesOne) {
   const auto& sets = available_instruction_sets();
   const char* wanted = std::getenv("KNEAD_INSTRUCTION_SET");
-  const auto named = std::ranges::find(sets, std::string_view(wanted != nullptr ? wanted : ""), name);
+  const auto named =
+      std::ranges::find(sets, std::string_view(wanted != nullptr ? wanted : ""), name);
   EXPECT_EQ(best_instruction_set(), named != sets.end() ? *named : sets.back());
 }
 

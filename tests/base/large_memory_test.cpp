@@ -10,7 +10,8 @@ namespace knead {
 namespace {
 
 TEST(LargeMemory, ReservedHoldsWhatWasThere) {
-  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{1} << 19U, std::size_t{3} << 20U}) {
+  for (const std::size_t count :
+       {std::size_t{0}, std::size_t{1}, std::size_t{1} << 19U, std::size_t{3} << 20U}) {
     std::vector<double> items = {1, 2, 3};
     detail::reserve_large(items, count);
     EXPECT_GE(items.capacity(), count);

@@ -40,7 +40,8 @@ TEST(ParallelFor, VisitsEveryItemOnce) {
     for (const std::ptrdiff_t count : {0, 1, 5, 64, 1000}) {
       for (const std::ptrdiff_t size : {1, 3, 64, 2000}) {
         const auto visited = with_threads(threads, [&] { return visits(count, size); });
-        EXPECT_EQ(visited, std::vector<int>(static_cast<std::size_t>(count), 1)) << threads << " " << size;
+        EXPECT_EQ(visited, std::vector<int>(static_cast<std::size_t>(count), 1))
+            << threads << " " << size;
       }
     }
   }
@@ -56,8 +57,8 @@ TEST(ParallelFor, BlocksBeginAtMultiplesOfTheirSize) {
     });
     return 0;
   });
-  EXPECT_EQ(blocks,
-            (std::set<std::pair<std::ptrdiff_t, std::ptrdiff_t>>{{0, 5}, {5, 10}, {10, 15}, {15, 20}, {20, 23}}));
+  EXPECT_EQ(blocks, (std::set<std::pair<std::ptrdiff_t, std::ptrdiff_t>>{
+                        {0, 5}, {5, 10}, {10, 15}, {15, 20}, {20, 23}}));
 }
 
 TEST(ParallelFor, IsOneCallWithOneThreadOrOneBlock) {
@@ -228,14 +229,16 @@ TEST(ThreadCount, IsTheOneExpected) {
 
 TEST(ThreadCount, DefaultIsThatOfTheEnvironment) {
   const std::string otherwise = std::to_string(std::max(1u, std::thread::hardware_concurrency()));
-  for (const auto& [variable, expected] :
-       {std::pair<const char*, std::string>{"3", "3"}, {"1000", "256"}, {"0", otherwise}, {"three", otherwise}}) {
+  for (const auto& [variable, expected] : {std::pair<const char*, std::string>{"3", "3"},
+                                           {"1000", "256"},
+                                           {"0", otherwise},
+                                           {"three", otherwise}}) {
     SCOPED_TRACE(variable);
     EXPECT_EQ(in_child([&] {
                 setenv("KNEAD_THREADS", variable, 1);
                 setenv("KNEAD_TEST_EXPECTED_THREADS", expected.c_str(), 1);
-                execl("/proc/self/exe", "base_test", "--gtest_filter=ThreadCount.IsTheOneExpected", "--gtest_brief=1",
-                      nullptr);
+                execl("/proc/self/exe", "base_test", "--gtest_filter=ThreadCount.IsTheOneExpected",
+                      "--gtest_brief=1", nullptr);
                 return 1;
               }),
               0);

@@ -49,7 +49,8 @@ TEST(ParallelInOrder, DoesEveryItemOnceAfterWhatItNeeds) {
 }
 
 TEST(ParallelInOrder, DoesNotWaitForItemsThatAreNotThere) {
-  const std::vector<int> some = {9, 4, 1, 0};  // of 0 … 9, without 3, the other child of 1, and without 2
+  const std::vector<int> some = {9, 4, 1,
+                                 0};  // of 0 … 9, without 3, the other child of 1, and without 2
   for (const int threads : testing::thread_counts) {
     const auto sum = with_threads(threads, [&] { return sums(10, some, true); });
     EXPECT_EQ(sum, (std::vector<long>{14, 14, 0, 0, 13, 0, 0, 0, 0, 9})) << threads;
@@ -67,7 +68,9 @@ TEST(ParallelInOrder, ThrowsWhatABodyThrowsAndBeginsNothingAfterIt) {
     const auto run = [&] {
       detail::parallel_in_order(
           order, order.size(), true,
-          [&](int k) { return std::span(before).subspan(static_cast<std::size_t>(k), k > 0 ? 1 : 0); },
+          [&](int k) {
+            return std::span(before).subspan(static_cast<std::size_t>(k), k > 0 ? 1 : 0);
+          },
           [&](int k) {
             if (k == 40) throw std::runtime_error("forty");
             done[static_cast<std::size_t>(k)] = 1;

@@ -34,13 +34,19 @@ TEST(Printable, LongTextKeepsItsBeginningAndEnd) {
   std::string wide;
   for (int k = 0; k < 1000; ++k) wide += "面";
   for (std::size_t most = 16; most < 40; ++most) {
-    EXPECT_EQ(printable(wide, most).find('\\'), std::string::npos) << "cut between characters: " << most;
+    EXPECT_EQ(printable(wide, most).find('\\'), std::string::npos)
+        << "cut between characters: " << most;
     EXPECT_LE(printable(wide, most).size(), most);
   }
 }
 
 TEST(Printable, ErrorsThatQuoteAnythingStayOneShortLine) {
-  const Error error{ErrorKind::input, "\"" + std::string(2000000, 'x') + "\" is no name", "a\nb", "\x1B[31m", "f\r", 1};
+  const Error error{ErrorKind::input,
+                    "\"" + std::string(2000000, 'x') + "\" is no name",
+                    "a\nb",
+                    "\x1B[31m",
+                    "f\r",
+                    1};
   const std::string message = error.message();
   EXPECT_LT(message.size(), 2200U);
   EXPECT_EQ(message.find_first_of("\n\r\x1B"), std::string::npos);

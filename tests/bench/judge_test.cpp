@@ -10,13 +10,16 @@ namespace {
 using Sentences = std::vector<std::string>;
 
 TEST(UnexpectedCounts, ThoseWithinTheShareAreFine) {
-  EXPECT_EQ(unexpected_counts({{"a", 1000}, {"b", 2000}}, {{"a", 1030}, {"b", 1940}}, 0.03), Sentences{});
+  EXPECT_EQ(unexpected_counts({{"a", 1000}, {"b", 2000}}, {{"a", 1030}, {"b", 1940}}, 0.03),
+            Sentences{});
 }
 
 TEST(UnexpectedCounts, MoreAndFewerInstructionsAreNamed) {
-  const Measured expected = {{"a", 1000}, {"b", 1000}, {"c", 1000}}, counted = {{"a", 1031}, {"b", 969}, {"c", 1000}};
+  const Measured expected = {{"a", 1000}, {"b", 1000}, {"c", 1000}},
+                 counted = {{"a", 1031}, {"b", 969}, {"c", 1000}};
   EXPECT_EQ(unexpected_counts(expected, counted, 0.03),
-            (Sentences{"a: 1031 instructions instead of 1000, +3.1 %", "b: 969 instructions instead of 1000, -3.1 %"}));
+            (Sentences{"a: 1031 instructions instead of 1000, +3.1 %",
+                       "b: 969 instructions instead of 1000, -3.1 %"}));
 }
 
 TEST(UnexpectedCounts, AKernelThatIsMissingOrNewIsNamed) {
@@ -25,12 +28,15 @@ TEST(UnexpectedCounts, AKernelThatIsMissingOrNewIsNamed) {
 }
 
 TEST(UnexpectedCounts, ACountThatIsNoNumberIsNamed) {
-  EXPECT_EQ(unexpected_counts({{"a", 5}}, {{"a", std::numeric_limits<double>::quiet_NaN()}}, 0.03).size(), 1U);
+  EXPECT_EQ(
+      unexpected_counts({{"a", 5}}, {{"a", std::numeric_limits<double>::quiet_NaN()}}, 0.03).size(),
+      1U);
 }
 
 TEST(SlowerInEveryRound, OneRoundThatDoesNotConfirmAcquits) {
   const Measured base[] = {{{"a", 10}, {"b", 10}}, {{"a", 10}, {"b", 10}}, {{"a", 10}, {"b", 10}}};
-  const Measured head[] = {{{"a", 12}, {"b", 12}}, {{"a", 12}, {"b", 10.5}}, {{"a", 11.5}, {"b", 12}}};
+  const Measured head[] = {
+      {{"a", 12}, {"b", 12}}, {{"a", 12}, {"b", 10.5}}, {{"a", 11.5}, {"b", 12}}};
   EXPECT_EQ(slower_in_every_round(base, head, 0.1), Sentences{"a"});
 }
 

@@ -61,7 +61,8 @@ TEST(Display, HasANameOfItsOwnAndADescription) {
     if (d.limits) {
       EXPECT_LT((*d.limits)[0], (*d.limits)[1]) << d.name;
     }
-    for (const DisplaySetting& s : d.settings) EXPECT_TRUE(s.value.size() == 1 || s.value.size() == 3) << s.name;
+    for (const DisplaySetting& s : d.settings)
+      EXPECT_TRUE(s.value.size() == 1 || s.value.size() == 3) << s.name;
   }
 }
 
@@ -107,7 +108,8 @@ TEST(Deviation, IsTheDistanceFromTheShapeAsOpenedWithTheSideOfTheNormal) {
 
 /// The plane in 30 spans along x, so that it is drawn by as many lines.
 Surface plane_in_spans(double slope) {
-  const KnotVector along = *KnotVector::clamped_uniform(1, 31), across = *KnotVector::create(1, {0, 0, 1, 1});
+  const KnotVector along = *KnotVector::clamped_uniform(1, 31),
+                   across = *KnotVector::create(1, {0, 0, 1, 1});
   Points points(62, 3);
   for (int i = 0; i < 62; ++i) {
     const double x = (i / 2) / 30.0;
@@ -140,7 +142,8 @@ TEST(DisplayRange, HoldsTheValuesOfWhatIsVisible) {
   // Every third line is asked: exact to two of the 30.
   EXPECT_NEAR(strip.greatest, 0.6 * 4, 2 * 4 / 30.0 + 1e-12);
   region.faces = {{{{0.61, 0.4}, {0.62, 0.4}, {0.62, 0.6}, {0.61, 0.6}}}};  // between all lines
-  EXPECT_NEAR(range_of_inclined(4, std::make_shared<const VisibleRegion>(region)).greatest, 4, 1e-12);
+  EXPECT_NEAR(range_of_inclined(4, std::make_shared<const VisibleRegion>(region)).greatest, 4,
+              1e-12);
 }
 
 TEST(DisplayRange, IsOneRangeForAllSurfacesAndBeginsAnewWithTheFirst) {

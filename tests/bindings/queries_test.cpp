@@ -50,7 +50,8 @@ JsonValue value_for(const Field& field) {
     case Kind::text:
       return "x";
     case Kind::array:
-      if (field.type->element->kind == Kind::integer) return std::vector<int>(field.type->length, 4);
+      if (field.type->element->kind == Kind::integer)
+        return std::vector<int>(field.type->length, 4);
       return std::vector<double>(field.type->length, 0.5);
     case Kind::opaque:
       return field.type->name == "AnyCommand[]" ? JsonValue::array() : JsonValue(0);
@@ -72,14 +73,16 @@ void expect_member(const Field& field, const JsonValue& object, const std::strin
 }
 
 /// `tag`: the object is of a variant, which leaves out what has no value.
-void expect_record(const Type& type, const JsonValue& object, const std::string& at, std::string_view tag = {}) {
+void expect_record(const Type& type, const JsonValue& object, const std::string& at,
+                   std::string_view tag = {}) {
   ASSERT_TRUE(object.is_object()) << at << ": " << object;
   std::set<std::string> known = {std::string(tag)};
   for (const Field& field : type.fields) {
     known.emplace(field.name);
     if (field.type->kind == Kind::opaque) continue;
     if (!field.flat) {
-      if (tag.empty() || field.type->kind != Kind::optional || object.contains(std::string(field.name))) {
+      if (tag.empty() || field.type->kind != Kind::optional ||
+          object.contains(std::string(field.name))) {
         expect_member(field, object, at);
       }
       continue;
@@ -91,7 +94,8 @@ void expect_record(const Type& type, const JsonValue& object, const std::string&
       if (part.type->kind != Kind::opaque) expect_member(part, object, at);
     }
   }
-  for (const auto& [name, value] : object.items()) EXPECT_TRUE(known.contains(name)) << at << "." << name;
+  for (const auto& [name, value] : object.items())
+    EXPECT_TRUE(known.contains(name)) << at << "." << name;
 }
 
 void expect_type(const Type& type, const JsonValue& value, const std::string& at) {
@@ -109,7 +113,8 @@ void expect_type(const Type& type, const JsonValue& value, const std::string& at
       EXPECT_TRUE(value.is_string()) << at << ": " << value;
       break;
     case Kind::choice:
-      EXPECT_TRUE(value.is_string() && type.choice(value.get<std::string>()) != nullptr) << at << ": " << value;
+      EXPECT_TRUE(value.is_string() && type.choice(value.get<std::string>()) != nullptr)
+          << at << ": " << value;
       break;
     case Kind::optional:
       if (!value.is_null()) expect_type(*type.element, value, at);
@@ -146,8 +151,11 @@ TEST_F(QueriesOfThePage, SayWhatTheyAreAndHaveTypes) {
     const Type& request = *query.request;
     EXPECT_TRUE(names.insert(request.name).second) << request.name;
     EXPECT_TRUE(request.help.ends_with('.')) << request.name;
-    for (const Field& field : request.fields) EXPECT_FALSE(field.help.empty()) << request.name << "." << field.name;
-    EXPECT_NE(types.text.find("\n  " + std::string(request.name) + ": { request: "), std::string::npos) << request.name;
+    for (const Field& field : request.fields)
+      EXPECT_FALSE(field.help.empty()) << request.name << "." << field.name;
+    EXPECT_NE(types.text.find("\n  " + std::string(request.name) + ": { request: "),
+              std::string::npos)
+        << request.name;
   }
   EXPECT_EQ(types.text.find(": unknown"), std::string::npos);
 }
@@ -172,7 +180,8 @@ TEST_F(QueriesOfThePage, AnswerEachInItsType) {
     for (const Field& field : type.fields) {
       const std::string member(field.name);
       EXPECT_EQ(field.type->kind == Kind::opaque, held.contains(member)) << name << "." << member;
-      EXPECT_TRUE(!held.contains(member) || held[member][0] == std::string(field.type->name)) << name << "." << member;
+      EXPECT_TRUE(!held.contains(member) || held[member][0] == std::string(field.type->name))
+          << name << "." << member;
     }
   }
 }
@@ -186,11 +195,13 @@ TEST_F(QueriesOfThePage, ThatAreWrongAreErrorsThatNameTheField) {
   EXPECT_EQ(ask("room", {{"surface", 0}, {"colour", 1}})["error"]["where"], "colour");
   EXPECT_EQ(ask("act")["error"]["where"], "commands");
   EXPECT_EQ(ask("act", {{"commands", "undo"}})["error"]["where"], "commands");
-  EXPECT_EQ(ask("picture",
-                {{"surface", 0}, {"display", "draft"}, {"settings", {{"direction", {0, "x", 1}}}}})["error"]["where"],
+  EXPECT_EQ(ask("picture", {{"surface", 0},
+                            {"display", "draft"},
+                            {"settings", {{"direction", {0, "x", 1}}}}})["error"]["where"],
             "settings.direction");
   EXPECT_EQ(ask("picture", {{"surface", 9}})["error"]["kind"], "usage");
-  EXPECT_EQ(ask("act", {{"commands", {{{"do", "step"}, {"count", "x"}}}}})["error"]["where"], "count");
+  EXPECT_EQ(ask("act", {{"commands", {{{"do", "step"}, {"count", "x"}}}}})["error"]["where"],
+            "count");
   EXPECT_EQ(ask("open", {{"name", "x.step"}, {"file", 100}}, "few")["error"]["kind"], "usage");
   EXPECT_TRUE(JsonValue::parse(call(studio_, "no JSON", 7, kept_)).contains("error"));
   EXPECT_TRUE(JsonValue::parse(call(studio_, "short", 100, kept_)).contains("error"));
@@ -214,7 +225,8 @@ TEST_F(QueriesOfThePage, LeaveArraysInMemory) {
   EXPECT_EQ(reply["memory"]["positions"][2], 3 * m * n);
   EXPECT_EQ(reply["memory"]["values"][2], m * n);
   EXPECT_EQ(reply["memory"]["lines_u"][0], "Uint32Array");
-  const auto* first = reinterpret_cast<const float*>(reply["memory"]["positions"][1].get<std::uintptr_t>());
+  const auto* first =
+      reinterpret_cast<const float*>(reply["memory"]["positions"][1].get<std::uintptr_t>());
   EXPECT_EQ(first, studio_.pictures.picture().positions.data());  // not copied
   EXPECT_EQ(ask("control_points", {{"surface", 0}})["memory"][""][2], 3 * 36);
 }

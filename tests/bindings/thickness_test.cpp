@@ -180,15 +180,16 @@ step::File pipe() {
   const std::array radii = {5.0, 3.0};
   for (std::size_t w = 0; w < 2; ++w) {
     rims[w] = {b.circle(radii[w], 0), b.circle(radii[w], 10)};
-    walls[w] =
-        b.entity("CYLINDRICAL_SURFACE('',#" + std::to_string(b.frame()) + "," + FaceBuilder::real(radii[w]) + ")");
+    walls[w] = b.entity("CYLINDRICAL_SURFACE('',#" + std::to_string(b.frame()) + "," +
+                        FaceBuilder::real(radii[w]) + ")");
   }
   const int below = b.entity("PLANE('',#" + std::to_string(b.frame()) + ")");
   const int above = b.entity("PLANE('',#" + std::to_string(b.frame(0, 0, 10)) + ")");
-  const std::vector<int> faces = {b.face(walls[0], {b.bound({rims[0][0]}), b.bound({-rims[0][1]})}),
-                                  b.face(walls[1], {b.bound({-rims[1][0]}), b.bound({rims[1][1]})}, false),
-                                  b.face(above, {b.bound({rims[0][1]}), b.bound({-rims[1][1]})}),
-                                  b.face(below, {b.bound({-rims[0][0]}), b.bound({rims[1][0]})}, false)};
+  const std::vector<int> faces = {
+      b.face(walls[0], {b.bound({rims[0][0]}), b.bound({-rims[0][1]})}),
+      b.face(walls[1], {b.bound({-rims[1][0]}), b.bound({rims[1][1]})}, false),
+      b.face(above, {b.bound({rims[0][1]}), b.bound({-rims[1][1]})}),
+      b.face(below, {b.bound({-rims[0][0]}), b.bound({rims[1][0]})}, false)};
   b.entity("CLOSED_SHELL('',(" + FaceBuilder::list_of(faces) + "))");
   return b.file();
 }
@@ -265,7 +266,8 @@ TEST(Thickness, OfARealSolidIsSomeLengthAtEveryPoint) {
     const auto found = thicknesses(pictures, scene, surface, around);
     expect_between(found, 0, box.diagonal().norm());  // no value would be neither
     // Most of it is a wall, not a chance hit at the start.
-    const auto thin = std::ranges::count_if(found, [&](double x) { return x < 1e-3 * box.diagonal().norm(); });
+    const auto thin =
+        std::ranges::count_if(found, [&](double x) { return x < 1e-3 * box.diagonal().norm(); });
     EXPECT_LT(static_cast<double>(thin), 0.2 * static_cast<double>(found.size()));
   }
 }

@@ -23,24 +23,27 @@ struct Case {
 };
 
 const std::vector<Case>& cases() {
-  static const std::vector<Case> all = {{"sphere", SphereShape{2}},
-                                        {"ellipsoid", EllipsoidShape{{1, 2, 3}}},
-                                        {"box", BoxShape{{1, 2, 3}, 0}},
-                                        {"rounded box", BoxShape{{1, 2, 3}, 0.4}},
-                                        {"ball of a box", BoxShape{{1, 1, 1}, 1}},
-                                        {"cylinder", CylinderShape{1, 2}},
-                                        {"cone", ConeShape{2, 3, 0}},
-                                        {"frustum", ConeShape{2, 3, 0.5}},
-                                        {"capsule", CapsuleShape{1, 2}},
-                                        {"torus", TorusShape{2, 0.5}},
-                                        {"bowl", BowlShape{2, 0.3}},
-                                        {"superellipsoid", SuperellipsoidShape{{1, 2, 1.5}, 0.3, 1.5}},
-                                        {"supertoroid", SupertoroidShape{2, {0.5, 0.3}, 0.5, 1.2}},
-                                        {"surface", saddle()}};
+  static const std::vector<Case> all = {
+      {"sphere", SphereShape{2}},
+      {"ellipsoid", EllipsoidShape{{1, 2, 3}}},
+      {"box", BoxShape{{1, 2, 3}, 0}},
+      {"rounded box", BoxShape{{1, 2, 3}, 0.4}},
+      {"ball of a box", BoxShape{{1, 1, 1}, 1}},
+      {"cylinder", CylinderShape{1, 2}},
+      {"cone", ConeShape{2, 3, 0}},
+      {"frustum", ConeShape{2, 3, 0.5}},
+      {"capsule", CapsuleShape{1, 2}},
+      {"torus", TorusShape{2, 0.5}},
+      {"bowl", BowlShape{2, 0.3}},
+      {"superellipsoid", SuperellipsoidShape{{1, 2, 1.5}, 0.3, 1.5}},
+      {"supertoroid", SupertoroidShape{2, {0.5, 0.3}, 0.5, 1.2}},
+      {"surface", saddle()}};
   return all;
 }
 
-Point point(const std::vector<float>& of, std::size_t k) { return {of[3 * k], of[3 * k + 1], of[3 * k + 2]}; }
+Point point(const std::vector<float>& of, std::size_t k) {
+  return {of[3 * k], of[3 * k + 1], of[3 * k + 2]};
+}
 
 double extent(const ToolPicture& p) {
   double most = 0;
@@ -56,7 +59,8 @@ TEST_P(PictureOfAShape, LiesOnTheShape) {
   ASSERT_GT(p.indices.size(), 30u);
   ASSERT_EQ(p.positions.size(), p.normals.size());
   for (std::size_t k = 0; 3 * k < p.positions.size(); ++k) {
-    EXPECT_NEAR(shape->nearest(point(p.positions, k)).distance, 0, 2e-6 * extent(p)) << "point " << k;
+    EXPECT_NEAR(shape->nearest(point(p.positions, k)).distance, 0, 2e-6 * extent(p))
+        << "point " << k;
     EXPECT_NEAR(point(p.normals, k).norm(), 1, 1e-5);
   }
 }
@@ -73,7 +77,8 @@ TEST_P(PictureOfAShape, LooksOutwards) {
       normal[c] = point(p.normals, p.indices[k + c]);
     }
     const Point area = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-    if (area.norm() < 1e-5 * extent(p) * extent(p)) continue;  // single precision has no direction of it
+    if (area.norm() < 1e-5 * extent(p) * extent(p))
+      continue;  // single precision has no direction of it
     const Point middle = (corner[0] + corner[1] + corner[2]) / 3, out = area.normalized();
     const Nearest at = shape->nearest(middle);
     EXPECT_GT(shape->nearest(at.point + step * out).distance, 0) << "triangle " << k / 3;
@@ -107,7 +112,8 @@ TEST_P(PictureOfAShape, HasNoHoles) {
 TEST_P(PictureOfAShape, IsDrawnFromItsDistancesAlone) {
   const auto shape = PlacedShape::create(GetParam().shape);
   const ToolPicture p = from_distances(*shape, 24);
-  if (std::holds_alternative<SplineShape>(GetParam().shape)) GTEST_SKIP() << "an open sheet has no inside";
+  if (std::holds_alternative<SplineShape>(GetParam().shape))
+    GTEST_SKIP() << "an open sheet has no inside";
   ASSERT_GT(p.indices.size(), 100u);
   int inwards = 0;
   for (std::size_t k = 0; 3 * k < p.positions.size(); ++k) {
@@ -116,8 +122,8 @@ TEST_P(PictureOfAShape, IsDrawnFromItsDistancesAlone) {
   for (std::size_t k = 0; k < p.indices.size(); k += 3) {
     const Point a = point(p.positions, p.indices[k]), b = point(p.positions, p.indices[k + 1]),
                 c = point(p.positions, p.indices[k + 2]);
-    const Point normals =
-        point(p.normals, p.indices[k]) + point(p.normals, p.indices[k + 1]) + point(p.normals, p.indices[k + 2]);
+    const Point normals = point(p.normals, p.indices[k]) + point(p.normals, p.indices[k + 1]) +
+                          point(p.normals, p.indices[k + 2]);
     if ((b - a).cross(c - a).dot(normals) < 0) ++inwards;
   }
   // Where the shape is finer than a cell a few fold over.
@@ -133,7 +139,8 @@ INSTANTIATE_TEST_SUITE_P(Every, PictureOfAShape, testing::ValuesIn(cases()), [](
 TEST(ToolPicture, OfAPlaneIsASquareThatStandsForAllOfIt) {
   const ToolPicture p = tool_picture(PlaneShape{});
   EXPECT_TRUE(p.unbounded && p.open);
-  EXPECT_EQ(p.positions, (std::vector<float>{-0.5F, -0.5F, 0, 0.5F, -0.5F, 0, -0.5F, 0.5F, 0, 0.5F, 0.5F, 0}));
+  EXPECT_EQ(p.positions,
+            (std::vector<float>{-0.5F, -0.5F, 0, 0.5F, -0.5F, 0, -0.5F, 0.5F, 0, 0.5F, 0.5F, 0}));
   EXPECT_EQ(p.indices, (std::vector<std::uint32_t>{0, 1, 3, 0, 3, 2}));
   EXPECT_TRUE(from_distances(*PlacedShape::create(PlaneShape{})).indices.empty());
 }

@@ -1,4 +1,5 @@
-// A script's fault is 3, an option's value 2, whatever function of the library finds it; what is written is said.
+// A script's fault is 3, an option's value 2, whatever function of the library finds it; what is
+// written is said.
 #include <sys/stat.h>
 
 #include <cstdlib>
@@ -23,42 +24,53 @@ TEST(ExitCodes, AScriptsFaultIsThree) {
   const Workshop workshop;
   const auto refused = [&](const Json& commands, const std::vector<std::string>& named) {
     const std::string script = workshop.script(commands);
-    for (const auto& [program, output] : {std::pair("sculpt", "--output"), std::pair("analyse", "--results")}) {
-      const Outcome run = knead({program, "--new", output, workshop / "out.step", "--script", script});
+    for (const auto& [program, output] :
+         {std::pair("sculpt", "--output"), std::pair("analyse", "--results")}) {
+      const Outcome run =
+          knead({program, "--new", output, workshop / "out.step", "--script", script});
       if (auto right = fails_with(run, 3, named); !right) return right;
     }
     return ::testing::AssertionSuccess();
   };
   // Functions of the library for which these are arguments call them wrong usage.
-  EXPECT_TRUE(refused({command("new"), command("material", {{"plasticity", 0.5}, {"region", {{0, 1}, {0, 0.5}}}})},
-                      {"commands[1]", "no value to paint"}));
+  EXPECT_TRUE(refused(
+      {command("new"), command("material", {{"plasticity", 0.5}, {"region", {{0, 1}, {0, 0.5}}}})},
+      {"commands[1]", "no value to paint"}));
   EXPECT_TRUE(refused({command("new"), command("undo"), command("undo")}, {"commands[2]"}));
   EXPECT_TRUE(results_in(workshop).empty());
 }
 
 TEST(ExitCodes, TheValueOfAnOptionIsTwo) {
   const Workshop workshop;
-  const std::string stl = workshop / "a.stl", script = workshop.script(Json::array()), knots = "0,0,1,1";
+  const std::string stl = workshop / "a.stl", script = workshop.script(Json::array()),
+                    knots = "0,0,1,1";
   const std::vector<std::pair<std::vector<std::string>, std::string>> calls = {
       {{"gramian", "--degree", "26", "--knots", knots}, "--degree"},
       {{"gramian", "--degree", "1", "--knots", "0,0,1e999,1"}, "--knots"},
       {{"gramian", "--degree", "1", "--knots", "0,1,0,1"}, "--knots"},
-      {{"gramian", "--degree", "1", "--knots", knots, "--rational-weights", "1"}, "--rational-weights"},
-      {{"gramian", "--degree", "1", "--knots", knots, "--rational-weights", "1,1", "--tolerance", "nan"},
+      {{"gramian", "--degree", "1", "--knots", knots, "--rational-weights", "1"},
+       "--rational-weights"},
+      {{"gramian", "--degree", "1", "--knots", knots, "--rational-weights", "1,1", "--tolerance",
+        "nan"},
        "--tolerance"},
       {{"basis", "--degree", "1", "--knots", knots, "--index", "2"}, "--index"},
       {{"basis", "--degree", "1", "--knots", knots, "--to", "inf"}, "--to"},
       {{"stiffness", "--net", "1x4"}, "--net"},
       {{"stiffness", "--net", "100000x100000"}, "--net"},
       {{"stiffness", "--net", "4x4", "--alpha", "-1,0,1"}, "--alpha"},
-      {{"stiffness", "--knots-u", knots, "--knots-v", knots, "--degree", "1", "--weights", "1"}, "--weights"},
+      {{"stiffness", "--knots-u", knots, "--knots-v", knots, "--degree", "1", "--weights", "1"},
+       "--weights"},
       {{"matrices", bonnet(), "--surface", "#1", "--out", workshop / "m"}, "--surface"},
-      {{"matrices", bonnet(), "--surface", "#285", "--mass", "nan", "--out", workshop / "m"}, "--mass"},
-      {{"matrices", bonnet(), "--surface", "#285", "--beta", "-1,0,1", "--out", workshop / "m"}, "--beta"},
+      {{"matrices", bonnet(), "--surface", "#285", "--mass", "nan", "--out", workshop / "m"},
+       "--mass"},
+      {{"matrices", bonnet(), "--surface", "#285", "--beta", "-1,0,1", "--out", workshop / "m"},
+       "--beta"},
       {{"mesh", bonnet(), "--out", stl, "--tolerance", "0"}, "--tolerance"},
       {{"mesh", bonnet(), "--out", stl, "--untrimmed", "--detail", "0"}, "--detail"},
       {{"export", bonnet(), "--out", workshop / "a.igs", "--unit", "ell"}, "--unit"},
-      {{"analyse", bonnet(), "--script", script, "--results", workshop / "r.json", "--samples", "1"}, "--samples"}};
+      {{"analyse", bonnet(), "--script", script, "--results", workshop / "r.json", "--samples",
+        "1"},
+       "--samples"}};
   for (const auto& [arguments, option] : calls) {
     EXPECT_TRUE(fails_with(knead(arguments), 2, {option})) << arguments[0] << " " << option;
   }
@@ -68,20 +80,24 @@ TEST(ExitCodes, TheValueOfAnOptionIsTwo) {
 TEST(ExitCodes, WhatAFileOfAnOptionHoldsIsThree) {
   const Workshop workshop;
   const std::string file = workshop.file("knots.txt", "0 0 1e999 1");
-  EXPECT_TRUE(fails_with(knead({"gramian", "--degree", "1", "--knots-file", file}), 3, {file, "entry 2"}));
+  EXPECT_TRUE(
+      fails_with(knead({"gramian", "--degree", "1", "--knots-file", file}), 3, {file, "entry 2"}));
 }
 
 TEST(ExitCodes, AnOptionWithoutEffectIsTwo) {
   const Workshop workshop;
-  const std::string script = workshop.script(Json::array()), out = workshop / "out.step", knots = "0,0,1,1";
+  const std::string script = workshop.script(Json::array()), out = workshop / "out.step",
+                    knots = "0,0,1,1";
   const std::vector<std::pair<std::vector<std::string>, std::string>> calls = {
       {{"info", bonnet(), "--json", "--faces"}, "--faces"},
       {{"sculpt", bonnet(), "-o", out, "--script", script, "--schema", "ap214"}, "--schema"},
-      {{"sculpt", "--new", "-o", workshop / "a.igs", "--script", script, "--schema", "ap242"}, "--schema"},
+      {{"sculpt", "--new", "-o", workshop / "a.igs", "--script", script, "--schema", "ap242"},
+       "--schema"},
       {{"export", bonnet(), "--out", workshop / "a.igs", "--schema", "ap214"}, "--schema"},
       {{"commands", "--table"}, "--table"},
       {{"stiffness", "--net", "4x4", "--tolerance", "1e-6"}, "--tolerance"},
-      {{"matrices", "--knots-u", knots, "--knots-v", knots, "--degree", "1", "--surface", "#1", "--out", out},
+      {{"matrices", "--knots-u", knots, "--knots-v", knots, "--degree", "1", "--surface", "#1",
+        "--out", out},
        "--surface"},
       {{"matrices", bonnet(), "--surface", "#285", "--degree", "2", "--out", out}, "--degree"}};
   for (const auto& [arguments, option] : calls) {
@@ -93,8 +109,9 @@ TEST(ExitCodes, AnOptionWithoutEffectIsTwo) {
 }
 
 TEST(ExitCodes, AMisspeltEnvironmentIsTwo) {
-  for (const auto& [variable, value] : {std::pair("KNEAD_INSTRUCTION_SET", "vector129"),
-                                        std::pair("KNEAD_THREADS", "two"), std::pair("KNEAD_THREADS", "0")}) {
+  for (const auto& [variable, value] :
+       {std::pair("KNEAD_INSTRUCTION_SET", "vector129"), std::pair("KNEAD_THREADS", "two"),
+        std::pair("KNEAD_THREADS", "0")}) {
     const char* const before = std::getenv(variable);
     const std::string kept = before != nullptr ? before : "";
     setenv(variable, value, 1);
@@ -114,7 +131,8 @@ TEST(ExitCodes, AMisspeltEnvironmentIsTwo) {
 TEST(ExitCodes, AnUnknownUnitIsThatOfTheOptionInEveryFormat) {
   const Workshop workshop;
   FaceBuilder b;
-  const int p = b.vertex(0, 0, 0), q = b.vertex(1, 0, 0), r = b.vertex(1, 1, 0), t = b.vertex(0, 1, 0);
+  const int p = b.vertex(0, 0, 0), q = b.vertex(1, 0, 0), r = b.vertex(1, 1, 0),
+            t = b.vertex(0, 1, 0);
   b.face(10, {b.bound({b.line(p, q, {0, 0, 0}, {1, 0, 0}), b.line(q, r, {1, 0, 0}, {0, 1, 0}),
                        b.line(r, t, {1, 1, 0}, {-1, 0, 0}), b.line(t, p, {0, 1, 0}, {0, -1, 0})})});
   const std::string file = workshop.file("unitless.step", step_text(square + b.text()));
@@ -125,11 +143,13 @@ TEST(ExitCodes, AnUnknownUnitIsThatOfTheOptionInEveryFormat) {
 
 TEST(ExitCodes, APictureThatCannotBeDrawnLeavesTheWork) {
   const Workshop workshop;
-  const std::string out = workshop / "out.step", report = workshop / "r.json", picture = workshop / "p.svg";
+  const std::string out = workshop / "out.step", report = workshop / "r.json",
+                    picture = workshop / "p.svg";
   const std::string nothing = workshop.script(Json::array());
-  const Outcome unselected =
-      knead({"sculpt", bonnet(), "-o", out, "--script", nothing, "--report", report, "--picture", picture});
-  EXPECT_TRUE(fails_with(unselected, 3, {"--picture", "no surface is selected", "written: " + report + ", " + out}));
+  const Outcome unselected = knead({"sculpt", bonnet(), "-o", out, "--script", nothing, "--report",
+                                    report, "--picture", picture});
+  EXPECT_TRUE(fails_with(
+      unselected, 3, {"--picture", "no surface is selected", "written: " + report + ", " + out}));
   EXPECT_TRUE(identical(content_of(out), content_of(bonnet())));
   EXPECT_EQ(results_in(workshop), (std::vector<std::string>{"out.step", "r.json"}));
 
@@ -137,9 +157,11 @@ TEST(ExitCodes, APictureThatCannotBeDrawnLeavesTheWork) {
   const Surface skin = surface_of(bonnet(), "#285");
   Points line = skin.control_points();
   line.rightCols(2).setZero();
-  const std::string thin = workshop.file("thin.step", step_sheet(*Surface::create(skin.knots(), line)));
+  const std::string thin =
+      workshop.file("thin.step", step_sheet(*Surface::create(skin.knots(), line)));
   const std::string flat = workshop / "flat.step";
-  const Outcome run = knead({"sculpt", thin, "-o", flat, "--script", nothing, "--picture", picture});
+  const Outcome run =
+      knead({"sculpt", thin, "-o", flat, "--script", nothing, "--picture", picture});
   EXPECT_NE(run.code, 0);
   EXPECT_NE(run.err.find("--picture"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("written: " + flat), std::string::npos) << run.err;
@@ -149,11 +171,12 @@ TEST(ExitCodes, APictureThatCannotBeDrawnLeavesTheWork) {
 TEST(ExitCodes, APictureIsAnSvgFileByItsName) {
   const Workshop workshop;
   const std::string script = workshop.script(Json::array()), out = workshop / "out.step";
-  EXPECT_TRUE(fails_with(knead({"sculpt", bonnet(), "-o", out, "--script", script, "--picture", workshop / "p.png"}), 2,
-                         {"--picture", "p.png", ".svg"}));
-  EXPECT_TRUE(
-      fails_with(knead({"analyse", bonnet(), "--results", out, "--script", script, "--vtu", workshop / "p.vtk"}), 2,
-                 {"--vtu", "p.vtk", ".vtu"}));
+  EXPECT_TRUE(fails_with(
+      knead({"sculpt", bonnet(), "-o", out, "--script", script, "--picture", workshop / "p.png"}),
+      2, {"--picture", "p.png", ".svg"}));
+  EXPECT_TRUE(fails_with(knead({"analyse", bonnet(), "--results", out, "--script", script, "--vtu",
+                                workshop / "p.vtk"}),
+                         2, {"--vtu", "p.vtk", ".vtu"}));
   EXPECT_TRUE(results_in(workshop).empty());
 }
 
@@ -167,9 +190,10 @@ TEST(ExitCodes, WhatIsWrittenIsSaidWhereStandardOutputIsFull) {
   for (int k = 0; k < 300; ++k)
     commands.push_back(command("tool", {{"name", "t" + std::to_string(k)}, {"at", {0.5, 0.5}}}));
   const std::string script = workshop.script(commands);
-  EXPECT_TRUE(
-      fails_with(knead({"sculpt", "--new", "-o", out, "--script", script, "--report", report}, full), 3,
-                 {"standard output", "what is printed could not be written", "written: " + report + ", " + out}));
+  EXPECT_TRUE(fails_with(
+      knead({"sculpt", "--new", "-o", out, "--script", script, "--report", report}, full), 3,
+      {"standard output", "what is printed could not be written",
+       "written: " + report + ", " + out}));
   EXPECT_EQ(results_in(workshop), (std::vector<std::string>{"out.step", "r.json"}));
 }
 
@@ -193,7 +217,8 @@ TEST(ExitCodes, ASetOfMatricesComesTogetherOrNotAtAll) {
 
 TEST(ExitCodes, AConvertedSurfaceIsAChange) {
   const Workshop workshop;
-  const std::string script = workshop.script(Json::array({command("convert", {{"surface", "#534"}})}));
+  const std::string script =
+      workshop.script(Json::array({command("convert", {{"surface", "#534"}})}));
   const Outcome run = knead({"sculpt", bonnet(), "-o", workshop / "out.step", "--script", script});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("(1 surface changed)"), std::string::npos) << run.out;

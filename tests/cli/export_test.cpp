@@ -25,7 +25,8 @@ TEST(Export, WritesTheSameFacesInEveryFormatAndSchema) {
       ASSERT_GE(info.at("surfaces").size(), before.size());
       for (std::size_t k = 0; k < before.size(); ++k) {
         const auto found = std::ranges::find_if(info.at("surfaces"), [&](const Json& other) {
-          return other.at("knots") == before[k].at("knots") && other.at("bounding_box") == before[k].at("bounding_box");
+          return other.at("knots") == before[k].at("knots") &&
+                 other.at("bounding_box") == before[k].at("bounding_box");
         });
         ASSERT_NE(found, info.at("surfaces").end());
         const Json& s = *found;
@@ -50,8 +51,9 @@ TEST(Export, ConvertsFacesOnRequest) {
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.err, "");
   EXPECT_EQ(knead({"info", out, "--json"}).json().at("surfaces").size(), 6U);
-  EXPECT_TRUE(fails_with(knead({"export", bonnet(), "--out", workshop / "b.step", "--convert", "--sets"}), 2,
-                         {"--convert", "--sets"}));
+  EXPECT_TRUE(
+      fails_with(knead({"export", bonnet(), "--out", workshop / "b.step", "--convert", "--sets"}),
+                 2, {"--convert", "--sets"}));
 }
 
 TEST(Export, BareSurfacesLoseTheirTrimsAndSaySo) {
@@ -64,12 +66,14 @@ TEST(Export, BareSurfacesLoseTheirTrimsAndSaySo) {
 
 TEST(Export, ASculptedFileBecomesTheSameFileOfAnotherFormatAtOnce) {
   const Workshop workshop;
-  const std::string script = workshop.script(Json::array(
-      {command("select", {{"surface", "#285"}}), command("hold", {{"rows", 1}}),
-       command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.5}}}),
-       command("move", {{"by", {0, 0, 0.05}}, {"relative", true}}), command("step", {{"count", 2}, {"lambda", 10}}),
-       command("hold", {{"mode", "free"}, {"all", true}})}));
-  const std::string step = workshop / "a.step", at_once = workshop / "a.igs", after = workshop / "b.igs";
+  const std::string script = workshop.script(
+      Json::array({command("select", {{"surface", "#285"}}), command("hold", {{"rows", 1}}),
+                   command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.5}}}),
+                   command("move", {{"by", {0, 0, 0.05}}, {"relative", true}}),
+                   command("step", {{"count", 2}, {"lambda", 10}}),
+                   command("hold", {{"mode", "free"}, {"all", true}})}));
+  const std::string step = workshop / "a.step", at_once = workshop / "a.igs",
+                    after = workshop / "b.igs";
   ASSERT_EQ(knead({"sculpt", bonnet(), "-o", step, "--script", script}).code, 0);
   const Outcome run = knead({"sculpt", bonnet(), "-o", at_once, "--script", script});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -80,35 +84,39 @@ TEST(Export, ASculptedFileBecomesTheSameFileOfAnotherFormatAtOnce) {
 
 TEST(Export, RefusesOtherNamesAndSchemas) {
   const Workshop workshop;
-  EXPECT_TRUE(fails_with(knead({"export", bonnet(), "--out", workshop / "a.brep"}), 2, {"--out", ".step", ".igs"}));
+  EXPECT_TRUE(fails_with(knead({"export", bonnet(), "--out", workshop / "a.brep"}), 2,
+                         {"--out", ".step", ".igs"}));
   EXPECT_TRUE(
-      fails_with(knead({"export", bonnet(), "--out", workshop / "a.step", "--schema", "ap209"}), 2, {"--schema"}));
+      fails_with(knead({"export", bonnet(), "--out", workshop / "a.step", "--schema", "ap209"}), 2,
+                 {"--schema"}));
   EXPECT_TRUE(fails_with(knead({"export", bonnet(), "--out", bonnet()}), 2, {"--out"}));
   EXPECT_TRUE(workshop.files().empty());
 }
 
 TEST(Export, TakesAUnitWhereTheFileHasNone) {
   const Workshop workshop;
-  const std::string bare =
-      workshop.file("square.g2", "200 1 0 0\n3 0\n2 2\n0 0 1 1\n2 2\n0 0 1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
+  const std::string bare = workshop.file(
+      "square.g2", "200 1 0 0\n3 0\n2 2\n0 0 1 1\n2 2\n0 0 1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
   for (const std::string name : {"a.step", "b.igs"}) {
     const std::string out = workshop / name;
     const Outcome run = knead({"export", bare, "--out", out, "--unit", "inch"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(run.out.find("millimetres"), std::string::npos) << run.out;
     EXPECT_EQ(knead({"info", out, "--json"}).json().at("units"), "inch");
-    EXPECT_NE(knead({"export", bare, "--out", out}).out.find("written as millimetres"), std::string::npos);
+    EXPECT_NE(knead({"export", bare, "--out", out}).out.find("written as millimetres"),
+              std::string::npos);
   }
-  EXPECT_TRUE(
-      fails_with(knead({"export", bare, "--out", workshop / "c.step", "--unit", "ell"}), 2, {"ell", "mm", "inch"}));
-  EXPECT_TRUE(
-      fails_with(knead({"export", bonnet(), "--out", workshop / "c.step", "--unit", "m"}), 2, {"--unit", "in mm"}));
+  EXPECT_TRUE(fails_with(knead({"export", bare, "--out", workshop / "c.step", "--unit", "ell"}), 2,
+                         {"ell", "mm", "inch"}));
+  EXPECT_TRUE(fails_with(knead({"export", bonnet(), "--out", workshop / "c.step", "--unit", "m"}),
+                         2, {"--unit", "in mm"}));
 }
 
 TEST(Export, LeavesOutWhatHasNoFaceAndSaysSo) {
   const Workshop workshop;
-  const std::string script = workshop.script(Json::array(
-      {command("new", {{"shape", "plane"}}), command("new", {{"shape", "plane"}, {"size", 1e-12}, {"name", "tip"}})}));
+  const std::string script = workshop.script(
+      Json::array({command("new", {{"shape", "plane"}}),
+                   command("new", {{"shape", "plane"}, {"size", 1e-12}, {"name", "tip"}})}));
   ASSERT_EQ(knead({"sculpt", "--new", "-o", workshop / "both.step", "--script", script}).code, 0);
   for (const std::string name : {"a.step", "b.igs"}) {
     const Outcome run = knead({"export", workshop / "both.step", "--out", workshop / name});
@@ -116,7 +124,8 @@ TEST(Export, LeavesOutWhatHasNoFaceAndSaysSo) {
     EXPECT_NE(run.err.find("left out: 1 surface (#"), std::string::npos) << run.err;
     EXPECT_EQ(knead({"info", workshop / name, "--json"}).json().at("surfaces").size(), 1U);
   }
-  ASSERT_EQ(knead({"export", workshop / "both.step", "--out", workshop / "c.step", "--sets"}).code, 0);
+  ASSERT_EQ(knead({"export", workshop / "both.step", "--out", workshop / "c.step", "--sets"}).code,
+            0);
   EXPECT_EQ(knead({"info", workshop / "c.step", "--json"}).json().at("surfaces").size(), 2U);
 }
 
@@ -130,12 +139,15 @@ TEST(Export, NewSurfacesBecomeStepOfAnySchemaOrIges) {
     EXPECT_EQ(info.at("format"), name == "a.step" ? "STEP" : "IGES");
     EXPECT_EQ(info.at("surfaces").size(), 1U);
   }
-  ASSERT_EQ(knead({"sculpt", "--new", "-o", workshop / "c.step", "--script", script, "--schema", "ap242"}).code, 0);
+  ASSERT_EQ(
+      knead({"sculpt", "--new", "-o", workshop / "c.step", "--script", script, "--schema", "ap242"})
+          .code,
+      0);
   EXPECT_EQ(knead({"info", workshop / "c.step", "--json"}).json().at("schema"),
             "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF");
-  EXPECT_TRUE(
-      fails_with(knead({"sculpt", bonnet(), "-o", workshop / "d.step", "--script", script, "--schema", "ap242"}), 2,
-                 {"--schema", "a file keeps its schema"}));
+  EXPECT_TRUE(fails_with(knead({"sculpt", bonnet(), "-o", workshop / "d.step", "--script", script,
+                                "--schema", "ap242"}),
+                         2, {"--schema", "a file keeps its schema"}));
 }
 
 }  // namespace

@@ -13,7 +13,9 @@ TEST(Help, TellsTheExitCodesEverywhere) {
     const Outcome run = knead(arguments);
     EXPECT_EQ(run.code, 0);
     EXPECT_TRUE(run.err.empty());
-    EXPECT_NE(run.out.find("0 success, 2 wrong usage, 3 bad input, 4 numerical failure"), std::string::npos) << name;
+    EXPECT_NE(run.out.find("0 success, 2 wrong usage, 3 bad input, 4 numerical failure"),
+              std::string::npos)
+        << name;
   }
 }
 
@@ -42,8 +44,10 @@ TEST(Help, SculptNamesEveryCommandAndField) {
 
 TEST(Help, CommandsListsAllOrExplainsOne) {
   const std::string all = knead({"commands"}).out;
-  for (const std::string& name : command_names()) EXPECT_NE(all.find("  " + name + " "), std::string::npos) << name;
-  EXPECT_TRUE(fails_with(knead({"commands", "hammer"}), 2, {"hammer", "the commands are: new, select"}));
+  for (const std::string& name : command_names())
+    EXPECT_NE(all.find("  " + name + " "), std::string::npos) << name;
+  EXPECT_TRUE(
+      fails_with(knead({"commands", "hammer"}), 2, {"hammer", "the commands are: new, select"}));
 }
 
 TEST(Help, SculptNamesEveryFieldOfTheReport) {

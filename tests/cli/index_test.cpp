@@ -1,4 +1,5 @@
-// What `knead info --json` says of the files of a collection, beside an index of them that another reader made.
+// What `knead info --json` says of the files of a collection, beside an index of them that another
+// reader made.
 
 #include <fmt/format.h>
 
@@ -50,7 +51,8 @@ std::vector<Record> index() {
   return records;
 }
 
-/// The unit in the words of the index: the file's own name of it, or several where a file has several contexts.
+/// The unit in the words of the index: the file's own name of it, or several where a file has
+/// several contexts.
 bool same_unit(const std::string& indexed, const std::string& unit) {
   if (indexed.empty() || indexed == "?" || indexed.starts_with("none")) return unit == "unknown";
   static const std::map<std::string, std::string> words = {
@@ -59,7 +61,9 @@ bool same_unit(const std::string& indexed, const std::string& unit) {
   if (word == words.end()) return false;
   std::istringstream parts(indexed);
   for (std::string part; std::getline(parts, part, ',');) {
-    if (part.starts_with(word->second) && (part.size() == word->second.size() || word->second == "IN")) return true;
+    if (part.starts_with(word->second) &&
+        (part.size() == word->second.size() || word->second == "IN"))
+      return true;
   }
   return false;
 }
@@ -86,11 +90,14 @@ int shown(const Json& info, const Json& surface) {
 void compare(const Record& record, const Json& info) {
   const Json& surfaces = info.at("surfaces");
   const auto number = [&](const char* field) { return std::stod(record.at(field)); };
-  const auto stated = [&](const char* field) { return record.contains(field) && !record.at(field).empty(); };
+  const auto stated = [&](const char* field) {
+    return record.contains(field) && !record.at(field).empty();
+  };
   if (stated("raw_bspline_surfaces")) {
     EXPECT_EQ(surfaces.size(), static_cast<std::size_t>(number("raw_bspline_surfaces")));
   }
-  EXPECT_TRUE(same_unit(record.at("units"), info.at("units"))) << record.at("units") << " " << info.at("units");
+  EXPECT_TRUE(same_unit(record.at("units"), info.at("units")))
+      << record.at("units") << " " << info.at("units");
   if (surfaces.empty() || !stated("max_degree")) return;
 
   int degree = 0, rational = 0, unclamped = 0, faces = 0, trimmed = 0;
@@ -98,7 +105,8 @@ void compare(const Record& record, const Json& info) {
   const bool brep = info.at("format") == "Open CASCADE";
   for (const Json& s : surfaces) {
     degree = std::max({degree, s.at("degree")[0].get<int>(), s.at("degree")[1].get<int>()});
-    // Weights that are all equal make no rational surface: the index does not count them, `info` says what is written.
+    // Weights that are all equal make no rational surface: the index does not count them, `info`
+    // says what is written.
     if (!s.at("weights").is_null()) {
       EXPECT_TRUE(s.at("rational"));
       const double low = s.at("weights")[0], high = s.at("weights")[1];
@@ -132,15 +140,17 @@ void compare(const Record& record, const Json& info) {
     const std::string clamped = by(s.at("clamped"), ',');
     const bool really = !s.at("weights").is_null() && s.at("weights")[0] < s.at("weights")[1];
     const std::string indexed = record.at("big_clamped");
-    return by(s.at("net"), 'x') == record.at("big_net") && by(s.at("degree"), 'x') == record.at("big_degree") &&
+    return by(s.at("net"), 'x') == record.at("big_net") &&
+           by(s.at("degree"), 'x') == record.at("big_degree") &&
            (really ? "True" : "False") == record.at("big_rational") &&
            by(s.at("max_interior_multiplicity"), 'x') == record.at("big_max_interior_mult") &&
            by(s.at("closed"), '/') == record.at("big_closed") &&
-           (indexed ==
-                "[" + clamped.substr(0, clamped.find(',')) + ", " + clamped.substr(clamped.find(',') + 1) + "]" ||
+           (indexed == "[" + clamped.substr(0, clamped.find(',')) + ", " +
+                           clamped.substr(clamped.find(',') + 1) + "]" ||
             (indexed == "True" && clamped == "True,True"));
   });
-  EXPECT_TRUE(found) << "the largest surface: " << record.at("big_net") << " " << record.at("big_degree");
+  EXPECT_TRUE(found) << "the largest surface: " << record.at("big_net") << " "
+                     << record.at("big_degree");
 }
 
 TEST(Index, OfForeignFilesAgreesWithInfo) {

@@ -41,7 +41,8 @@ TEST(Info, ListsPlacementsUnderInstances) {
   const Json instances = knead({"info", bonnet(), "--json"}).json().at("instances");
   ASSERT_FALSE(instances.empty());
   for (const Json& i : instances) {
-    for (const char* field : {"id", "name", "parent", "child", "placement", "frame"}) EXPECT_TRUE(i.contains(field));
+    for (const char* field : {"id", "name", "parent", "child", "placement", "frame"})
+      EXPECT_TRUE(i.contains(field));
   }
 }
 
@@ -50,7 +51,8 @@ TEST(Info, SaysWhereThePartsOfAnAssemblyStand) {
   EXPECT_EQ(model.at("unit"), "mm");
   std::size_t rings = 0;
   for (const Json& part : model.at("parts")) {
-    for (const char* field : {"name", "unit", "surfaces", "faces", "places"}) EXPECT_TRUE(part.contains(field));
+    for (const char* field : {"name", "unit", "surfaces", "faces", "places"})
+      EXPECT_TRUE(part.contains(field));
     if (part.at("surfaces") != Json::array({"#1044"})) continue;
     rings += part.at("places").size();
     EXPECT_EQ(part.at("places")[0].at("matrix").size(), 3U);
@@ -70,18 +72,20 @@ TEST(Info, SaysWhichOtherSurfacesCanBeConverted) {
   }
   EXPECT_NE(knead({"info", bonnet()}).out.find("4 SURFACE_OF_LINEAR_EXTRUSION"), std::string::npos);
   const std::string listed = knead({"info", bonnet(), "--faces"}).out;
-  const std::string line = others[0].at("id").get<std::string>() + "     SURFACE_OF_LINEAR_EXTRUSION, face " +
+  const std::string line = others[0].at("id").get<std::string>() +
+                           "     SURFACE_OF_LINEAR_EXTRUSION, face " +
                            others[0].at("faces").at(0).get<std::string>() + ": can be converted";
   EXPECT_NE(listed.find(line), std::string::npos) << listed;
 }
 
 TEST(Info, AFileWithoutSplineSurfacesIsNoError) {
   const Workshop workshop;
-  const std::string path =
-      workshop.file("none.step",
-                    "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
-                    "FILE_SCHEMA(('X'));\nENDSEC;\nDATA;\n#1=CARTESIAN_POINT('',(0.,0.,0.));\nENDSEC;\n"
-                    "END-ISO-10303-21;\n");
+  const std::string path = workshop.file(
+      "none.step",
+      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');"
+      "\n"
+      "FILE_SCHEMA(('X'));\nENDSEC;\nDATA;\n#1=CARTESIAN_POINT('',(0.,0.,0.));\nENDSEC;\n"
+      "END-ISO-10303-21;\n");
   const Outcome run = knead({"info", path, "--json"});
   EXPECT_EQ(run.code, 0);
   EXPECT_TRUE(run.json().at("surfaces").empty());
@@ -110,7 +114,8 @@ TEST(Info, MeshAndExportNameAndCountWhatTheyLeaveOut) {
   EXPECT_EQ(left[0].at("ids"), Json::array({"#9001"}));
   EXPECT_TRUE(left[1].at("remedy").is_string());
   const std::string text = knead({"info", path}).out;
-  EXPECT_NE(text.find("  left out:\n    1 point (#9001): a point has no surface\n    1 curve"), std::string::npos)
+  EXPECT_NE(text.find("  left out:\n    1 point (#9001): a point has no surface\n    1 curve"),
+            std::string::npos)
       << text;
   const Outcome mesh = knead({"mesh", path, "--out", workshop / "a.stl"});
   const Outcome copy = knead({"export", path, "--out", workshop / "a.igs"});
@@ -125,23 +130,28 @@ TEST(Info, MeshAndExportNameAndCountWhatTheyLeaveOut) {
 
 TEST(Info, AndMeshCountTessellatedItems) {
   const Workshop workshop;
-  const std::string path =
-      workshop.file("tent.step",
-                    "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
-                    "FILE_SCHEMA(('AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF'));\nENDSEC;\nDATA;\n"
-                    "#1=COORDINATES_LIST('',4,((0.,0.,0.),(2.,0.,0.),(0.,2.,0.),(0.,0.,2.)));\n"
-                    "#2=TRIANGULATED_FACE('tent',#1,4,(),$,(),((1,3,2),(1,2,4),(2,3,4),(1,4,3)));\n"
-                    "#3=TRIANGULATED_FACE('torn',#1,4,(),$,(),((1,2,5)));\nENDSEC;\nEND-ISO-10303-21;\n");
+  const std::string path = workshop.file(
+      "tent.step",
+      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');"
+      "\n"
+      "FILE_SCHEMA(('AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF'));\nENDSEC;\nDATA;\n"
+      "#1=COORDINATES_LIST('',4,((0.,0.,0.),(2.,0.,0.),(0.,2.,0.),(0.,0.,2.)));\n"
+      "#2=TRIANGULATED_FACE('tent',#1,4,(),$,(),((1,3,2),(1,2,4),(2,3,4),(1,4,3)));\n"
+      "#3=TRIANGULATED_FACE('torn',#1,4,(),$,(),((1,2,5)));\nENDSEC;\nEND-ISO-10303-21;\n");
   const Json info = knead({"info", path, "--json"}).json();
   EXPECT_EQ(info.at("tessellated_items"),
             Json::parse(R"([{"id": "#2", "name": "tent", "unit": "unknown", "triangles": 4}])"));
   ASSERT_EQ(info.at("left_out").size(), 1U);
   EXPECT_EQ(info.at("left_out")[0].at("ids"), Json::array({"#3"}));
-  EXPECT_NE(knead({"info", path}).out.find("#2       \"tent\", tessellated, 4 triangles\n"), std::string::npos);
+  EXPECT_NE(knead({"info", path}).out.find("#2       \"tent\", tessellated, 4 triangles\n"),
+            std::string::npos);
   const Outcome run = knead({"mesh", path, "--out", workshop / "a.stl"});
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("(1 tessellated item, 4 triangles, closed, "), std::string::npos) << run.out;
-  EXPECT_NE(run.err.find("left out: 1 face that cannot be drawn (#3): an index is 5"), std::string::npos) << run.err;
+  EXPECT_NE(run.out.find("(1 tessellated item, 4 triangles, closed, "), std::string::npos)
+      << run.out;
+  EXPECT_NE(run.err.find("left out: 1 face that cannot be drawn (#3): an index is 5"),
+            std::string::npos)
+      << run.err;
 }
 
 TEST(Info, LeavesNothingOutOfTheSample) {

@@ -16,7 +16,8 @@ constexpr int side = 40, surfaces = 200;
 void write_surfaces(const std::string& path) {
   std::ofstream out(path);
   out.precision(17);
-  out << "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+  out << "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','',''"
+         ");\n"
          "FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\n";
   int id = 1;
   for (int s = 0; s < surfaces; ++s) {
@@ -24,8 +25,8 @@ void write_surfaces(const std::string& path) {
     for (int i = 0; i < side; ++i) {
       net += i == 0 ? "((" : "),(";
       for (int j = 0; j < side; ++j) {
-        out << '#' << id << "=CARTESIAN_POINT('point',(" << std::fixed << 2 * s + i / 40.0 << ',' << j / 40.0 << ','
-            << std::sin(i + j) / 100 << "));\n";
+        out << '#' << id << "=CARTESIAN_POINT('point',(" << std::fixed << 2 * s + i / 40.0 << ','
+            << j / 40.0 << ',' << std::sin(i + j) / 100 << "));\n";
         net += (j == 0 ? "#" : ",#") + std::to_string(id++);
       }
     }
@@ -37,8 +38,9 @@ void write_surfaces(const std::string& path) {
     }
     multiplicities += ",4)";
     values += "," + last + ".)";
-    out << '#' << id++ << "=B_SPLINE_SURFACE_WITH_KNOTS('sheet',3,3," << net << ")),.UNSPECIFIED.,.F.,.F.,.F.,"
-        << multiplicities << ',' << multiplicities << ',' << values << ',' << values << ",.UNSPECIFIED.);\n";
+    out << '#' << id++ << "=B_SPLINE_SURFACE_WITH_KNOTS('sheet',3,3," << net
+        << ")),.UNSPECIFIED.,.F.,.F.,.F.," << multiplicities << ',' << multiplicities << ','
+        << values << ',' << values << ",.UNSPECIFIED.);\n";
   }
   out << "ENDSEC;\nEND-ISO-10303-21;\n";
 }
@@ -48,8 +50,9 @@ TEST(LargeStep, IsListedAndChangedInFourTimesItsSize) {
   const Workshop workshop;
   const std::string file = workshop / "large.step", out = workshop / "out.step";
   write_surfaces(file);
-  const std::string script = workshop.script(Json::array(
-      {command("select", {{"surface", "#1601"}}), command("points", {{"which", {820}}, {"by", {0, 0, 1}}})}));
+  const std::string script =
+      workshop.script(Json::array({command("select", {{"surface", "#1601"}}),
+                                   command("points", {{"which", {820}}, {"by", {0, 0, 1}}})}));
   const auto size = std::filesystem::file_size(file);
   ASSERT_GT(size, 20U << 20U);
   const rlim_t program = rlim_t{40} << 20U;  // its code, libraries and stack

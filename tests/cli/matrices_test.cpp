@@ -21,7 +21,8 @@ struct Read {
   double product(const std::vector<double>& x, const std::vector<double>& y) const {
     double sum = 0;
     for (const auto& [place, value] : entries) {
-      const auto i = static_cast<std::size_t>(place.first), j = static_cast<std::size_t>(place.second);
+      const auto i = static_cast<std::size_t>(place.first),
+                 j = static_cast<std::size_t>(place.second);
       sum += value * x[i] * y[j] + (i != j ? value * x[j] * y[i] : 0);
     }
     return sum;
@@ -49,7 +50,8 @@ Read read_matrix(const std::string& path) {
 /// The numbers of a .npy file of doubles.
 std::vector<double> read_array(const std::string& path) {
   const std::string bytes = content_of(path);
-  const std::size_t start = 10U + static_cast<unsigned char>(bytes[8]) + 256U * static_cast<unsigned char>(bytes[9]);
+  const std::size_t start =
+      10U + static_cast<unsigned char>(bytes[8]) + 256U * static_cast<unsigned char>(bytes[9]);
   std::vector<double> result((bytes.size() - start) / 8);
   std::memcpy(result.data(), bytes.data() + start, 8 * result.size());
   return result;
@@ -59,8 +61,9 @@ const std::string quadratic = "0,0,0,0.5,1,2,2,2", cubic = "0,0,0,0,1,1,1,1";
 
 TEST(Matrices, OfAPlainSpaceAreThoseOfTheTheory) {
   const Workshop shop;
-  ASSERT_EQ(knead({"matrices", "--degree", "2x3", "--knots-u", quadratic, "--knots-v", cubic, "--alpha", "2,0.5,1",
-                   "--beta", "0.1,0.2,0.3", "--mass", "3", "--load", "0,1,4", "--out", shop / "m"})
+  ASSERT_EQ(knead({"matrices", "--degree", "2x3", "--knots-u", quadratic, "--knots-v", cubic,
+                   "--alpha", "2,0.5,1", "--beta", "0.1,0.2,0.3", "--mass", "3", "--load", "0,1,4",
+                   "--out", shop / "m"})
                 .code,
             0);
   const Json about = Json::parse(content_of(shop / "m/matrices.json"));
@@ -71,8 +74,9 @@ TEST(Matrices, OfAPlainSpaceAreThoseOfTheTheory) {
   EXPECT_NEAR(m.product(one, one), 3 * 2.0, 1e-14) << "mass times the area of the domain";
   for (const auto& [place, value] : k.entries) {
     double sum = 0;
-    const std::map<std::string, double> terms = {{"alpha11", 2},  {"alpha12", 0.5}, {"alpha22", 1},
-                                                 {"beta11", 0.1}, {"beta12", 0.2},  {"beta22", 0.3}};
+    const std::map<std::string, double> terms = {{"alpha11", 2},  {"alpha12", 0.5},
+                                                 {"alpha22", 1},  {"beta11", 0.1},
+                                                 {"beta12", 0.2}, {"beta22", 0.3}};
     static std::map<std::string, Read> read;
     for (const auto& [name, coefficient] : terms) {
       if (!read.contains(name)) read[name] = read_matrix(shop / ("m/K_" + name + ".mtx"));
@@ -80,8 +84,10 @@ TEST(Matrices, OfAPlainSpaceAreThoseOfTheTheory) {
     }
     EXPECT_NEAR(sum, value, 1e-13 * std::abs(k.at(0, 0)));
   }
-  // S = (s, t, 0): alpha11 + alpha22 stretch of the area 2; Greville abscissae are its control points.
-  const std::vector<double> points = read_array(shop / "m/points.npy"), force = read_array(shop / "m/F.npy");
+  // S = (s, t, 0): alpha11 + alpha22 stretch of the area 2; Greville abscissae are its control
+  // points.
+  const std::vector<double> points = read_array(shop / "m/points.npy"),
+                            force = read_array(shop / "m/F.npy");
   ASSERT_EQ(points.size(), 60U);
   double energy = 0;
   std::array<double, 3> total = {};
@@ -104,8 +110,8 @@ TEST(Matrices, OfAFileLeaveOutWhatIsHeld) {
   const Json info = knead({"info", bonnet(), "--json"}).json();
   const std::string id = info.at("surfaces")[0].at("id");
   const auto run = [&](const std::string& hold, const std::string& directory) {
-    return knead(
-        {"matrices", bonnet(), "--surface", id, "--hold", hold, "--units", "normalised", "--out", shop / directory});
+    return knead({"matrices", bonnet(), "--surface", id, "--hold", hold, "--units", "normalised",
+                  "--out", shop / directory});
   };
   ASSERT_EQ(run("0", "all").code, 0);
   ASSERT_EQ(run("2", "free").code, 0);
@@ -133,7 +139,8 @@ TEST(Matrices, OfAFileLeaveOutWhatIsHeld) {
 TEST(Matrices, WhatIsWrongIsNamed) {
   const Workshop shop;
   const std::string path = shop / "m";
-  const auto fails = [](std::vector<std::string> arguments, int code, const std::vector<std::string>& named) {
+  const auto fails = [](std::vector<std::string> arguments, int code,
+                        const std::vector<std::string>& named) {
     arguments.insert(arguments.begin(), "matrices");
     return fails_with(knead(arguments), code, named);
   };
@@ -141,8 +148,10 @@ TEST(Matrices, WhatIsWrongIsNamed) {
   EXPECT_TRUE(fails({bonnet(), "--out", path}, 2, {"--surface", "2 surfaces"}));
   EXPECT_TRUE(fails({bonnet(), "--surface", "#1", "--out", path}, 2, {"--surface", "#1"}));
   EXPECT_TRUE(fails({"--knots-u", cubic, "--knots-v", "0,0,1", "--out", path}, 2, {"--knots-v"}));
-  EXPECT_TRUE(fails({"--knots-u", cubic, "--knots-v", cubic, "--hold", "2", "--out", path}, 2, {"--hold", "4 x 4"}));
-  EXPECT_TRUE(fails({"--knots-u", cubic, "--knots-v", cubic, "--units", "mm", "--out", path}, 2, {"--units", "mm"}));
+  EXPECT_TRUE(fails({"--knots-u", cubic, "--knots-v", cubic, "--hold", "2", "--out", path}, 2,
+                    {"--hold", "4 x 4"}));
+  EXPECT_TRUE(fails({"--knots-u", cubic, "--knots-v", cubic, "--units", "mm", "--out", path}, 2,
+                    {"--units", "mm"}));
 }
 
 }  // namespace

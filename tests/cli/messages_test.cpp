@@ -6,11 +6,12 @@
 namespace knead::testing {
 namespace {
 
-::testing::AssertionResult refused_anew(const Json& commands, int code, const std::vector<std::string>& named,
+::testing::AssertionResult refused_anew(const Json& commands, int code,
+                                        const std::vector<std::string>& named,
                                         const std::string& ending = ".step") {
   const Workshop workshop;
-  const Outcome run = knead(
-      {"sculpt", "--new", "-o", workshop / ("out" + ending), "--script", workshop.script(commands, "script.json")});
+  const Outcome run = knead({"sculpt", "--new", "-o", workshop / ("out" + ending), "--script",
+                             workshop.script(commands, "script.json")});
   if (workshop.files() != std::vector<std::string>{"script.json"}) {
     return ::testing::AssertionFailure() << "files are left behind";
   }
@@ -18,15 +19,18 @@ namespace {
 }
 
 TEST(Messages, ATornSurfaceHasItsOwnId) {
-  const Json torn = command("new", {{"degree", {1, 1}}, {"net", {5, 4}}, {"knots_u", {0, 0, 0.5, 0.5, 0.7, 1, 1}}});
+  const Json torn = command(
+      "new", {{"degree", {1, 1}}, {"net", {5, 4}}, {"knots_u", {0, 0, 0.5, 0.5, 0.7, 1, 1}}});
   for (const char* ending : {".step", ".igs"}) {
-    EXPECT_TRUE(refused_anew({command("new"), torn}, 3, {"script.json: #2: ", "torn along a knot", "of 1"}, ending));
+    EXPECT_TRUE(refused_anew({command("new"), torn}, 3,
+                             {"script.json: #2: ", "torn along a knot", "of 1"}, ending));
   }
 }
 
 TEST(Messages, WithoutASurfaceItIsSaidHowOneIsMade) {
   for (const char* ending : {".step", ".igs"}) {
-    EXPECT_TRUE(refused_anew(Json::array(), 3, {"script.json: ", "no surface to write", "`new`"}, ending));
+    EXPECT_TRUE(
+        refused_anew(Json::array(), 3, {"script.json: ", "no surface to write", "`new`"}, ending));
   }
 }
 
@@ -47,7 +51,8 @@ TEST(Messages, AtTheHighestDegreeNothingIsOffered) {
 TEST(Messages, ADistanceIsRefusedInShort) {
   const Workshop workshop;
   for (const char* tolerance : {"inf", "nan", "-1", "0"}) {
-    const Outcome run = knead({"mesh", bonnet(), "--out", workshop / "a.stl", "--tolerance", tolerance});
+    const Outcome run =
+        knead({"mesh", bonnet(), "--out", workshop / "a.stl", "--tolerance", tolerance});
     EXPECT_TRUE(fails_with(run, 2, {"--tolerance", tolerance, "above 0"}));
     EXPECT_LT(run.err.size(), 200U) << run.err;
   }
@@ -56,18 +61,22 @@ TEST(Messages, ADistanceIsRefusedInShort) {
 TEST(Messages, AFileThatIsNoScriptIsCalledByItsName) {
   const Workshop workshop;
   const std::string out = workshop / "out.step", script = workshop.script(Json::array());
-  const std::string empty = workshop.file("empty.json", "\n"), image = workshop.file("a.png", "\x89PNG\r\n");
+  const std::string empty = workshop.file("empty.json", "\n"),
+                    image = workshop.file("a.png", "\x89PNG\r\n");
   for (const auto& [file, name] :
        {std::pair(bonnet(), "STEP file"), std::pair(empty, "empty"), std::pair(image, "image")}) {
-    EXPECT_TRUE(fails_with(knead({"sculpt", bonnet(), "-o", out, "--script", file}), 3, {file, name, "not a script"}));
-    EXPECT_TRUE(fails_with(knead({"analyse", bonnet(), "--results", out, "--script", file}), 3, {file, name}));
+    EXPECT_TRUE(fails_with(knead({"sculpt", bonnet(), "-o", out, "--script", file}), 3,
+                           {file, name, "not a script"}));
+    EXPECT_TRUE(fails_with(knead({"analyse", bonnet(), "--results", out, "--script", file}), 3,
+                           {file, name}));
   }
   EXPECT_TRUE(fails_with(knead({"info", script}), 3, {script, "a script", "--script"}));
 }
 
 TEST(Messages, AnUnknownFunctionComesWithTheList) {
-  EXPECT_TRUE(refused_anew({command("new"), command("load", {{"formula", {"0", "0", "sinus(u)"}}})}, 3,
-                           {"\"sinus\"", "variables are ", "functions are abs, ", "smoothstep", "mix"}));
+  EXPECT_TRUE(
+      refused_anew({command("new"), command("load", {{"formula", {"0", "0", "sinus(u)"}}})}, 3,
+                   {"\"sinus\"", "variables are ", "functions are abs, ", "smoothstep", "mix"}));
 }
 
 TEST(Messages, ARadiusWhoseSquareVanishesIsRefused) {
@@ -75,7 +84,8 @@ TEST(Messages, ARadiusWhoseSquareVanishesIsRefused) {
   for (const Json& small : {command("drag", {{"by", {0, 0, 0.1}}, {"radius", 5e-324}}),
                             command("relax", {{"at", {0.5, 0.5}}, {"radius", 1e-60}}),
                             command("mask", {{"change", "blur"}, {"radius", 1e-60}})}) {
-    EXPECT_TRUE(refused_anew({command("new"), small}, 3, {"commands[1]: radius", "1e-50"})) << small;
+    EXPECT_TRUE(refused_anew({command("new"), small}, 3, {"commands[1]: radius", "1e-50"}))
+        << small;
   }
 }
 
@@ -94,7 +104,8 @@ TEST(Messages, InfoShowsWhatIsInAKneadDocument) {
   const Outcome text = knead({"info", document});
   ASSERT_EQ(text.code, 0) << text.err;
   for (const char* part :
-       {"Knead document of version 3, \"part.step\"", "begins with the STEP file \"part.step\", 13 bytes",
+       {"Knead document of version 3, \"part.step\"",
+        "begins with the STEP file \"part.step\", 13 bytes",
         "2 commands:", R"({"do":"hold","rows":2})", "view \"front\"", "a snapshot of 3 bytes"}) {
     EXPECT_NE(text.out.find(part), std::string::npos) << part << " in " << text.out;
   }
@@ -103,9 +114,11 @@ TEST(Messages, InfoShowsWhatIsInAKneadDocument) {
   EXPECT_EQ(about.at("source"), (Json{{"kind", "step"}, {"name", "part.step"}, {"bytes", 13}}));
   EXPECT_EQ(about.at("commands").size(), 2U);
   EXPECT_TRUE(fails_with(knead({"info", document, "--faces"}), 2, {"--faces"}));
-  const std::string old = workshop.file("old.knead", R"({"knead": 2, "name": "part.step", "commands": []})");
+  const std::string old =
+      workshop.file("old.knead", R"({"knead": 2, "name": "part.step", "commands": []})");
   EXPECT_TRUE(fails_with(knead({"info", old}), 3, {old, "of version 2", "docs/scripts.md"}));
-  const std::string half = workshop.file("half.knead", R"({"knead": 3, "name": "part.step", "comm)");
+  const std::string half =
+      workshop.file("half.knead", R"({"knead": 3, "name": "part.step", "comm)");
   EXPECT_TRUE(fails_with(knead({"info", half}), 3, {half, "not JSON"}));
   // Elsewhere it is no CAD file.
   EXPECT_TRUE(fails_with(knead({"mesh", document, "--out", workshop / "a.stl"}), 3,

@@ -8,7 +8,9 @@ namespace {
 
 // What the documentation shows and promises of scripts.
 
-std::string page(const std::string& name) { return content_of(std::string(KNEAD_SOURCE_DIR) + "/" + name); }
+std::string page(const std::string& name) {
+  return content_of(std::string(KNEAD_SOURCE_DIR) + "/" + name);
+}
 
 /// The indented blocks of a page that are scripts.
 std::vector<Json> scripts_in(const std::string& text) {
@@ -30,7 +32,8 @@ TEST(Pages, EveryScriptShownSculptsTheSample) {
       const Outcome run = knead({"sculpt", bonnet(), "-o", workshop / "out.step", "--script",
                                  workshop.file("script.json", script.dump()), "--report", report});
       EXPECT_EQ(run.code, 0) << name << ": " << script << "\n" << run.err;
-      EXPECT_GT(Json::parse(content_of(report)).at("largest_displacement").get<double>(), 1) << "mm; " << script;
+      EXPECT_GT(Json::parse(content_of(report)).at("largest_displacement").get<double>(), 1)
+          << "mm; " << script;
     }
   }
 }
@@ -42,11 +45,14 @@ TEST(Pages, ThePlateShownHasTheDeflectionStated) {
   const std::string script = text.substr(at, text.find(end, at) + end.size() - at);
   const auto deflection = [](const std::string& script_text) {
     const Workshop workshop;
-    const Outcome run = knead({"sculpt", "--new", "-o", workshop / "plate.step", "--script",
-                               workshop.file("script.json", script_text), "--report", workshop / "report.json"});
+    const Outcome run =
+        knead({"sculpt", "--new", "-o", workshop / "plate.step", "--script",
+               workshop.file("script.json", script_text), "--report", workshop / "report.json"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(knead({"info", workshop / "plate.step"}).code, 0);
-    return Json::parse(content_of(workshop / "report.json")).at("largest_displacement").get<double>();
+    return Json::parse(content_of(workshop / "report.json"))
+        .at("largest_displacement")
+        .get<double>();
   };
   EXPECT_NEAR(deflection(script), 0.00126532, 5e-9);
   std::string supported = script;
@@ -76,7 +82,8 @@ TEST(Pages, EveryCommandAndFieldOfTheHelpIsExplained) {
 
 TEST(Pages, TheGramianShownIsTheOnePrinted) {
   const std::string text = page("docs/command-line.md");
-  std::istringstream run(knead({"gramian", "--degree", "1", "--knots", "-1,-1,0,1,1", "--a", "1", "--b", "1"}).out);
+  std::istringstream run(
+      knead({"gramian", "--degree", "1", "--knots", "-1,-1,0,1,1", "--a", "1", "--b", "1"}).out);
   for (std::string line; std::getline(run, line);)
     EXPECT_NE(text.find("    " + line + "\n"), std::string::npos) << line;
 }

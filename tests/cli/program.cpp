@@ -48,7 +48,8 @@ std::string Workshop::script_of_all(const Json& commands, const std::string& nam
 
 std::vector<std::string> Workshop::files() const {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(directory_)) names.push_back(entry.path().filename().string());
+  for (const auto& entry : fs::directory_iterator(directory_))
+    names.push_back(entry.path().filename().string());
   std::ranges::sort(names);
   return names;
 }
@@ -73,7 +74,8 @@ Outcome knead(const std::vector<std::string>& arguments, const std::string& outp
   argv.push_back(nullptr);
   Outcome run;
   pid_t child = 0;
-  const bool started = posix_spawn(&child, all.front().c_str(), &actions, nullptr, argv.data(), environ) == 0;
+  const bool started =
+      posix_spawn(&child, all.front().c_str(), &actions, nullptr, argv.data(), environ) == 0;
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   if (!started || waitpid(child, &status, 0) != child) {
@@ -107,11 +109,14 @@ Surface surface_of(const std::string& path, const std::string& id) {
 ::testing::AssertionResult identical(const std::string& a, const std::string& b) {
   if (a == b) return ::testing::AssertionSuccess() << "both have the same " << a.size() << " bytes";
   const auto [at, ignored] = std::ranges::mismatch(a, b);
-  return ::testing::AssertionFailure() << "byte " << at - a.begin() << " of " << a.size() << " and " << b.size();
+  return ::testing::AssertionFailure()
+         << "byte " << at - a.begin() << " of " << a.size() << " and " << b.size();
 }
 
-::testing::AssertionResult fails_with(const Outcome& run, int code, const std::vector<std::string>& named) {
-  if (run.code != code) return ::testing::AssertionFailure() << "exit code " << run.code << ", " << run.err;
+::testing::AssertionResult fails_with(const Outcome& run, int code,
+                                      const std::vector<std::string>& named) {
+  if (run.code != code)
+    return ::testing::AssertionFailure() << "exit code " << run.code << ", " << run.err;
   if (!run.err.starts_with("knead: ") || run.err.find('\n') != run.err.size() - 1) {
     return ::testing::AssertionFailure() << "not one line: " << run.err;
   }

@@ -21,12 +21,17 @@ class Workshop {
   Workshop& operator=(const Workshop&) = delete;
   ~Workshop();
 
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (directory_ / name).string(); }
+  [[nodiscard]] std::string operator/(const std::string& name) const {
+    return (directory_ / name).string();
+  }
   /// Writes a file and returns its path.
   [[nodiscard]] std::string file(const std::string& name, const std::string& content) const;
-  [[nodiscard]] std::string script(const Json& commands, const std::string& name = "script.json") const;
-  /// The commands as such a script where nothing is held at first, and tools touch all of a surface.
-  [[nodiscard]] std::string script_of_all(const Json& commands, const std::string& name = "script.json") const;
+  [[nodiscard]] std::string script(const Json& commands,
+                                   const std::string& name = "script.json") const;
+  /// The commands as such a script where nothing is held at first, and tools touch all of a
+  /// surface.
+  [[nodiscard]] std::string script_of_all(const Json& commands,
+                                          const std::string& name = "script.json") const;
   /// Names of all files, hidden ones too, sorted.
   [[nodiscard]] std::vector<std::string> files() const;
 
@@ -45,7 +50,8 @@ struct Outcome {
 /// The program that is tested: the environment's KNEAD_PROGRAM, or the one of this build.
 [[nodiscard]] std::string program();
 /// \param output where its standard output goes instead of `Outcome::out`, if not empty
-[[nodiscard]] Outcome knead(const std::vector<std::string>& arguments, const std::string& output = {});
+[[nodiscard]] Outcome knead(const std::vector<std::string>& arguments,
+                            const std::string& output = {});
 
 [[nodiscard]] std::string content_of(const std::string& path);
 [[nodiscard]] std::string bonnet();
@@ -55,8 +61,8 @@ struct Outcome {
 /// The same bytes; says where they differ without printing them.
 [[nodiscard]] ::testing::AssertionResult identical(const std::string& a, const std::string& b);
 
-/// True where the run failed as the contract says: this code, nothing but one line on standard error, and that names
-/// all of these.
+/// True where the run failed as the contract says: this code, nothing but one line on standard
+/// error, and that names all of these.
 [[nodiscard]] ::testing::AssertionResult fails_with(const Outcome& run, int code,
                                                     const std::vector<std::string>& named);
 

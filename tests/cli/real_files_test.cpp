@@ -26,10 +26,11 @@ TEST(RealFiles, TheReportHasTheAnglesAtASmoothEdgeThatFollows) {
   KNEAD_NEEDS(file);
   const Workshop workshop;
   const std::string out = workshop / "out.step", report = workshop / "report.json";
-  const Json commands = {command("select", {{"surfaces", {"#2649", "#2692"}}}), command("hold", {{"mode", "trim"}}),
-                         command("edge", {{"which", "#1831"}, {"hold", "follow"}}), command("step")};
-  const Outcome run =
-      knead({"sculpt", file, "-o", out, "--script", workshop.script_of_all(commands), "--report", report});
+  const Json commands = {
+      command("select", {{"surfaces", {"#2649", "#2692"}}}), command("hold", {{"mode", "trim"}}),
+      command("edge", {{"which", "#1831"}, {"hold", "follow"}}), command("step")};
+  const Outcome run = knead({"sculpt", file, "-o", out, "--script",
+                             workshop.script_of_all(commands), "--report", report});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("edge #1831 follows smoothly"), std::string::npos) << run.out;
   int found = 0;
@@ -67,7 +68,8 @@ TEST(RealFiles, IgesFilesAreListedAndKept) {
   ASSERT_EQ(written.at("surfaces").size(), 2U);
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_EQ(written.at("surfaces")[k].at("knots"), info.at("surfaces")[k].at("knots"));
-    EXPECT_EQ(written.at("surfaces")[k].at("bounding_box"), info.at("surfaces")[k].at("bounding_box"));
+    EXPECT_EQ(written.at("surfaces")[k].at("bounding_box"),
+              info.at("surfaces")[k].at("bounding_box"));
   }
 }
 
@@ -75,19 +77,22 @@ TEST(RealFiles, APartOfAnAssemblyChangesInAllItsPlaces) {
   const std::string file = foreign_cad("as1-oc-214.stp").string();
   KNEAD_NEEDS(file);
   const Json parts = knead({"info", file, "--json"}).json().at("assembly").at("parts");
-  const auto nut = std::ranges::find_if(parts, [](const Json& part) { return part.at("name") == "nut"; });
+  const auto nut =
+      std::ranges::find_if(parts, [](const Json& part) { return part.at("name") == "nut"; });
   ASSERT_NE(nut, parts.end());
   ASSERT_EQ(nut->at("places").size(), 8U);
   const Workshop workshop;
   const std::string out = workshop / "out.step", report = workshop / "report.json";
-  const Json commands = {command("select", {{"surface", nut->at("surfaces")[0]}}), command("hold", {{"mode", "free"}}),
-                         command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
-                         command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),
-                         command("step", {{"lambda", 10}})};
-  const Outcome run =
-      knead({"sculpt", file, "-o", out, "--script", workshop.script_of_all(commands), "--report", report});
+  const Json commands = {
+      command("select", {{"surface", nut->at("surfaces")[0]}}), command("hold", {{"mode", "free"}}),
+      command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
+      command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),
+      command("step", {{"lambda", 10}})};
+  const Outcome run = knead({"sculpt", file, "-o", out, "--script",
+                             workshop.script_of_all(commands), "--report", report});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("its part \"nut\" stands in 8 places of the assembly"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("its part \"nut\" stands in 8 places of the assembly"), std::string::npos)
+      << run.out;
   const Json places = Json::parse(content_of(report)).at("places");
   ASSERT_EQ(places.size(), 1U);
   EXPECT_EQ(places[0].at("surface"), nut->at("surfaces")[0]);
@@ -103,20 +108,22 @@ TEST_P(StepFile, TakesADentInItsFirstSurface) {
   if (GetParam() == "simple_wing.stp") GTEST_SKIP() << "its first surface is collapsed to a line";
   const Workshop workshop;
   const std::string out = workshop / "out.step", report = workshop / "report.json";
-  const Json commands = {command("select", {{"surface", s.at("id")}}),
-                         command("hold", {{"mode", "free"}}),
-                         command("hold", {{"rows", 1}}),
-                         command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
-                         command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),
-                         command("step", {{"lambda", 10}})};
-  const Outcome run =
-      knead({"sculpt", file_, "-o", out, "--script", workshop.script_of_all(commands), "--report", report});
+  const Json commands = {
+      command("select", {{"surface", s.at("id")}}),
+      command("hold", {{"mode", "free"}}),
+      command("hold", {{"rows", 1}}),
+      command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
+      command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),
+      command("step", {{"lambda", 10}})};
+  const Outcome run = knead({"sculpt", file_, "-o", out, "--script",
+                             workshop.script_of_all(commands), "--report", report});
   ASSERT_EQ(run.code, 0) << run.err;
   const Json result = Json::parse(content_of(report));
   const bool all_held = s.at("net").at(0) <= 2 || s.at("net").at(1) <= 2;
   double size = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const double side = s.at("bounding_box")[1][c].get<double>() - s.at("bounding_box")[0][c].get<double>();
+    const double side =
+        s.at("bounding_box")[1][c].get<double>() - s.at("bounding_box")[0][c].get<double>();
     size += side * side;
   }
   const double largest = result.at("largest_displacement");

@@ -26,10 +26,12 @@ Json dent(const std::string& id, int steps = 2) {
 const Json may_open = command("hold", {{"mode", "free"}, {"all", true}});
 
 /// Sculpts the sample, lets edges open and returns the path of the result.
-std::string sculpted(const Workshop& workshop, Json commands, const std::string& name = "out.step") {
+std::string sculpted(const Workshop& workshop, Json commands,
+                     const std::string& name = "out.step") {
   commands.push_back(may_open);
-  const Outcome run = knead({"sculpt", bonnet(), "-o", workshop / name, "--script", workshop.script_of_all(commands),
-                             "--report", workshop / (name + ".json")});
+  const Outcome run =
+      knead({"sculpt", bonnet(), "-o", workshop / name, "--script",
+             workshop.script_of_all(commands), "--report", workshop / (name + ".json")});
   EXPECT_EQ(run.code, 0) << run.err;
   return workshop / name;
 }
@@ -50,7 +52,8 @@ int rows_that_differ(const Points& a, const Points& b) {
 std::map<std::string, std::string> records_of(const std::string& step) {
   std::map<std::string, std::string> records;
   static const std::regex record(R"((#\d+)\s*=\s*([^;]*);)");
-  for (std::sregex_iterator it(step.begin(), step.end(), record), end; it != end; ++it) records[(*it)[1]] = (*it)[2];
+  for (std::sregex_iterator it(step.begin(), step.end(), record), end; it != end; ++it)
+    records[(*it)[1]] = (*it)[2];
   return records;
 }
 
@@ -71,8 +74,10 @@ TEST(Sculpt, NoCommandsGiveTheSameBytes) {
 TEST(Sculpt, NoCommandsAreValidWithoutSplineSurfacesToo) {
   const Workshop workshop;
   const std::string bytes =
-      "ISO-10303-21;\r\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
-      "FILE_SCHEMA(('X'));\nENDSEC;\nDATA;\n#1 = CARTESIAN_POINT('',(0.,0.,/* ; */0.));\nENDSEC;\nEND-ISO-10303-21;";
+      "ISO-10303-21;\r\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','')"
+      ";\n"
+      "FILE_SCHEMA(('X'));\nENDSEC;\nDATA;\n#1 = CARTESIAN_POINT('',(0.,0.,/* ; "
+      "*/0.));\nENDSEC;\nEND-ISO-10303-21;";
   const std::string file = workshop.file("none.step", bytes);
   const std::string script = workshop.script(Json::array());
   const Outcome run = knead({"sculpt", file, "-o", workshop / "out.step", "--script", script});
@@ -107,10 +112,12 @@ TEST(Sculpt, NothingMovesWithoutAToolInReach) {
 TEST(Sculpt, SaysThatLengthsWithoutAUnitAreWrittenAsMillimetres) {
   const Workshop workshop;
   const std::string script = workshop.script(Json::array());
-  const std::string square =
-      workshop.file("square.g2", "200 1 0 0\n3 0\n2 2\n0 0 1 1\n2 2\n0 0 1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
-  const std::string said = "lengths are written as millimetres: " + square + " does not say what they are";
-  const Outcome other = knead({"sculpt", square, "-o", workshop / "square.step", "--script", script});
+  const std::string square = workshop.file(
+      "square.g2", "200 1 0 0\n3 0\n2 2\n0 0 1 1\n2 2\n0 0 1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
+  const std::string said =
+      "lengths are written as millimetres: " + square + " does not say what they are";
+  const Outcome other =
+      knead({"sculpt", square, "-o", workshop / "square.step", "--script", script});
   ASSERT_EQ(other.code, 0) << other.err;
   EXPECT_NE(other.out.find(said), std::string::npos) << other.out;
   const Outcome same = knead({"sculpt", square, "-o", workshop / "same.g2", "--script", script});
@@ -142,14 +149,18 @@ TEST(Sculpt, OnlyCoordinatesOfTheSurfaceDiffer) {
 TEST(Sculpt, TheOtherSurfaceKeepsItsBits) {
   const Workshop workshop;
   const std::string out = sculpted(workshop, dent(skin));
-  EXPECT_EQ(rows_that_differ(surface_of(bonnet(), ring).control_points(), surface_of(out, ring).control_points()), 0);
+  EXPECT_EQ(rows_that_differ(surface_of(bonnet(), ring).control_points(),
+                             surface_of(out, ring).control_points()),
+            0);
 }
 
 TEST(Sculpt, WeightsAndKnotsOfARationalSurfaceKeepTheirBits) {
   const Workshop workshop;
-  const Surface before = surface_of(bonnet(), ring), after = surface_of(sculpted(workshop, dent(ring)), ring);
+  const Surface before = surface_of(bonnet(), ring),
+                after = surface_of(sculpted(workshop, dent(ring)), ring);
   EXPECT_TRUE(std::ranges::equal(before.weights(), after.weights()));
-  for (int d = 0; d < 2; ++d) EXPECT_TRUE(std::ranges::equal(before.knots(d).knots(), after.knots(d).knots()));
+  for (int d = 0; d < 2; ++d)
+    EXPECT_TRUE(std::ranges::equal(before.knots(d).knots(), after.knots(d).knots()));
   EXPECT_GT(rows_that_differ(before.control_points(), after.control_points()), 0);
 }
 
@@ -158,12 +169,15 @@ TEST(Sculpt, HeldAndPinnedPointsKeepTheirBits) {
   Json commands = dent(skin);
   commands[1] = command("hold", {{"rows", 2}});
   commands.insert(commands.begin() + 2, command("pin", {{"control_points", {{5, 5}, {6, 7}}}}));
-  const Surface before = surface_of(bonnet(), skin), after = surface_of(sculpted(workshop, commands), skin);
+  const Surface before = surface_of(bonnet(), skin),
+                after = surface_of(sculpted(workshop, commands), skin);
   const auto [m, n] = before.net();
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < n; ++j) {
-      const bool fixed = i < 2 || j < 2 || i >= m - 2 || j >= n - 2 || (i == 5 && j == 5) || (i == 6 && j == 7);
-      EXPECT_EQ(same_bits(before.control_points(), after.control_points(), i * n + j), fixed) << i << ", " << j;
+      const bool fixed =
+          i < 2 || j < 2 || i >= m - 2 || j >= n - 2 || (i == 5 && j == 5) || (i == 6 && j == 7);
+      EXPECT_EQ(same_bits(before.control_points(), after.control_points(), i * n + j), fixed)
+          << i << ", " << j;
     }
   }
 }
@@ -190,9 +204,11 @@ TEST(Sculpt, TheReportSaysWhatTheFileShows) {
   EXPECT_EQ(report.at("residual"), last.at("residual"));
   EXPECT_EQ(report.at("largest_displacement"), last.at("largest_displacement"));
   EXPECT_EQ(report.at("energy_before"), 0) << "at rest there is no displacement";
-  const double energy = last.at("energy");  // of the unrounded step; after it, that of the control points
+  const double energy =
+      last.at("energy");  // of the unrounded step; after it, that of the control points
   EXPECT_NEAR(report.at("energy_after").get<double>(), energy, 1e-12 * energy);
-  EXPECT_EQ(report.at("control_points_moved"), rows_that_differ(before.control_points(), after.control_points()));
+  EXPECT_EQ(report.at("control_points_moved"),
+            rows_that_differ(before.control_points(), after.control_points()));
 
   // Sampled displacements stay below the largest one and come near to it.
   std::vector<double> u, v;
@@ -212,7 +228,8 @@ TEST(Sculpt, TheReportSaysWhatTheFileShows) {
 
 TEST(Sculpt, TheThesisEnergyFallsStepByStepWithoutForces) {
   const Workshop workshop;
-  const Json commands = {command("select", {{"surface", skin}}), command("rest", {{"mode", "none"}}),
+  const Json commands = {command("select", {{"surface", skin}}),
+                         command("rest", {{"mode", "none"}}),
                          command("step", {{"count", 5}, {"lambda", 10}})};
   const Json report = report_of(sculpted(workshop, commands));
   double energy = report.at("energy_before");
@@ -227,9 +244,13 @@ TEST(Sculpt, LeftOutFieldsMeanTheirDocumentedDefaults) {
   const Workshop workshop;
   const BoundingBox box = bounding_box(surface_of(bonnet(), skin));
   const double diagonal = box.diagonal();
-  const Json brief = {
-      command("select", {{"surface", skin}}), command("material", {{"reset", true}}), command("rest"), command("hold"),
-      command("tool", {{"at", {0.4, 0.5}}}),  command("move", {{"by", {1, 2, 3}}}),   command("step")};
+  const Json brief = {command("select", {{"surface", skin}}),
+                      command("material", {{"reset", true}}),
+                      command("rest"),
+                      command("hold"),
+                      command("tool", {{"at", {0.4, 0.5}}}),
+                      command("move", {{"by", {1, 2, 3}}}),
+                      command("step")};
   const Json full = {command("select", {{"surface", skin}}),
                      command("material", {{"alpha", {1, 0, 1}}, {"beta", {0.01, 0.01, 0.01}}}),
                      command("rest", {{"mode", "shape"}}),
@@ -254,15 +275,17 @@ TEST(Sculpt, RelativeLengthsAreFractionsOfTheBoxDiagonal) {
   const Surface surface = surface_of(bonnet(), ring);
   const double d = bounding_box(surface).diagonal();
   const Interval u = surface.knots(0).domain(), v = surface.knots(1).domain();
-  const auto centre = evaluate_point<2>(surface, {u.lower + 0.25 * u.length(), v.lower + 0.5 * v.length()});
+  const auto centre =
+      evaluate_point<2>(surface, {u.lower + 0.25 * u.length(), v.lower + 0.5 * v.length()});
   ASSERT_TRUE(centre);
-  const Json relative = {command("select", {{"surface", ring}}),
-                         command("tool", {{"radius", 0.125}, {"relative", true}, {"at", {0.25, 0.5}}}),
-                         command("move", {{"by", {0, 0, 0.0625}}, {"relative", true}}), command("step")};
-  const Json absolute = {
+  const Json relative = {
       command("select", {{"surface", ring}}),
-      command("tool", {{"radius", 0.125 * d}, {"position", {centre->x(), centre->y(), centre->z()}}}),
-      command("move", {{"by", {0, 0, 0.0625 * d}}}), command("step")};
+      command("tool", {{"radius", 0.125}, {"relative", true}, {"at", {0.25, 0.5}}}),
+      command("move", {{"by", {0, 0, 0.0625}}, {"relative", true}}), command("step")};
+  const Json absolute = {command("select", {{"surface", ring}}),
+                         command("tool", {{"radius", 0.125 * d},
+                                          {"position", {centre->x(), centre->y(), centre->z()}}}),
+                         command("move", {{"by", {0, 0, 0.0625 * d}}}), command("step")};
   EXPECT_TRUE(identical(content_of(sculpted(workshop, relative, "a.step")),
                         content_of(sculpted(workshop, absolute, "b.step"))));
 }
@@ -274,7 +297,9 @@ TEST(Sculpt, OneScriptMaySculptSeveralSurfaces) {
   for (const Json& c : dent(ring)) commands.push_back(c);
   const std::string out = sculpted(workshop, commands);
   for (const char* id : {skin, ring}) {
-    EXPECT_GT(rows_that_differ(surface_of(bonnet(), id).control_points(), surface_of(out, id).control_points()), 0);
+    EXPECT_GT(rows_that_differ(surface_of(bonnet(), id).control_points(),
+                               surface_of(out, id).control_points()),
+              0);
   }
 }
 
@@ -289,22 +314,27 @@ TEST(Sculpt, AFileMayBeSculptedInPlace) {
   const std::string file = workshop.file("in.step", content_of(bonnet()));
   Json commands = dent(skin);
   commands.push_back(may_open);
-  const Outcome run = knead({"sculpt", file, "-o", file, "--script", workshop.script_of_all(commands)});
+  const Outcome run =
+      knead({"sculpt", file, "-o", file, "--script", workshop.script_of_all(commands)});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_TRUE(identical(content_of(file), content_of(sculpted(workshop, dent(skin)))));
 }
 
 TEST(Sculpt, WrittenCoordinatesCarrySeventeenDigits) {
   const Workshop workshop;
-  const auto before = records_of(content_of(bonnet())), after = records_of(content_of(sculpted(workshop, dent(ring))));
+  const auto before = records_of(content_of(bonnet())),
+             after = records_of(content_of(sculpted(workshop, dent(ring))));
   static const std::regex digits(R"([-+]?[0-9.]+(E[-+]?[0-9]+)?)");
   int longest = 0;
   for (const auto& [name, text] : after) {
-    if (const auto original = before.find(name); original != before.end() && original->second == text) continue;
+    if (const auto original = before.find(name);
+        original != before.end() && original->second == text)
+      continue;
     if (!text.starts_with("CARTESIAN_POINT")) continue;
     for (std::sregex_iterator it(text.begin(), text.end(), digits), end; it != end; ++it) {
       const std::string number = (*it)[0], mantissa = number.substr(0, number.find('E'));
-      longest = std::max(longest, static_cast<int>(std::ranges::count_if(mantissa, [](char c) { return c >= '0'; })));
+      longest = std::max(longest, static_cast<int>(std::ranges::count_if(
+                                      mantissa, [](char c) { return c >= '0'; })));
     }
   }
   EXPECT_GE(longest, 17);
@@ -328,8 +358,9 @@ TEST(Sculpt, TheReportHasMeasurements) {
   EXPECT_GE(tip.at("curvature")[0], tip.at("curvature")[1]);
   EXPECT_GT(length(tip.at("displacement")), 0.5 * report.at("largest_displacement").get<double>());
   commands[3]["minor"] = 3;  // a sphere has none
-  const Outcome refused = knead({"sculpt", bonnet(), "-o", workshop / "2.step", "--script",
-                                 workshop.file("2.json", Json{{"knead", 2}, {"commands", commands}}.dump())});
+  const Outcome refused =
+      knead({"sculpt", bonnet(), "-o", workshop / "2.step", "--script",
+             workshop.file("2.json", Json{{"knead", 2}, {"commands", commands}}.dump())});
   EXPECT_EQ(refused.code, 3);
   EXPECT_NE(refused.err.find("commands[3].minor"), std::string::npos) << refused.err;
   EXPECT_FALSE(report_of(sculpted(workshop, dent(skin), "plain.step")).contains("measurements"));
@@ -339,48 +370,33 @@ TEST(Sculpt, AnEdgeIsLeftOpenOnlyWhereItIsFreed) {
   const Workshop workshop;
   const Json lift = command("points", {{"which", {20, 40, 41}}, {"by", {0, 0, 20}}});
   const auto run = [&](const Json& commands) {
-    return knead({"sculpt", bonnet(), "-o", workshop / "open.step", "--script", workshop.script_of_all(commands),
-                  "--report", workshop / "open.step.json"});
+    return knead({"sculpt", bonnet(), "-o", workshop / "open.step", "--script",
+                  workshop.script_of_all(commands), "--report", workshop / "open.step.json"});
   };
   const Outcome never_held = run({command("select", {{"surface", skin}}), lift});
   EXPECT_EQ(never_held.code, 4);
-  EXPECT_NE(never_held.err.find("would be left 2.45 from the faces #39 and #807"), std::string::npos) << never_held.err;
+  EXPECT_NE(never_held.err.find("would be left 2.45 from the faces #39 and #807"),
+            std::string::npos)
+      << never_held.err;
   EXPECT_FALSE(std::filesystem::exists(workshop / "open.step"));
   EXPECT_FALSE(std::filesystem::exists(workshop / "open.step.json"));
-  const Outcome held = run({command("select", {{"surface", skin}}), command("hold", {{"mode", "trim"}}), lift});
+  const Outcome held =
+      run({command("select", {{"surface", skin}}), command("hold", {{"mode", "trim"}}), lift});
   EXPECT_EQ(held.code, 4);
-  EXPECT_NE(held.err.find("#203 on #285 between the faces #39 and #807 is held, and would open by 2.47"),
-            std::string::npos)
+  EXPECT_NE(
+      held.err.find("#203 on #285 between the faces #39 and #807 is held, and would open by 2.47"),
+      std::string::npos)
       << held.err;
-  const Outcome freed = run({command("select", {{"surface", skin}}), command("hold", {{"mode", "free"}}), lift});
+  const Outcome freed =
+      run({command("select", {{"surface", skin}}), command("hold", {{"mode", "free"}}), lift});
   EXPECT_EQ(freed.code, 0) << freed.err;
   const auto notes = report_of(workshop / "open.step").at("notes");
   EXPECT_EQ(std::ranges::count_if(notes,
                                   [](const Json& note) {
-                                    return note.get<std::string>().find("which was freed, is open") !=
-                                           std::string::npos;
+                                    return note.get<std::string>().find(
+                                               "which was freed, is open") != std::string::npos;
                                   }),
             2);
-}
-
-TEST(Sculpt, MakesAndBendsACurve) {
-  const Workshop workshop;
-  const std::string script = workshop.script(
-      {command("new", {{"shape", "curve"}, {"form", "helix"}, {"net", 40}, {"name", "wire"}}), command("edge"),
-       command("force", {{"at", {0.5}}, {"kind", "dead"}, {"vector", {0, 0, 5}}}), command("step", {{"count", 4}})});
-  const Outcome run =
-      knead({"sculpt", "--new", "-o", workshop / "wire.step", "--script", script, "--report", workshop / "wire.json"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("curve #1 \"wire\", lengths in mm\n  degree 3, net 40"), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("(0 surfaces, 1 curve or volume changed)"), std::string::npos) << run.out;
-  const Json report = Json::parse(content_of(workshop / "wire.json"));
-  EXPECT_EQ(report.at("steps").size(), 4U);
-  EXPECT_GT(report.at("largest_displacement").get<double>(), 1e-3);
-  EXPECT_GT(report.at("energy_after").get<double>(), 0);
-  EXPECT_NE(report.at("notes").dump().find("the helix is met to"), std::string::npos);
-  const std::string written = content_of(workshop / "wire.step");
-  EXPECT_NE(written.find("B_SPLINE_CURVE_WITH_KNOTS('wire',3"), std::string::npos);
-  EXPECT_NE(written.find("GEOMETRIC_CURVE_SET"), std::string::npos);
 }
 
 }  // namespace

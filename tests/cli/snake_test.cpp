@@ -17,7 +17,8 @@ namespace {
 std::string disc() {
   Image image{90, 70, {}};
   for (int y = 0; y < 70; ++y) {
-    for (int x = 0; x < 90; ++x) image.values.push_back(std::hypot(x - 40, y - 34) < 20 ? 0.9 : 0.1);
+    for (int x = 0; x < 90; ++x)
+      image.values.push_back(std::hypot(x - 40, y - 34) < 20 ? 0.9 : 0.1);
   }
   const auto png = cli::png_of(image);
   return png ? *png : std::string();
@@ -35,7 +36,8 @@ class SnakeCommand : public ::testing::Test {
  private:
   std::filesystem::path directory_ =
       std::filesystem::temp_directory_path() /
-      (std::string("knead_snake_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+      (std::string("knead_snake_") +
+       ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 std::string contents(const std::string& path) {
@@ -44,7 +46,8 @@ std::string contents(const std::string& path) {
 }
 
 TEST_F(SnakeCommand, FindsADiscWithoutAScript) {
-  const Outcome out = knead({"snake", file("disc.png"), "-o", file("contour.json"), "--mask", file("mask.png")});
+  const Outcome out =
+      knead({"snake", file("disc.png"), "-o", file("contour.json"), "--mask", file("mask.png")});
   ASSERT_EQ(out.code, 0) << out.err;
   const Json json = Json::parse(contents(file("contour.json")));
   EXPECT_EQ(json.at("width"), 90);
@@ -61,10 +64,12 @@ TEST_F(SnakeCommand, FindsADiscWithoutAScript) {
 
 TEST_F(SnakeCommand, RunsAScriptAndWritesPointsAndDrawings) {
   std::ofstream(file("script.json"))
-      << R"({"knead":2,"image":{"region":1,"smoothing":1},"settings":{"alpha":0.01,"beta":0.1,"gamma":0.2,"units":100},)"
+      << R"({"knead":2,"image":{"region":1,"smoothing":1},"settings":{"alpha":0.01,"beta":0.1,)"
+         R"("gamma":0.2,"units":100},)"
       << R"("snakes":[{"shape":"ellipse","centre":[40,34],"radii":8,"control_points":16}]})";
   for (const char* name : {"contour.csv", "contour.svg"}) {
-    const Outcome out = knead({"snake", file("disc.png"), "--script", file("script.json"), "-o", file(name)});
+    const Outcome out =
+        knead({"snake", file("disc.png"), "--script", file("script.json"), "-o", file(name)});
     ASSERT_EQ(out.code, 0) << out.err;
     EXPECT_NE(out.out.find("16 control points"), std::string::npos) << out.out;
   }
@@ -77,7 +82,8 @@ TEST_F(SnakeCommand, StartsAtBlobs) {
       << R"({"knead":2,"channel":"red","image":{"relative_region":true},)"
       << R"("settings":{"control_points":12,"alpha":0.1,"beta":5,"gamma":1,"units":100,"band":8},)"
       << R"("blobs":{"radii":[10,30],"contrast":0.2}})";
-  const Outcome out = knead({"snake", file("disc.png"), "--script", file("script.json"), "-o", file("contour.json")});
+  const Outcome out = knead(
+      {"snake", file("disc.png"), "--script", file("script.json"), "-o", file("contour.json")});
   ASSERT_EQ(out.code, 0) << out.err;
   const Json json = Json::parse(contents(file("contour.json")));
   ASSERT_EQ(json.at("snakes").size(), 1U);
@@ -91,7 +97,8 @@ TEST_F(SnakeCommand, ReadsAPipeOnceFromItsStart) {
   ASSERT_EQ(pipe(ends.data()), 0);
   ASSERT_EQ(write(ends[1], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   close(ends[1]);
-  const Outcome out = knead({"snake", "/dev/fd/" + std::to_string(ends[0]), "-o", file("piped.svg")});
+  const Outcome out =
+      knead({"snake", "/dev/fd/" + std::to_string(ends[0]), "-o", file("piped.svg")});
   close(ends[0]);
   ASSERT_EQ(out.code, 0) << out.err;
   ASSERT_EQ(knead({"snake", file("disc.png"), "-o", file("read.svg")}).code, 0);
@@ -102,7 +109,8 @@ TEST_F(SnakeCommand, ReadsANamedPipeOnce) {
   ASSERT_EQ(mkfifo(file("fifo").c_str(), 0600), 0);
   std::thread writer([this] { std::ofstream(file("fifo"), std::ios::binary) << disc(); });
   const Outcome out = knead({"snake", file("fifo"), "-o", file("contour.svg")});
-  const int reader = open(file("fifo").c_str(), O_RDONLY | O_NONBLOCK);  // lets the writer go where nobody read
+  const int reader =
+      open(file("fifo").c_str(), O_RDONLY | O_NONBLOCK);  // lets the writer go where nobody read
   writer.join();
   close(reader);
   EXPECT_EQ(out.code, 0) << out.err;
@@ -111,15 +119,20 @@ TEST_F(SnakeCommand, ReadsANamedPipeOnce) {
 
 TEST_F(SnakeCommand, SaysWhatIsWrong) {
   EXPECT_TRUE(fails_with(knead({"snake", file("none.png")}), 3, {"none.png"}));
-  EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "-o", file("contour.txt")}), 2, {".csv"}));
-  EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--mask", file("mask.jpg")}), 2, {"--mask", ".png"}));
+  EXPECT_TRUE(
+      fails_with(knead({"snake", file("disc.png"), "-o", file("contour.txt")}), 2, {".csv"}));
+  EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--mask", file("mask.jpg")}), 2,
+                         {"--mask", ".png"}));
   EXPECT_FALSE(std::filesystem::exists(file("mask.jpg")));
   std::ofstream(file("bad.json")) << R"({"knead":2,"snakes":[{"radius":3}]})";
-  EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--script", file("bad.json")}), 3, {"radii"}));
+  EXPECT_TRUE(
+      fails_with(knead({"snake", file("disc.png"), "--script", file("bad.json")}), 3, {"radii"}));
   std::ofstream(file("empty.json")) << R"({"knead":2,"snakes":[]})";
-  EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--script", file("empty.json")}), 3, {"no snake"}));
+  EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--script", file("empty.json")}), 3,
+                         {"no snake"}));
   std::ofstream(file("none.json")) << R"({"knead":2,"blobs":{"contrast":2}})";
-  EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--script", file("none.json")}), 3, {"blobs", "contrast"}));
+  EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--script", file("none.json")}), 3,
+                         {"blobs", "contrast"}));
   std::ofstream(file("text.png")) << "no image";
   EXPECT_TRUE(fails_with(knead({"snake", file("text.png")}), 3, {"PNG"}));
 }

@@ -4,10 +4,11 @@ namespace knead::testing {
 namespace {
 
 TEST(StiffnessCommand, ReproducesThePublishedCheckValues) {
-  // Thesis Eq. 4.8 with all six terms on open uniform knots, p = 3, 128²: nnz = (7·128 − 12)², norm to 12 digits.
+  // Thesis Eq. 4.8 with all six terms on open uniform knots, p = 3, 128²: nnz = (7·128 − 12)², norm
+  // to 12 digits.
   for (const char* method : {"gauss", "analytic", "recurrence"}) {
-    const Json out = knead({"stiffness", "--degree", "3", "--net", "128x128", "--alpha", "1,0.3,0.5", "--beta",
-                            "1e-3,2e-3,5e-4", "--method", method, "--json"})
+    const Json out = knead({"stiffness", "--degree", "3", "--net", "128x128", "--alpha",
+                            "1,0.3,0.5", "--beta", "1e-3,2e-3,5e-4", "--method", method, "--json"})
                          .json();
     EXPECT_EQ(out.at("rows"), 16384);
     EXPECT_EQ(out.at("nnz"), 781456);
@@ -17,8 +18,10 @@ TEST(StiffnessCommand, ReproducesThePublishedCheckValues) {
 }
 
 TEST(StiffnessCommand, TheTwoDirectionsMayDiffer) {
-  const auto norm = [](const std::string& degree, const std::string& net, const std::string& alpha) {
-    return knead({"stiffness", "--degree", degree, "--net", net, "--alpha", alpha, "--json"}).json();
+  const auto norm = [](const std::string& degree, const std::string& net,
+                       const std::string& alpha) {
+    return knead({"stiffness", "--degree", degree, "--net", net, "--alpha", alpha, "--json"})
+        .json();
   };
   const Json a = norm("2x3", "7x9", "1,0.25,2"), b = norm("3x2", "9x7", "2,0.25,1");
   EXPECT_EQ(a.at("rows"), 63);
@@ -27,7 +30,8 @@ TEST(StiffnessCommand, TheTwoDirectionsMayDiffer) {
 
 TEST(StiffnessCommand, TakesKnotsAndWeights) {
   const auto out = [](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"stiffness", "--degree", "2x1", "--beta", "0.1,0.2,0.3", "--json"});
+    arguments.insert(arguments.begin(),
+                     {"stiffness", "--degree", "2x1", "--beta", "0.1,0.2,0.3", "--json"});
     return knead(arguments).json();
   };
   const std::string u = "0,0,0,0.5,1,1,1", v = "0,0,1,1", ones = "1,1,1,1,1,1,1,1";
@@ -35,19 +39,21 @@ TEST(StiffnessCommand, TakesKnotsAndWeights) {
   EXPECT_EQ(given.at("rows"), 8);
   EXPECT_EQ(given.at("frobenius"), uniform.at("frobenius"));
   const double norm = given.at("frobenius");
-  EXPECT_NEAR(out({"--knots-u", u, "--knots-v", v, "--weights", ones}).at("frobenius").get<double>(), norm,
-              1e-12 * norm);
+  EXPECT_NEAR(
+      out({"--knots-u", u, "--knots-v", v, "--weights", ones}).at("frobenius").get<double>(), norm,
+      1e-12 * norm);
   const Json rational = out({"--knots-u", u, "--knots-v", v, "--weights", "1,1,0.5,0.5,1,1,2,1"});
   EXPECT_GT(std::abs(rational.at("frobenius").get<double>() - norm), 0.01 * norm);
   EXPECT_TRUE(fails_with(knead({"stiffness", "--knots-u", u}), 2, {"--net", "--knots-v"}));
-  EXPECT_TRUE(fails_with(knead({"stiffness", "--degree", "2x1", "--knots-u", u, "--knots-v", v, "--weights", "1,2"}), 2,
-                         {"weight"}));
+  EXPECT_TRUE(fails_with(
+      knead({"stiffness", "--degree", "2x1", "--knots-u", u, "--knots-v", v, "--weights", "1,2"}),
+      2, {"weight"}));
 }
 
 TEST(StiffnessCommand, OfAWeightedNetKeepsATolerance) {
   const auto run = [](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"stiffness", "--degree", "2", "--knots-u", "0,0,0,1,1,1", "--knots-v",
-                                         "0,0,0,1,1,1", "--beta", "1,1,1"});
+    arguments.insert(arguments.begin(), {"stiffness", "--degree", "2", "--knots-u", "0,0,0,1,1,1",
+                                         "--knots-v", "0,0,0,1,1,1", "--beta", "1,1,1"});
     return knead(arguments);
   };
   const std::string weights = "1,0.1,2,5,10,0.3,1,1,4";
@@ -65,18 +71,21 @@ TEST(StiffnessCommand, OfAWeightedNetKeepsATolerance) {
   EXPECT_GT(std::abs(constant.at("frobenius").get<double>() - norm), 0.5 * norm);
   EXPECT_EQ(knead({"stiffness", "--net", "4x4", "--json"}).json().at("error_bound"), 0);
 
-  EXPECT_TRUE(fails_with(run({"--weights", "1,1e-40,2,5,1e40,0.3,1,1,4"}), 4, {"1e-40 to 1e+40", "larger tolerance"}));
+  EXPECT_TRUE(fails_with(run({"--weights", "1,1e-40,2,5,1e40,0.3,1,1,4"}), 4,
+                         {"1e-40 to 1e+40", "larger tolerance"}));
   EXPECT_TRUE(fails_with(run({"--tolerance", "0"}), 2, {"--tolerance", "0"}));
   EXPECT_TRUE(fails_with(run({"--denominator", "some"}), 2, {"--denominator", "some", "constant"}));
 }
 
 TEST(StiffnessCommand, NegativeCoefficientsAreReadAsNumbers) {
   EXPECT_EQ(knead({"stiffness", "--net", "4x4", "--alpha", "1,-0.5,1", "--json"}).code, 0);
-  EXPECT_TRUE(fails_with(knead({"stiffness", "--net", "4x4", "--alpha", "-1,0,1"}), 2, {"alpha11", "-1"}));
+  EXPECT_TRUE(
+      fails_with(knead({"stiffness", "--net", "4x4", "--alpha", "-1,0,1"}), 2, {"alpha11", "-1"}));
 }
 
 TEST(StiffnessCommand, WhatIsWrongIsNamed) {
-  const auto fails = [](std::vector<std::string> arguments, int code, const std::vector<std::string>& named) {
+  const auto fails = [](std::vector<std::string> arguments, int code,
+                        const std::vector<std::string>& named) {
     arguments.insert(arguments.begin(), "stiffness");
     return fails_with(knead(arguments), code, named);
   };
@@ -88,7 +97,8 @@ TEST(StiffnessCommand, WhatIsWrongIsNamed) {
   EXPECT_TRUE(fails({"--net", "4x4", "--alpha", "1,2,1"}, 2, {"alpha12"}));
   EXPECT_TRUE(fails({"--net", "4x4", "--beta", "0,x,0"}, 2, {"--beta", "entry 1"}));
   EXPECT_TRUE(fails({"--net", "100000x100000"}, 2, {"--net", "too large", "at most"}));
-  EXPECT_TRUE(fails({"--net", "3000x3000"}, 2, {"--net", "4.4e+08", "2e+08"}));  // before it takes them
+  EXPECT_TRUE(
+      fails({"--net", "3000x3000"}, 2, {"--net", "4.4e+08", "2e+08"}));  // before it takes them
   EXPECT_TRUE(fails({"--net", "8x8", "--alpha", "1e305,0,1e305"}, 4, {"range"}));
 }
 

@@ -18,7 +18,8 @@ using testing::sheet_settings;
 /// A path that presses in, circles, and lifts off again.
 Point place(int frame, int frames) {
   const double t = static_cast<double>(frame) / frames, angle = 2 * std::numbers::pi * t;
-  return {0.5 + 0.2 * std::cos(angle), 0.5 + 0.2 * std::sin(angle), 0.16 - 0.08 * std::sin(std::numbers::pi * t)};
+  return {0.5 + 0.2 * std::cos(angle), 0.5 + 0.2 * std::sin(angle),
+          0.16 - 0.08 * std::sin(std::numbers::pi * t)};
 }
 
 /// √(XᵀKX) of a difference of control points.
@@ -39,7 +40,8 @@ double largest_error(int net, StepSolver solver) {
     const auto quick = active<2>(s, settings);
     Tool tool = ball_above_sheet(stiffness);
     testing::move_to(tool, Point(0.45, 0.52, 0.09));
-    const auto a = exact.step(s.control_points(), {&tool, 1}), b = quick.step(s.control_points(), {&tool, 1});
+    const auto a = exact.step(s.control_points(), {&tool, 1}),
+               b = quick.step(s.control_points(), {&tool, 1});
     if (!a || !b) {
       ADD_FAILURE() << stiffness;
       return 1;
@@ -47,7 +49,8 @@ double largest_error(int net, StepSolver solver) {
     EXPECT_TRUE(a->converged && b->converged) << stiffness;
     const double step = energy_norm(exact, s, a->control_points - s.control_points());
     EXPECT_GT(step, 0);
-    largest = std::max(largest, energy_norm(exact, s, b->control_points - a->control_points) / step);
+    largest =
+        std::max(largest, energy_norm(exact, s, b->control_points - a->control_points) / step);
   }
   return largest;
 }
@@ -61,7 +64,8 @@ TEST(InteractiveAccuracy, HoldsToTwiceAsMuchByIteration) {
 }
 
 struct Stroked {
-  double error = 0;  ///< largest difference of control points in any frame, as a share of the largest displacement
+  double error = 0;  ///< largest difference of control points in any frame, as a share of the
+                     ///< largest displacement
   double late = 0;   ///< the same over the second half
   int solves_exact = 0, solves_quick = 0;
 };
@@ -83,7 +87,8 @@ Stroked stroke(Tool tool, const ActiveLoads& loads = {}) {
     }
     a.control_points = on_a->control_points;
     b.control_points = on_b->control_points;
-    displacement = std::max(displacement, (a.control_points - s.control_points()).cwiseAbs().maxCoeff());
+    displacement =
+        std::max(displacement, (a.control_points - s.control_points()).cwiseAbs().maxCoeff());
     if (displacement == 0) continue;
     const double error = (a.control_points - b.control_points).cwiseAbs().maxCoeff() / displacement;
     result.error = std::max(result.error, error);
@@ -118,8 +123,10 @@ TEST(InteractiveAccuracy, StaysBoundedWithFrictionAndLoads) {
 TEST(InteractiveAccuracy, RepeatsBitForBit) {
   const Surface s = box<2>(3, 24);
   const Tool tool = ball_above_sheet(1e4);
-  const auto once = active<2>(s, sheet_settings(s, StepAccuracy::interactive)).step(s.control_points(), {&tool, 1});
-  const auto again = active<2>(s, sheet_settings(s, StepAccuracy::interactive)).step(s.control_points(), {&tool, 1});
+  const auto once = active<2>(s, sheet_settings(s, StepAccuracy::interactive))
+                        .step(s.control_points(), {&tool, 1});
+  const auto again = active<2>(s, sheet_settings(s, StepAccuracy::interactive))
+                         .step(s.control_points(), {&tool, 1});
   ASSERT_TRUE(once && again);
   EXPECT_EQ(once->control_points, again->control_points);
 }
@@ -128,8 +135,10 @@ TEST(InteractiveAccuracy, LeavesStepsWithoutContactAsTheyAre) {
   const Surface s = box<2>(3, 24);
   ActiveLoads loads;
   loads.force = Point(0, 0, 1);
-  const auto exact = active<2>(s, sheet_settings(s, StepAccuracy::exact)).step({s.control_points()}, {}, loads);
-  const auto quick = active<2>(s, sheet_settings(s, StepAccuracy::interactive)).step({s.control_points()}, {}, loads);
+  const auto exact =
+      active<2>(s, sheet_settings(s, StepAccuracy::exact)).step({s.control_points()}, {}, loads);
+  const auto quick = active<2>(s, sheet_settings(s, StepAccuracy::interactive))
+                         .step({s.control_points()}, {}, loads);
   ASSERT_TRUE(exact && quick);
   EXPECT_LE((exact->control_points - quick->control_points).cwiseAbs().maxCoeff(),
             1e-14 * exact->control_points.cwiseAbs().maxCoeff());
@@ -146,7 +155,8 @@ TEST(InteractiveAccuracy, HoldsForWhatComesIntoContactElsewhere) {
   loads.force = Point(0, 0, 1);
   for (const double stiffness : {1e2, 1e4, 1e7}) {
     for (const bool touched : {false, true}) {
-      std::vector<Tool> tools = {ball_at(0.7, 0.7, 0.12, stiffness), ball_at(0.3, 0.65, 0.12, stiffness)};
+      std::vector<Tool> tools = {ball_at(0.7, 0.7, 0.12, stiffness),
+                                 ball_at(0.3, 0.65, 0.12, stiffness)};
       if (touched) tools.push_back(ball_at(0.35, 0.3, 0.095, stiffness));
       ActiveSettings<2> settings = sheet_settings(s, StepAccuracy::exact);
       settings.evolution = Evolution::stationary;
@@ -158,8 +168,10 @@ TEST(InteractiveAccuracy, HoldsForWhatComesIntoContactElsewhere) {
       ASSERT_TRUE(free && a && b);
       EXPECT_TRUE(a->converged && b->converged);
       const double step = energy_norm(exact, s, a->control_points - s.control_points());
-      EXPECT_GT(energy_norm(exact, s, a->control_points - free->control_points), 0.005 * step) << "nothing is touched";
-      EXPECT_LE(energy_norm(exact, s, b->control_points - a->control_points), interactive_accuracy * step)
+      EXPECT_GT(energy_norm(exact, s, a->control_points - free->control_points), 0.005 * step)
+          << "nothing is touched";
+      EXPECT_LE(energy_norm(exact, s, b->control_points - a->control_points),
+                interactive_accuracy * step)
           << stiffness << touched;
     }
   }

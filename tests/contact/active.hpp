@@ -12,7 +12,8 @@ inline std::vector<bool> rim(const Surface& s, int rows) {
   const auto [m, n] = s.net();
   std::vector<bool> held;
   for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < n; ++j) held.push_back(i < rows || j < rows || i >= m - rows || j >= n - rows);
+    for (int j = 0; j < n; ++j)
+      held.push_back(i < rows || j < rows || i >= m - rows || j >= n - rows);
   }
   return held;
 }
@@ -51,7 +52,8 @@ ActiveSpline<D> active(const Spline<D>& s, const ActiveSettings<D>& settings) {
 }
 
 /// A sheet over the unit square with two rows held, for the ball above it.
-inline ActiveSettings<2> sheet_settings(const Surface& s, StepAccuracy accuracy = StepAccuracy::exact) {
+inline ActiveSettings<2> sheet_settings(const Surface& s,
+                                        StepAccuracy accuracy = StepAccuracy::exact) {
   ActiveSettings<2> settings;
   settings.held = rim(s, 2);
   settings.detail = 0.15;

@@ -27,8 +27,8 @@ ActiveShell shell_of(const Surface& rest, const ActiveShellSettings& settings,
   return std::move(*made);
 }
 
-ActiveStep step_of(const ActiveShell& shell, const ActiveState& state, std::span<const Tool> tools = {},
-                   const ActiveLoads& loads = {}) {
+ActiveStep step_of(const ActiveShell& shell, const ActiveState& state,
+                   std::span<const Tool> tools = {}, const ActiveLoads& loads = {}) {
   auto made = shell.step(state, tools, loads);
   if (!made) ADD_FAILURE() << made.error().message();
   return std::move(*made);
@@ -56,17 +56,19 @@ TEST(ActiveShell, UnderSmallPressureIsTheLinearPlate) {
   for (int i = 0; i < rest.size(); ++i) {
     if (held[static_cast<std::size_t>(i)]) constraints.push_back({"end", {{i, 1.0}}});
   }
-  const auto plate =
-      linear_displacement(energy_of(rest), rest.control_points(), constraints, energy_of(rest).area_load({0, 0, 1e-6}));
+  const auto plate = linear_displacement(energy_of(rest), rest.control_points(), constraints,
+                                         energy_of(rest).area_load({0, 0, 1e-6}));
   ASSERT_TRUE(plate) << plate.error().message();
   const Points moved = step.control_points - rest.control_points();
-  EXPECT_LT((moved - *plate).norm(), 1e-6 * plate->norm());  // of the order of the turn, 1e-5, squared, and 1e-9 / t²
+  EXPECT_LT((moved - *plate).norm(),
+            1e-6 * plate->norm());  // of the order of the turn, 1e-5, squared, and 1e-9 / t²
   EXPECT_TRUE(step.converged) << step.note;
 }
 
 TEST(ActiveShell, ABallDentsItAndEveryForceIsBalanced) {
   const Surface rest = testing::uniform_sheet(3, 14, 14);
-  const ActiveShell shell = shell_of(rest, {.evolution = Evolution::stationary, .held = ends_of(rest), .detail = 0.15});
+  const ActiveShell shell =
+      shell_of(rest, {.evolution = Evolution::stationary, .held = ends_of(rest), .detail = 0.15});
   ActiveStep step;
   ActiveState state{rest.control_points()};
   for (const double height : {0.13, 0.1, 0.07}) {
@@ -88,7 +90,8 @@ TEST(ActiveShell, ABallDentsItAndEveryForceIsBalanced) {
 
 TEST(ActiveShell, InteractiveFramesAreBalancedAndComeToRest) {
   const Surface rest = testing::uniform_sheet(3, 16, 16);
-  ActiveShellSettings settings{.evolution = Evolution::stationary, .held = ends_of(rest), .detail = 0.15};
+  ActiveShellSettings settings{
+      .evolution = Evolution::stationary, .held = ends_of(rest), .detail = 0.15};
   const ActiveShell exact = shell_of(rest, settings);
   settings.accuracy = StepAccuracy::interactive;
   const ActiveShell shell = shell_of(rest, settings);
@@ -96,7 +99,8 @@ TEST(ActiveShell, InteractiveFramesAreBalancedAndComeToRest) {
   Tool ball = ball_at({0.5, 0.5, 0.15}, 0.15);
   ActiveStep step;
   for (int frame = 1; frame <= 30; ++frame) {
-    ball = ball_at({0.5 + 0.005 * std::min(frame, 20), 0.5, 0.15 - 0.004 * std::min(frame, 20)}, 0.15);
+    ball =
+        ball_at({0.5 + 0.005 * std::min(frame, 20), 0.5, 0.15 - 0.004 * std::min(frame, 20)}, 0.15);
     step = step_of(shell, state, {&ball, 1});
     EXPECT_TRUE(step.converged) << step.note;
     EXPECT_LE(step.residual, 1e-3) << frame;
@@ -110,7 +114,8 @@ TEST(ActiveShell, InteractiveFramesAreBalancedAndComeToRest) {
 
 TEST(ActiveShell, ARigidBallStaysOutside) {
   const Surface rest = testing::uniform_sheet(3, 14, 14);
-  const ActiveShell shell = shell_of(rest, {.evolution = Evolution::stationary, .held = ends_of(rest), .detail = 0.15});
+  const ActiveShell shell =
+      shell_of(rest, {.evolution = Evolution::stationary, .held = ends_of(rest), .detail = 0.15});
   Tool ball = ball_at({0.5, 0.5, 0.1}, 0.15);
   ball.rigid = true;
   const ActiveStep step = step_of(shell, {rest.control_points()}, {&ball, 1});
@@ -120,7 +125,8 @@ TEST(ActiveShell, ARigidBallStaysOutside) {
 
 TEST(ActiveShell, FrictionDragsItAlong) {
   const Surface rest = testing::uniform_sheet(3, 12, 12);
-  const ActiveShell shell = shell_of(rest, {.evolution = Evolution::stationary, .held = ends_of(rest), .detail = 0.15});
+  const ActiveShell shell =
+      shell_of(rest, {.evolution = Evolution::stationary, .held = ends_of(rest), .detail = 0.15});
   const auto dragged = [&](double friction) {
     Tool ball = ball_at({0.5, 0.5, 0.11}, 0.15);
     ball.friction = friction;
@@ -138,7 +144,8 @@ TEST(ActiveShell, FrictionDragsItAlong) {
 }
 
 TEST(ActiveShell, RelaxesByStepsThatLowerItsEnergy) {
-  const Surface rest = testing::relief(testing::uniform_clamped(3, 5), testing::uniform_clamped(3, 5), 3);
+  const Surface rest =
+      testing::relief(testing::uniform_clamped(3, 5), testing::uniform_clamped(3, 5), 3);
   const ActiveShell shell = shell_of(rest, {.evolution = Evolution::acm, .lambda = 1e-3});
   ActiveState state{rest.control_points() + 0.03 * testing::random_points(rest.size(), 8)};
   double last = shell.structure().energy(state.control_points).sum();
@@ -160,7 +167,8 @@ TEST(ActiveShell, NeverGainsEnergyInTime) {
     bent.row(i) << std::sin(angle) / 2, bent(i, 1), (1 - std::cos(angle)) / 2;
   }
   for (const double h : {1e-7, 1e-5, 1e-3, 0.1}) {
-    const ActiveShell shell = shell_of(rest, {.evolution = Evolution::dynamic, .time_step = h, .damping = 0});
+    const ActiveShell shell =
+        shell_of(rest, {.evolution = Evolution::dynamic, .time_step = h, .damping = 0});
     ActiveState state{bent};
     double last = shell.structure().energy(bent).sum();
     const double begin = last;
@@ -168,7 +176,8 @@ TEST(ActiveShell, NeverGainsEnergyInTime) {
       const ActiveStep step = step_of(shell, state);
       EXPECT_TRUE(step.converged) << step.note << " at " << h;
       const double total = step.energy + step.kinetic;
-      EXPECT_LE(total, last + 1e-7 * begin) << "step " << k << " of " << h;  // of the tolerance of the steps
+      EXPECT_LE(total, last + 1e-7 * begin)
+          << "step " << k << " of " << h;  // of the tolerance of the steps
       last = total;
       state.control_points = step.control_points;
       state.velocity = step.velocity;
@@ -182,8 +191,10 @@ TEST(ActiveShell, NeverGainsEnergyInTime) {
 TEST(ActiveShell, AFreeSheetFallsAndTurnsAsARigidBody) {
   const Surface rest = testing::uniform_sheet(3, 5, 5);
   const double h = 1e-4, rate = 3;
-  const ActiveShell shell = shell_of(rest, {.evolution = Evolution::dynamic, .time_step = h, .damping = 0});
-  const Points weight = energy_of(rest).area_load(Point(0, 0, -9.81) * energy_of(rest).mass_per_area());
+  const ActiveShell shell =
+      shell_of(rest, {.evolution = Evolution::dynamic, .time_step = h, .damping = 0});
+  const Points weight =
+      energy_of(rest).area_load(Point(0, 0, -9.81) * energy_of(rest).mass_per_area());
   ActiveState state{rest.control_points()};
   state.velocity = Points::Zero(rest.size(), 3);
   for (int i = 0; i < rest.size(); ++i) {
@@ -197,11 +208,13 @@ TEST(ActiveShell, AFreeSheetFallsAndTurnsAsARigidBody) {
   }
   const double t = 20 * h;
   const Point centre = state.control_points.colwise().mean().transpose();
-  // v is exact; the place is that of V = (1 − θ) V₀ + θ V₁ in every step, g h (θ − ½) t further, θ from 0.55 to 1.
+  // v is exact; the place is that of V = (1 − θ) V₀ + θ V₁ in every step, g h (θ − ½) t further, θ
+  // from 0.55 to 1.
   EXPECT_LE(centre[2], -0.5 * 9.81 * t * t - 9.81 * h * 0.05 * t + 1e-9);
   EXPECT_GE(centre[2], -0.5 * 9.81 * t * t - 9.81 * h * 0.5 * t - 1e-9);
   EXPECT_NEAR(centre[0], 0.5, 1e-9);
-  const Eigen::RowVector3d side = state.control_points.bottomRows(1) - state.control_points.topRows(1);
+  const Eigen::RowVector3d side =
+      state.control_points.bottomRows(1) - state.control_points.topRows(1);
   const double angle = std::atan2(side[1], side[0]) - std::numbers::pi / 4;
   EXPECT_NEAR(angle, rate * t, 1e-3 * rate * t);
 }
@@ -211,7 +224,8 @@ TEST(ActiveShell, KeepsTheAngleAtACreaseUnderLargeTurns) {
   const Surface a = testing::uniform_sheet(3, 6, 4, 1, 0.5);
   const Surface flat = testing::uniform_sheet(3, 6, 4, 1, 0.5);
   Points up = flat.control_points();
-  for (Eigen::Index i = 0; i < up.rows(); ++i) up.row(i) << 1, flat.control_points()(i, 1), flat.control_points()(i, 0);
+  for (Eigen::Index i = 0; i < up.rows(); ++i)
+    up.row(i) << 1, flat.control_points()(i, 1), flat.control_points()(i, 0);
   const Surface b = *flat.with_control_points(up);
   const ShellEnergy shell = energy_of(a);
   auto crease = ShellCrease::create({&a, 0, 0, true}, {&b, a.size(), 0, false}, false,
@@ -240,7 +254,8 @@ TEST(ActiveShell, RefusesWhatItCannotDo) {
   const Surface rest = testing::uniform_sheet(3, 5, 5);
   ShellMaterial light = sheet_metal;
   light.density = 0;
-  const auto made = ActiveShell::create({rest}, energy_of(rest, light), {.evolution = Evolution::dynamic});
+  const auto made =
+      ActiveShell::create({rest}, energy_of(rest, light), {.evolution = Evolution::dynamic});
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().where, "density");
   EXPECT_FALSE(ActiveShell::create({rest}, energy_of(rest), {.lambda = -1}));

@@ -33,7 +33,8 @@ Points run(const ActiveSurface& model, Points x, const std::vector<Tool>& tools,
   return x;
 }
 
-/// A scene in which both modes are in contact: a relief, its rim held, a ball pressed in and a ball that attracts.
+/// A scene in which both modes are in contact: a relief, its rim held, a ball pressed in and a ball
+/// that attracts.
 struct Scene {
   Surface surface;
   ActiveSettings<2> settings;
@@ -43,8 +44,9 @@ struct Scene {
     settings.held = rim(surface, 1);
     settings.detail = 0.1;
     settings.lambda = 5;
-    tools = {{"press", testing::sphere_at(Point(0.55, 0.4, 0.27), 0.3), ToolMode::collision, 500, 1},
-             {"draw", testing::sphere_at(Point(1.0, 0.6, -0.35), 0.2), ToolMode::proximity, 200, 0.3}};
+    tools = {
+        {"press", testing::sphere_at(Point(0.55, 0.4, 0.27), 0.3), ToolMode::collision, 500, 1},
+        {"draw", testing::sphere_at(Point(1.0, 0.6, -0.35), 0.2), ToolMode::proximity, 200, 0.3}};
   }
   [[nodiscard]] Points sculpted(int steps = 8) const {
     return run(active(surface, settings), surface.control_points(), tools, steps);
@@ -52,10 +54,11 @@ struct Scene {
 };
 
 std::vector<Surface> scene_surfaces() {
-  return {testing::relief(testing::uniform_clamped(3, 6), testing::uniform_clamped(3, 5), 1, 0.04),
-          testing::relief(testing::uniform_clamped(2, 6), testing::clamped_knots(3, {0, 1, 1.5, 4, 5}, {4, 1, 3, 1, 4}),
-                          2, 0.04),
-          testing::relief(testing::uniform_clamped(3, 5), testing::uniform_clamped(2, 6), 3, 0.04, 2)};
+  return {
+      testing::relief(testing::uniform_clamped(3, 6), testing::uniform_clamped(3, 5), 1, 0.04),
+      testing::relief(testing::uniform_clamped(2, 6),
+                      testing::clamped_knots(3, {0, 1, 1.5, 4, 5}, {4, 1, 3, 1, 4}), 2, 0.04),
+      testing::relief(testing::uniform_clamped(3, 5), testing::uniform_clamped(2, 6), 3, 0.04, 2)};
 }
 
 double relative_difference(const Points& a, const Points& b, const Surface& s) {
@@ -87,7 +90,8 @@ TEST(ActiveSurface, FixedControlPointsKeepTheirBits) {
 }
 
 TEST(ActiveSurface, WithoutForcesIsExactlyTheImplicitEulerStep) {
-  const Surface s = testing::relief(testing::uniform_clamped(3, 5), testing::uniform_clamped(3, 4), 4);
+  const Surface s =
+      testing::relief(testing::uniform_clamped(3, 5), testing::uniform_clamped(3, 4), 4);
   for (RestMode rest : {RestMode::shape, RestMode::none}) {
     for (StepWeight weight : {StepWeight::mass, StepWeight::identity}) {
       ActiveSettings<2> settings;
@@ -136,10 +140,13 @@ TEST(ActiveSurface, IsStableAndTightAtAnyStiffness) {
     const std::vector<double> samples = testing::breaks_of(std::vector<double>(100, 0.01));
     std::vector<double> inside(samples.begin(), samples.end() - 1);
     const auto grid =
-        evaluate_grid<2>(*s.with_control_points(x), {std::span<const double>(inside), std::span<const double>(inside)});
+        evaluate_grid<2>(*s.with_control_points(x),
+                         {std::span<const double>(inside), std::span<const double>(inside)});
     double entry = 0;
     for (Eigen::Index i = 0; i < grid->points().rows(); ++i) {
-      entry = std::max(entry, 0.2 - (grid->points().row(i).transpose() - tools[0].shape.placement().position).norm());
+      entry = std::max(
+          entry,
+          0.2 - (grid->points().row(i).transpose() - tools[0].shape.placement().position).norm());
     }
     EXPECT_LT(entry, before);
     before = entry + 1e-4;
@@ -155,7 +162,8 @@ TEST(ActiveSurface, ReleasesWithoutSticking) {
   settings.held = rim(s, 2);
   settings.detail = 0.2;
   const ActiveSurface model = active(s, settings);
-  std::vector<Tool> tools = {{"ball", testing::sphere_at(Point(0.5, 0.5, 0.15), 0.2), ToolMode::collision, 1e5, 1}};
+  std::vector<Tool> tools = {
+      {"ball", testing::sphere_at(Point(0.5, 0.5, 0.15), 0.2), ToolMode::collision, 1e5, 1}};
   Points x = run(model, s.control_points(), tools, 5);
   EXPECT_LT(x.col(2).minCoeff(), -0.03);
   testing::move_to(tools[0], Point(0.5, 0.5, 5));
@@ -180,19 +188,23 @@ TEST(ActiveSurface, FollowsRigidMotionAndChangeOfUnits) {
   for (const Surface& s : scene_surfaces()) {
     const Scene scene(s);
     const Points expected = scene.sculpted();
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Point(3, -1, 2).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(1.1, Point(3, -1, 2).normalized()).toRotationMatrix();
     const Eigen::RowVector3d shift(0.3, -7, 2);
     for (double scale : {1.0, 1 / 25.4, 1000.0}) {
-      const auto map = [&](const Points& p) { return Points((scale * p * turn.transpose()).rowwise() + shift); };
+      const auto map = [&](const Points& p) {
+        return Points((scale * p * turn.transpose()).rowwise() + shift);
+      };
       Scene moved(*s.with_control_points(map(s.control_points())));
       moved.settings = scene.settings;
       moved.settings.detail *= scale;
       moved.tools = scene.tools;
       for (Tool& tool : moved.tools) {
         const Placement& at = tool.shape.placement();
-        tool.shape = *PlacedShape::create(
-            tool.shape.shape(),
-            {Eigen::Quaterniond(turn), scale * turn * at.position + shift.transpose(), {scale, scale, scale}});
+        tool.shape = *PlacedShape::create(tool.shape.shape(),
+                                          {Eigen::Quaterniond(turn),
+                                           scale * turn * at.position + shift.transpose(),
+                                           {scale, scale, scale}});
         tool.range *= scale;
       }
       EXPECT_LT(relative_difference(moved.sculpted(), map(expected), moved.surface), 1e-9);
@@ -210,7 +222,8 @@ KnotVector mapped(const KnotVector& k, double scale, double shift) {
 TEST(ActiveSurface, DoesNotFeelAffineMapsOfTheKnots) {
   for (const Surface& s : scene_surfaces()) {
     const Scene scene(s);
-    Scene other(testing::make_surface(mapped(s.knots(0), 37.3, -5), mapped(s.knots(1), 0.011, 2), s.control_points(),
+    Scene other(testing::make_surface(mapped(s.knots(0), 37.3, -5), mapped(s.knots(1), 0.011, 2),
+                                      s.control_points(),
                                       {s.weights().begin(), s.weights().end()}));
     EXPECT_LT(relative_difference(other.sculpted(), scene.sculpted(), s), 1e-9);
   }
@@ -234,14 +247,19 @@ TEST(ActiveSurface, DoesNotFeelReversalOrExchangeOfTheDirections) {
       for (int k = 0; k < s.size(); ++k) {
         points.row(k) = s.control_points().row(permutation[static_cast<std::size_t>(k)]);
         if (s.rational())
-          weights.push_back(s.weights()[static_cast<std::size_t>(permutation[static_cast<std::size_t>(k)])]);
+          weights.push_back(
+              s.weights()[static_cast<std::size_t>(permutation[static_cast<std::size_t>(k)])]);
       }
-      const Points sculpted = Scene(testing::make_surface(std::move(u), std::move(v), points, weights)).sculpted();
+      const Points sculpted =
+          Scene(testing::make_surface(std::move(u), std::move(v), points, weights)).sculpted();
       Points back(s.size(), 3);
-      for (int k = 0; k < s.size(); ++k) back.row(permutation[static_cast<std::size_t>(k)]) = sculpted.row(k);
+      for (int k = 0; k < s.size(); ++k)
+        back.row(permutation[static_cast<std::size_t>(k)]) = sculpted.row(k);
       return back;
     };
-    EXPECT_LT(relative_difference(permuted(reversed, mapped(s.knots(0), -1, 0), s.knots(1)), expected, s), 1e-9);
+    EXPECT_LT(
+        relative_difference(permuted(reversed, mapped(s.knots(0), -1, 0), s.knots(1)), expected, s),
+        1e-9);
     EXPECT_LT(relative_difference(permuted(exchanged, s.knots(1), s.knots(0)), expected, s), 1e-9);
   }
 }
@@ -263,7 +281,8 @@ double dent(int net, StepWeight weight, double lambda) {
 TEST(ActiveSurface, FeelsTheSameOnEveryNetWithTheMassMatrixAndNotWithTheIdentity) {
   const double mass16 = dent(16, StepWeight::mass, 30), mass32 = dent(32, StepWeight::mass, 30);
   EXPECT_NEAR(mass32 / mass16, 1, 0.01);
-  const double identity16 = dent(16, StepWeight::identity, 0.1), identity32 = dent(32, StepWeight::identity, 0.1);
+  const double identity16 = dent(16, StepWeight::identity, 0.1),
+               identity32 = dent(32, StepWeight::identity, 0.1);
   EXPECT_LT(identity32 / identity16, 0.9);
 }
 

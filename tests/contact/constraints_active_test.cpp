@@ -25,9 +25,11 @@ ActiveSurface active(const Surface& s, const ConstraintList& list) {
   return std::move(*made);
 }
 
-Surface sculpted(const Surface& s, const ConstraintList& list, const std::vector<Tool>& tools, int steps = 6) {
+Surface sculpted(const Surface& s, const ConstraintList& list, const std::vector<Tool>& tools,
+                 int steps = 6) {
   const ActiveSurface model = active(s, list);
-  EXPECT_EQ(model.step(s.control_points(), {})->control_points, s.control_points()) << "at rest nothing moves";
+  EXPECT_EQ(model.step(s.control_points(), {})->control_points, s.control_points())
+      << "at rest nothing moves";
   Points x = s.control_points();
   for (int k = 0; k < steps; ++k) {
     auto step = model.step(x, tools);
@@ -65,7 +67,8 @@ TEST(SculptedUnderConstraints, SphereKeepsPolesAndSmoothness) {
   const Surface after = sculpted(s, list, {ball(Point(0.2, 0.3, 1.1), 0.4)});
   for (const double u : {1.0, 2.0, 3.0}) EXPECT_LT(crease(after, 0, u), 1e-9);
   EXPECT_LT(crease(after, 1, 1), 1e-9);
-  const Points pole = on_line(after, 1, 2, 0, Side::right), across = on_line(after, 1, 2, 1, Side::right);
+  const Points pole = on_line(after, 1, 2, 0, Side::right),
+               across = on_line(after, 1, 2, 1, Side::right);
   EXPECT_LT((pole.rowwise() - pole.row(0)).cwiseAbs().maxCoeff(), 1e-12);
   const Point normal = Point(across.row(0)).cross(Point(across.row(10))).normalized();
   for (Eigen::Index k = 0; k < across.rows(); ++k) {
@@ -90,33 +93,43 @@ TEST(SculptedUnderConstraints, EdgesPinsCurvesAndRegionsStay) {
       const Surface after = sculpted(s, list, {ball(Point(0.75, 0.3, 0.12), 0.2)});
       const double size = size_of(s);
       for (int k = 0; k <= 1; ++k) {
-        EXPECT_LT((on_line(after, 0, a, k, Side::right) - on_line(s, 0, a, k, Side::right)).cwiseAbs().maxCoeff(),
+        EXPECT_LT((on_line(after, 0, a, k, Side::right) - on_line(s, 0, a, k, Side::right))
+                      .cwiseAbs()
+                      .maxCoeff(),
                   1e-10 * size);
       }
-      EXPECT_LT((on_line(after, 1, 10, 0, Side::right) - on_line(s, 1, 10, 0, Side::right)).cwiseAbs().maxCoeff(),
+      EXPECT_LT((on_line(after, 1, 10, 0, Side::right) - on_line(s, 1, 10, 0, Side::right))
+                    .cwiseAbs()
+                    .maxCoeff(),
                 1e-10 * size);
       Parameters<2> at(102, 2);
       at.row(0) << a + 6.2, 3.7;
       at.row(1) << a + 6.3, 8.2;
-      for (int t = 0; t < 100; ++t) at.row(2 + t) = line.row(0) + t / 99.0 * (line.row(1) - line.row(0));
-      EXPECT_LT((evaluate(after, at)->points() - evaluate(s, at)->points()).cwiseAbs().maxCoeff(), 1e-10 * size);
+      for (int t = 0; t < 100; ++t)
+        at.row(2 + t) = line.row(0) + t / 99.0 * (line.row(1) - line.row(0));
+      EXPECT_LT((evaluate(after, at)->points() - evaluate(s, at)->points()).cwiseAbs().maxCoeff(),
+                1e-10 * size);
     }
   }
 }
 
 TEST(SculptedUnderConstraints, SymmetryOutlastsToolsThatAreNotSymmetric) {
-  const Surface s = uniform_sheet(3, 10, 8);  // straight across every edge, symmetric in u about x = 1/2
+  // Straight across every edge, symmetric in u about x = 1/2.
+  const Surface s = uniform_sheet(3, 10, 8);
   const std::vector<Tool> tools = {ball(Point(0.3, 0.45, 0.1), 0.2)};
   const MirrorPlane middle{Point(0.5, 0, 0), Point::UnitX()};
   ConstraintList mirror(s.size());
   ASSERT_TRUE(keep_mirror(s, 0, middle, 1e-9, mirror));
   EXPECT_LT(mirror_report(sculpted(s, mirror, tools), 0, middle, 1e-9)->shape, 1e-10);
-  EXPECT_GT(mirror_report(sculpted(s, ConstraintList(s.size()), tools), 0, middle, 1e-9)->shape, 5e-3);
+  EXPECT_GT(mirror_report(sculpted(s, ConstraintList(s.size()), tools), 0, middle, 1e-9)->shape,
+            5e-3);
 
   ConstraintList half(s.size());
-  ASSERT_TRUE(hold_symmetry_plane(s, SurfaceEdge::u0, {Point::Zero(), Point::UnitX()}, 1, 1e-9, 1e-9, half));
+  ASSERT_TRUE(hold_symmetry_plane(s, SurfaceEdge::u0, {Point::Zero(), Point::UnitX()}, 1, 1e-9,
+                                  1e-9, half));
   const Surface after = sculpted(s, half, {ball(Point(0.1, 0.45, 0.1), 0.2)});
-  const Points edge = on_line(after, 0, 0, 0, Side::right), across = on_line(after, 0, 0, 1, Side::right);
+  const Points edge = on_line(after, 0, 0, 0, Side::right),
+               across = on_line(after, 0, 0, 1, Side::right);
   EXPECT_LT(edge.col(0).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT(across.rightCols<2>().cwiseAbs().maxCoeff(), 1e-11);
   EXPECT_GT(edge.col(2).cwiseAbs().maxCoeff(), 0.01);

@@ -1,4 +1,5 @@
-// Directions of Newton's iteration in contact, and how many substitutions steps under stiff tools take.
+// Directions of Newton's iteration in contact, and how many substitutions steps under stiff tools
+// take.
 #include "contact/contact_directions.hpp"
 
 #include <gtest/gtest.h>
@@ -16,12 +17,19 @@ namespace {
 class Springs final : public Potential {
  public:
   Springs(std::vector<int> points, double stiffness, unsigned seed)
-      : points_(std::move(points)), stiffness_(stiffness), normals_(testing::random_points(64, seed)) {}
+      : points_(std::move(points)),
+        stiffness_(stiffness),
+        normals_(testing::random_points(64, seed)) {}
 
-  [[nodiscard]] PotentialState evaluate(const Points&, const WatchedElements*) const override { return {}; }
-  [[nodiscard]] bool acts_beyond(const WatchedElements&, const Points&) const override { return false; }
+  [[nodiscard]] PotentialState evaluate(const Points&, const WatchedElements*) const override {
+    return {};
+  }
+  [[nodiscard]] bool acts_beyond(const WatchedElements&, const Points&) const override {
+    return false;
+  }
   void apply_hessian(const PotentialState&, const Points& v, Points& out) const override {
-    for (std::size_t k = 0; k < points_.size(); ++k) out.row(points_[k]) += v.row(points_[k]) * hessian(k);
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      out.row(points_[k]) += v.row(points_[k]) * hessian(k);
   }
   void each_hessian_block(const PotentialState&, const AddBlock& add) const override {
     for (std::size_t k = 0; k < points_.size(); ++k) add({&points_[k], 1}, hessian(k));
@@ -47,11 +55,12 @@ class Springs final : public Potential {
 };
 
 struct Contact {
-  Surface surface = testing::relief(testing::uniform_clamped(3, 9), testing::uniform_clamped(2, 8), 1);
+  Surface surface =
+      testing::relief(testing::uniform_clamped(3, 9), testing::uniform_clamped(2, 8), 1);
   SparseMatrix a = Stiffness<2>::create(surface, stretch_and_bend({}))->assemble() +
                    Stiffness<2>::create(surface, mass_energy<2>())->assemble();
-  ConstrainedCholesky inverse =
-      *ConstrainedCholesky::factor(a, *ConstraintSpace::create(surface.size(), {}, std::vector<bool>()));
+  ConstrainedCholesky inverse = *ConstrainedCholesky::factor(
+      a, *ConstraintSpace::create(surface.size(), {}, std::vector<bool>()));
   Springs springs{{20, 21, 22, 30, 31, 40, 44, 52}, 1e3, 5};
   ContactNeighbourhood near{inverse, springs};
   Points r = testing::random_points(surface.size(), 6);
@@ -88,12 +97,14 @@ TEST(ContactDirections, SolveWithTheHessianOfContacts) {
   const Points expected = c.exact(c.r);
   ContactDirections directions(true);
   int first = 0, again = 0, forgotten = 0;
-  const ContactDirection d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-12, true}, first);
+  const ContactDirection d =
+      directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-12, true}, first);
   EXPECT_LE((d.d - expected).norm(), 1e-10 * expected.norm());
   EXPECT_LE((d.ad.image(c.anchor, c.near) - d.d).norm(), 1e-11 * d.d.norm()) << "A d is of d";
   EXPECT_GT(first, 8) << "as many as there are springs: nothing is known of them at first";
   // The same system once more is known, and where it is forgotten it is found as at first.
-  const ContactDirection e = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-9, true}, again);
+  const ContactDirection e =
+      directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-9, true}, again);
   EXPECT_LE((e.d - expected).norm(), 1e-7 * expected.norm());
   EXPECT_LE(again, 3);
   directions.forget();
@@ -107,15 +118,19 @@ TEST(ContactDirections, CorrectByWhatWasShownOfAnotherSystem) {
   Contact c;
   ContactDirections directions(true);
   int first = 0, alone = 0, after = 0;
-  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-12, true}, first));
-  c.springs = Springs({20, 21, 22, 30, 31, 40, 44, 53}, 1.1e3, 5);  // one lets go, one touches; all a little stiffer
+  static_cast<void>(
+      directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-12, true}, first));
+  c.springs = Springs({20, 21, 22, 30, 31, 40, 44, 53}, 1.1e3,
+                      5);  // one lets go, one touches; all a little stiffer
   c.near.extend({});
   c.anchor.s_here = c.inverse.backward_within(c.near.part(), c.anchor.z);
   directions.forget();
-  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, alone));
+  static_cast<void>(
+      directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, alone));
   c.springs = Springs({20, 21, 22, 30, 31, 40, 52, 53}, 1e3, 5);
   const Points expected = c.exact(c.r);
-  const ContactDirection d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, after);
+  const ContactDirection d =
+      directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, after);
   EXPECT_LE((d.d - expected).norm(), 1e-6 * expected.norm());
   EXPECT_LT(after, alone);
 }
@@ -126,31 +141,40 @@ TEST(ContactDirections, MeasureNoResidualThatIsCertain) {
   const Points expected = c.exact(c.r);
   ContactDirections directions(true);
   int first = 0, again = 0;
-  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-12, true}, first));
-  const ContactDirection d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {0.2, true}, again);
+  static_cast<void>(
+      directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-12, true}, first));
+  const ContactDirection d =
+      directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {0.2, true}, again);
   int measured = 0;
-  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {0.2, false}, measured));
+  static_cast<void>(
+      directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {0.2, false}, measured));
   EXPECT_EQ(again, 0);
   EXPECT_EQ(measured, 1);
   EXPECT_LE((d.d - expected).norm(), 0.2 * expected.norm());
   ContactDirections exact(false);
   first = again = 0;
-  static_cast<void>(exact.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, first));
-  static_cast<void>(exact.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, again));
-  EXPECT_EQ(first, again) << "without corrections every residual is measured, and nothing remembered";
+  static_cast<void>(
+      exact.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, first));
+  static_cast<void>(
+      exact.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, again));
+  EXPECT_EQ(first, again)
+      << "without corrections every residual is measured, and nothing remembered";
 }
 
-// A step of Newton's iteration is a pair as well: r before it is what (A + H) makes of the way to the minimum.
+// A step of Newton's iteration is a pair as well: r before it is what (A + H) makes of the way to
+// the minimum.
 TEST(ContactDirections, LearnFromAStepOfNewtonsIteration) {
   Contact c;
   ContactDirections all(true), taught(true);
   int solves = 0, after = 0;
   const Combination r = c.start();
-  const ContactDirection d = all.find({}, c.anchor, c.near, r, c.anchor.s_here, {1e-13, true}, solves);
+  const ContactDirection d =
+      all.find({}, c.anchor, c.near, r, c.anchor.s_here, {1e-13, true}, solves);
   const Combination none{0, Points::Zero(c.near.size(), 3)};
   const Residual before{r, c.anchor.s_here}, balanced{none, none.e};
   taught.take(1, d, c.anchor, before, balanced);
-  const ContactDirection e = taught.find({}, c.anchor, c.near, r, c.anchor.s_here, {1e-8, true}, after);
+  const ContactDirection e =
+      taught.find({}, c.anchor, c.near, r, c.anchor.s_here, {1e-8, true}, after);
   EXPECT_LE(after, 1);
   EXPECT_LE((e.d - d.d).norm(), 1e-8 * d.d.norm());
   // A step along which nothing stiffens tells nothing, and one of another neighbourhood is none.
@@ -185,8 +209,9 @@ struct Following {
   int all_solves = 0;              ///< of all these places together
 };
 
-/// Presses a stiff ball into the same sheet at place after place, each time from `guess` of the last two displacements
-/// and of the way from the place before, and compares with the same without a guess.
+/// Presses a stiff ball into the same sheet at place after place, each time from `guess` of the
+/// last two displacements and of the way from the place before, and compares with the same without
+/// a guess.
 template <class Guess>
 Following follow(const Guess& guess) {
   const Surface s = testing::box<2>(3, 40);
@@ -221,12 +246,12 @@ Following follow(const Guess& guess) {
   return result;
 }
 
-// What touches as the contact travels is reckoned with at once, and a direction is not found more closely than the
-// contacts are known.
+// What touches as the contact travels is reckoned with at once, and a direction is not found more
+// closely than the contacts are known.
 TEST(ContactDirections, FollowAStiffBallFromAPoorGuess) {
-  const auto [iterations, solves, all] =
-      follow([](const Surface&, const ActiveSurface&, const Points& last, const Points& older,
-                const Travel&) -> Points { return older.rows() > 0 ? Points(2 * last - older) : last; });
+  const auto [iterations, solves, all] = follow(
+      [](const Surface&, const ActiveSurface&, const Points& last, const Points& older,
+         const Travel&) -> Points { return older.rows() > 0 ? Points(2 * last - older) : last; });
   EXPECT_LE(iterations, 8);
   EXPECT_LE(solves, 85);
   EXPECT_LE(all, 6 * 60);
@@ -234,8 +259,10 @@ TEST(ContactDirections, FollowAStiffBallFromAPoorGuess) {
 
 TEST(ContactDirections, FollowAStiffBallFromWhereItHasTravelled) {
   const auto [iterations, solves, all] =
-      follow([](const Surface& s, const ActiveSurface& model, const Points& last, const Points&, const Travel& travel) {
-        return model.allowed(travelled(s, *SiteValues<2>::create(s, Sites::chebyshev), last, {&travel, 1}));
+      follow([](const Surface& s, const ActiveSurface& model, const Points& last, const Points&,
+                const Travel& travel) {
+        return model.allowed(
+            travelled(s, *SiteValues<2>::create(s, Sites::chebyshev), last, {&travel, 1}));
       });
   EXPECT_LE(iterations, 4);
   EXPECT_LE(solves, 36);

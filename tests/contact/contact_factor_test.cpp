@@ -1,4 +1,5 @@
-// Steps under limits, whose springs are so stiff that directions of Newton's iteration take a factor.
+// Steps under limits, whose springs are so stiff that directions of Newton's iteration take a
+// factor.
 #include "contact/contact_factor.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +66,8 @@ TEST(StepUnderALimit, DoesNotDependOnTheLastBits) {
   const PressedSheet sheet(12);
   const Points x = sheet.pressed(20).control_points;
   for (const double share : {-2e-15, 1e-15, 5e-15}) {
-    EXPECT_LE((sheet.pressed(20 * (1 + share)).control_points - x).cwiseAbs().maxCoeff(), 1e-11 * limit_of_sheet);
+    EXPECT_LE((sheet.pressed(20 * (1 + share)).control_points - x).cwiseAbs().maxCoeff(),
+              1e-11 * limit_of_sheet);
   }
   EXPECT_EQ(sheet.pressed(20).control_points, x);
 }
@@ -81,7 +83,8 @@ TEST(StepUnderALimit, ConvergesUnderAToolAndOnAnObliquePlane) {
     sheet.settings.constraints.push_back({"plane", {{i, 1.0}}, Point::Zero(), normal});
   }
   const ActiveSpline<2> model = active<2>(sheet.surface, sheet.settings);
-  Tool ball = {"ball", testing::sphere_at(Point(0.3, 0.45, 0.28), 0.3), ToolMode::collision, 1e4, 1};
+  Tool ball = {"ball", testing::sphere_at(Point(0.3, 0.45, 0.28), 0.3), ToolMode::collision, 1e4,
+               1};
   ActiveLoads loads;
   loads.limit = limit_of_sheet;
   loads.pressure = -5;
@@ -108,11 +111,13 @@ TEST(CoordinateSum, AddsBlocksAndGrowsWhereTheyNeedIt) {
     Eigen::MatrixXd expected = base;
     const int at[2] = {p, q};
     for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 6; ++j) expected(3 * at[i / 3] + i % 3, 3 * at[j / 3] + j % 3) += block(i, j);
+      for (int j = 0; j < 6; ++j)
+        expected(3 * at[i / 3] + i % 3, 3 * at[j / 3] + j % 3) += block(i, j);
     }
     return expected;
   };
-  for (const auto& [p, q, grows] : {std::tuple(0, 1, false), std::tuple(3, 1, true), std::tuple(1, 3, false)}) {
+  for (const auto& [p, q, grows] :
+       {std::tuple(0, 1, false), std::tuple(3, 1, true), std::tuple(1, 3, false)}) {
     sum.clear();
     sum.add(std::array{p, q}, block);
     EXPECT_EQ(sum.renewed(), grows);

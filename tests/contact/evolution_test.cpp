@@ -32,8 +32,9 @@ double plate(int net, int rows) {
 }
 
 TEST(Stationary, PlatesBendAsTheirSeriesSay) {
-  // Thin plate, w = q L⁴ / D · coefficient (Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells): simply
-  // supported by Navier's double series, clamped from the literature to nine digits.
+  // Thin plate, w = q L⁴ / D · coefficient (Timoshenko and Woinowsky-Krieger, Theory of Plates and
+  // Shells): simply supported by Navier's double series, clamped from the literature to nine
+  // digits.
   double navier = 0;
   for (int m = 1; m < 400; m += 2) {
     for (int n = 1; n < 400; n += 2) {
@@ -62,7 +63,8 @@ TEST(Stationary, WithoutAHoldIsRefused) {
   ASSERT_FALSE(free);
   EXPECT_EQ(free.error().kind, ErrorKind::numerical);
   EXPECT_NE(free.error().remedy.find("hold an edge"), std::string::npos);
-  settings.material = {{0, 0, 0}, {1, 1, 1}};  // bending alone: one held corner leaves it free to tilt
+  settings.material = {{0, 0, 0},
+                       {1, 1, 1}};  // bending alone: one held corner leaves it free to tilt
   settings.held = std::vector<bool>(64);
   settings.held[0] = true;
   EXPECT_EQ(ActiveSpline<2>::create(s, settings).error().kind, ErrorKind::numerical);
@@ -107,8 +109,8 @@ TEST(Dynamic, NeverGainsEnergyAndComesToRestWithDamping) {
   swings<3>();
 }
 
-/// A string held at its ends, plucked into its lowest mode: X = sin(πu) cos(πt/√μ) z, α = 1. With the mass as a
-/// constant, or as a field.
+/// A string held at its ends, plucked into its lowest mode: X = sin(πu) cos(πt/√μ) z, α = 1. With
+/// the mass as a constant, or as a field.
 double string_error(double h, double mass = 1, bool field = false) {
   const Curve s = box<1>(5, 24);
   ActiveSettings<1> settings;
@@ -130,15 +132,16 @@ double string_error(double h, double mass = 1, bool field = false) {
     settings.damping = 77;
   }
   const ActiveSpline<1> model = active<1>(s, settings);
-  // The stationary shape under the load π² sin(πu) is sin(πu): it gives the control points of the mode.
+  // The stationary shape under the load π² sin(πu) is sin(πu): it gives the control points of the
+  // mode.
   ActiveSettings<1> still = settings;
   still.evolution = Evolution::stationary;
   ActiveLoads load;
   load.nodal = Points::Zero(s.size(), 3);
   const BasisQuadrature q = gauss_basis(s.knots(0), 12, 0);
   for (int k = 0; k < q.basis.size(); ++k) {
-    const double f =
-        std::numbers::pi * std::numbers::pi * std::sin(std::numbers::pi * q.parameters[static_cast<std::size_t>(k)]);
+    const double f = std::numbers::pi * std::numbers::pi *
+                     std::sin(std::numbers::pi * q.parameters[static_cast<std::size_t>(k)]);
     for (int r = 0; r <= 5; ++r) {
       load.nodal(q.basis.first[static_cast<std::size_t>(k)] + r, 2) +=
           q.weights[static_cast<std::size_t>(k)] * f * q.basis.row(k, 0)[r];
@@ -152,7 +155,8 @@ double string_error(double h, double mass = 1, bool field = false) {
     state.control_points = std::move(step->control_points);
     state.velocity = std::move(step->velocity);
   }
-  return std::abs(evaluate_point<1>(*s.with_control_points(state.control_points), {0.5})->z());  // cos(π/2) = 0
+  return std::abs(
+      evaluate_point<1>(*s.with_control_points(state.control_points), {0.5})->z());  // cos(π/2) = 0
 }
 
 TEST(Dynamic, IsOfSecondOrder) {
@@ -205,10 +209,12 @@ void sinks_and_settles() {
   ActiveSettings<D> settings;
   settings.held = ends<D>(s, 1);
   settings.detail = 0.2;
-  const Tool ball = {"ball", testing::sphere_at(Point(0.5, D > 1 ? 0.5 : 0.03, D > 2 ? 0.5 : 0.17), 0.2),
+  const Tool ball = {"ball",
+                     testing::sphere_at(Point(0.5, D > 1 ? 0.5 : 0.03, D > 2 ? 0.5 : 0.17), 0.2),
                      ToolMode::collision, 1e4, 1};
   const ActiveSpline<D> model = active<D>(s, settings);
-  EXPECT_EQ(model.step({s.control_points()}, {})->control_points, s.control_points());  // at rest nothing moves
+  EXPECT_EQ(model.step({s.control_points()}, {})->control_points,
+            s.control_points());  // at rest nothing moves
   ActiveState state{s.control_points()};
   ActiveStep last;
   for (int k = 0; k < 25; ++k) {
@@ -227,14 +233,17 @@ void sinks_and_settles() {
     }
   }
   // Rigid motion and scale are followed.
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Point(1, -2, 0.5).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.8, Point(1, -2, 0.5).normalized()).toRotationMatrix();
   const auto moved = [&](const Points& p) {
     return Points((7.0 * p * turn.transpose()).rowwise() + Eigen::RowVector3d(3, 4, -5));
   };
   settings.detail *= 7;
   Tool other = ball;
-  other.shape = testing::sphere_at(7 * turn * ball.shape.placement().position + Point(3, 4, -5), 1.4);
-  const ActiveSpline<D> turned = active<D>(*s.with_control_points(moved(s.control_points())), settings);
+  other.shape =
+      testing::sphere_at(7 * turn * ball.shape.placement().position + Point(3, 4, -5), 1.4);
+  const ActiveSpline<D> turned =
+      active<D>(*s.with_control_points(moved(s.control_points())), settings);
   ActiveState t{moved(s.control_points())};
   for (int k = 0; k < 25; ++k) t.control_points = turned.step(t, {&other, 1})->control_points;
   EXPECT_LT((t.control_points - moved(state.control_points)).cwiseAbs().maxCoeff(), 7e-8);
@@ -243,7 +252,8 @@ void sinks_and_settles() {
   EXPECT_LT((state.control_points - s.control_points()).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-/// Random starts under random constraints: energy falls, constraints hold, held points stay, all within rounding.
+/// Random starts under random constraints: energy falls, constraints hold, held points stay, all
+/// within rounding.
 template <int D>
 void sinks_under_constraints() {
   for (unsigned seed = 1; seed <= 6; ++seed) {
@@ -254,12 +264,15 @@ void sinks_under_constraints() {
     settings.held = std::vector<bool>(static_cast<std::size_t>(n), false);
     settings.held[seed] = true;
     const int a = static_cast<int>(7 * seed) % n, b = (a + 1) % n, c = (a + n / 2) % n;
-    if (a == static_cast<int>(seed) || b == static_cast<int>(seed) || c == static_cast<int>(seed)) continue;
-    settings.constraints = {{"pair", {{a, 1}, {b, -1}}}, {"plane", {{c, 1}}, Point(0, 0, 0.01), Point(1, 2, -1)}};
+    if (a == static_cast<int>(seed) || b == static_cast<int>(seed) || c == static_cast<int>(seed))
+      continue;
+    settings.constraints = {{"pair", {{a, 1}, {b, -1}}},
+                            {"plane", {{c, 1}}, Point(0, 0, 0.01), Point(1, 2, -1)}};
     const ActiveSpline<D> model = active<D>(s, settings);
     ActiveState state{s.control_points() + 0.03 * testing::random_points(n, seed)};
     const Points start = state.control_points;
-    state.control_points = model.step(state, {})->control_points;  // now the constraints are satisfied
+    state.control_points =
+        model.step(state, {})->control_points;  // now the constraints are satisfied
     ActiveLoads none;
     double before = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 12; ++k) {

@@ -39,12 +39,14 @@ TEST(FreeSystem, HasTheRowsAndColumnsOfTheWholeSystemThatAreFree) {
     const FreeSystem system(shape, free);
     const auto reduced = system.of(stretch_and_bend(material()));
     ASSERT_TRUE(reduced);
-    const Eigen::MatrixXd whole(Stiffness<2>::create(shape, stretch_and_bend(material()))->assemble());
+    const Eigen::MatrixXd whole(
+        Stiffness<2>::create(shape, stretch_and_bend(material()))->assemble());
     const Eigen::MatrixXd part(reduced->matrix);
     ASSERT_EQ(part.rows(), 12);
     for (Eigen::Index i = 0; i < 12; ++i) {
       for (Eigen::Index j = 0; j < 12; ++j)
-        EXPECT_EQ(part(i, j), whole(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]));
+        EXPECT_EQ(part(i, j),
+                  whole(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]));
     }
     EXPECT_EQ(part, part.transpose());
     EXPECT_EQ(reduced->error_bound == 0, !rational);
@@ -56,15 +58,19 @@ TEST(FreeSystem, HasAStiffnessThatIsTheSumOfItsTerms) {
   const auto energies = system_energies(material(), 2, 3);
   const std::array<double, 6> coefficients = {1, 0.3, 2, 0.5, 0.25, 1};
   ASSERT_EQ(energies.size(), 9u);
-  const auto matrix = [&](std::size_t k) { return Eigen::MatrixXd(system.of(energies[k].energy)->matrix); };
+  const auto matrix = [&](std::size_t k) {
+    return Eigen::MatrixXd(system.of(energies[k].energy)->matrix);
+  };
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(30, 30);
   for (std::size_t k = 0; k < 6; ++k) sum += coefficients[k] * matrix(k + 1);
   EXPECT_LE((matrix(0) - sum).norm(), 1e-14 * sum.norm());  // sums of 6 terms
-  EXPECT_LE((matrix(8) * 2 - matrix(7) * 3).norm(), 1e-15 * matrix(8).norm()) << "both are of the same integrals";
+  EXPECT_LE((matrix(8) * 2 - matrix(7) * 3).norm(), 1e-15 * matrix(8).norm())
+      << "both are of the same integrals";
   EXPECT_EQ(energies[4].name, "K_beta11");
 }
 
-// A shape that moves as a whole has no energy; mass and load add up to those of the domain, here the unit square.
+// A shape that moves as a whole has no energy; mass and load add up to those of the domain, here
+// the unit square.
 TEST(FreeSystem, KnowsRigidMotionMassAndLoad) {
   for (const bool rational : {false, true}) {
     const Surface shape = bent(rational);
@@ -72,7 +78,8 @@ TEST(FreeSystem, KnowsRigidMotionMassAndLoad) {
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(30);
     const auto stiffness = system.of(stretch_and_bend(material()));
     EXPECT_LT((stiffness->matrix * ones).norm(), 1e-12 * stiffness->matrix.norm());
-    const double accuracy = rational ? 1e-8 : 1e-14;  // the tolerance of rational integrals; rounding
+    // The tolerance of rational integrals; rounding.
+    const double accuracy = rational ? 1e-8 : 1e-14;
     EXPECT_NEAR(ones.dot(system.of(mass_energy<2>(7))->matrix * ones), 7, 7 * accuracy);
     const auto forces = system.forces({1, -2, 3});
     ASSERT_TRUE(forces);
@@ -81,7 +88,8 @@ TEST(FreeSystem, KnowsRigidMotionMassAndLoad) {
   }
 }
 
-// In normalised units a sheet and its copy of another size and parametrisation give the same numbers.
+// In normalised units a sheet and its copy of another size and parametrisation give the same
+// numbers.
 TEST(FreeSystem, DoesNotDependOnSizeInNormalisedUnits) {
   const Surface shape = bent();
   std::array<KnotVector, 2> knots = shape.knots();
@@ -95,7 +103,8 @@ TEST(FreeSystem, DoesNotDependOnSizeInNormalisedUnits) {
     return FreeSystem(s, *free_unknowns(s.net(), 1), *normalised_scaling<2>(s));
   };
   const FreeSystem a = system(shape), b = system(larger);
-  const Eigen::MatrixXd k(a.of(stretch_and_bend(material()))->matrix), l(b.of(stretch_and_bend(material()))->matrix);
+  const Eigen::MatrixXd k(a.of(stretch_and_bend(material()))->matrix),
+      l(b.of(stretch_and_bend(material()))->matrix);
   EXPECT_LT((k - l).norm(), 1e-12 * k.norm());
   EXPECT_LT((a.points() - b.points()).norm(), 1e-12 * a.points().norm());
   EXPECT_LT((*a.forces({0, 0, 1}) - *b.forces({0, 0, 1})).norm(), 1e-12);

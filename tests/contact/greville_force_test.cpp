@@ -18,7 +18,8 @@ using testing::largest;
 
 template <int D>
 GrevilleForce<D> route(const Spline<D>& s, const DomainScaling<D>& units, int points = 0) {
-  auto made = GrevilleForce<D>::create(s, units, {.method = GramianMethod::gauss, .rational_gauss_points = points});
+  auto made = GrevilleForce<D>::create(
+      s, units, {.method = GramianMethod::gauss, .rational_gauss_points = points});
   if (!made) ADD_FAILURE() << made.error().message();
   return std::move(*made);
 }
@@ -26,9 +27,10 @@ GrevilleForce<D> route(const Spline<D>& s, const DomainScaling<D>& units, int po
 /// The Gauss route for a force that depends on the place.
 template <int D, class F>
 Points by_gauss(const Spline<D>& s, const DomainScaling<D>& units, const F& force, int points) {
-  return *load_forces<D>(
-      s, units, LoadFunction<D>([&](const std::array<double, D>& u) { return Point(force(*evaluate_point<D>(s, u))); }),
-      points);
+  return *load_forces<D>(s, units, LoadFunction<D>([&](const std::array<double, D>& u) {
+                           return Point(force(*evaluate_point<D>(s, u)));
+                         }),
+                         points);
 }
 
 std::vector<Surface> surfaces() {
@@ -36,29 +38,35 @@ std::vector<Surface> surfaces() {
   for (const int p : {1, 2, 3, 5}) {
     for (const auto& family : testing::knot_families(p)) {
       if (!family.ordinary() || family.knots.count() > 30) continue;
-      result.push_back(testing::relief(family.knots, testing::clamped_knots(2, {0, 1, 3}, {3, 3, 3}), 3));
+      result.push_back(
+          testing::relief(family.knots, testing::clamped_knots(2, {0, 1, 3}, {3, 3, 3}), 3));
     }
   }
-  result.push_back(testing::relief(testing::uniform_unclamped(2, 3), testing::uniform_clamped(3, 2), 5, 0.1, 3));
+  result.push_back(
+      testing::relief(testing::uniform_unclamped(2, 3), testing::uniform_clamped(3, 2), 5, 0.1, 3));
   result.push_back(testing::cylinder());
   result.push_back(testing::sphere());
   return result;
 }
 
 TEST(GrevilleForce, OfAnAffineForceIsItsMassMatrixTimesTheForcesAtTheControlPoints) {
-  // f(S) = A S + b is in the space of the surface with coefficients A P + b: the route is exact for it.
+  // f(S) = A S + b is in the space of the surface with coefficients A P + b: the route is exact for
+  // it.
   Eigen::Matrix3d a;
   a << 1, 2, 0, -1, 0.5, 0, 0.25, 0, -2;
   const Point b(0.5, -1, 3);
   for (const Surface& s : surfaces()) {
     const auto greville = route<2>(s, scaling);
-    const Points got = greville.greville_force(s.control_points(), [&](const Point& x) -> Point { return a * x + b; });
+    const Points got = greville.greville_force(s.control_points(),
+                                               [&](const Point& x) -> Point { return a * x + b; });
     Points coefficients = s.control_points() * a.transpose();
     coefficients.rowwise() += b.transpose();
     // Functions that vanish on the domain have no part in either.
-    const auto mass = Stiffness<2>::create(s, on_scaled_domain<2>(mass_energy<2>(), scaling.factors));
+    const auto mass =
+        Stiffness<2>::create(s, on_scaled_domain<2>(mass_energy<2>(), scaling.factors));
     const Points expected = mass->apply(coefficients);
-    // Rounding times the condition of interpolation, largest where functions are small on the domain (unclamped ends).
+    // Rounding times the condition of interpolation, largest where functions are small on the
+    // domain (unclamped ends).
     EXPECT_LE(largest(got - expected), (s.knots(0).clamped() ? 1e-12 : 1e-9) * largest(expected));
   }
 }
@@ -76,12 +84,15 @@ TEST(GrevilleForce, LooksAtPointsOfTheSurface) {
         at << u, v;
         double nearest = 1e300;  // from one of the sides
         for (const Side side : {Side::left, Side::right}) {
-          // Both sides of each direction apart: shift by the smallest step instead of asking for a mixed side.
+          // Both sides of each direction apart: shift by the smallest step instead of asking for a
+          // mixed side.
           for (const double du : {-1.0, 0.0}) {
             for (const double dv : {-1.0, 0.0}) {
               Parameters<2> moved = at;
-              if (du < 0) moved(0, 0) = std::max(s.knots(0).domain().lower, std::nextafter(u, -1e300));
-              if (dv < 0) moved(0, 1) = std::max(s.knots(1).domain().lower, std::nextafter(v, -1e300));
+              if (du < 0)
+                moved(0, 0) = std::max(s.knots(0).domain().lower, std::nextafter(u, -1e300));
+              if (dv < 0)
+                moved(0, 1) = std::max(s.knots(1).domain().lower, std::nextafter(v, -1e300));
               const Point x = evaluate<2>(s, moved, 0, side)->points().row(0).transpose();
               nearest = std::min(nearest, (x - Point(places.row(i * n + j).transpose())).norm());
             }
@@ -95,7 +106,8 @@ TEST(GrevilleForce, LooksAtPointsOfTheSurface) {
 
 /// Orders observed when spans are halved, of the largest difference per ∫ R_i to the Gauss route.
 template <class Make, class F>
-std::vector<double> differences(const Make& make, const F& force, std::initializer_list<int> spans, int points) {
+std::vector<double> differences(const Make& make, const F& force, std::initializer_list<int> spans,
+                                int points) {
   std::vector<double> result;
   for (const int n : spans) {
     const Surface s = make(n);
@@ -115,7 +127,8 @@ const auto smooth = [](const Point& x) -> Point {
 TEST(GrevilleForce, ConvergesToTheGaussRouteWithTheOrderOfTheSpace) {
   for (const int p : {1, 2, 3, 4}) {
     const auto sheet = [&](int n) {
-      return testing::sheet(*KnotVector::clamped_uniform(p, n + p), *KnotVector::clamped_uniform(p, n + p));
+      return testing::sheet(*KnotVector::clamped_uniform(p, n + p),
+                            *KnotVector::clamped_uniform(p, n + p));
     };
     const std::vector<double> e = differences(sheet, smooth, {8, 16, 32}, p + 6);
     for (std::size_t k = 0; k + 1 < e.size(); ++k) {
@@ -126,11 +139,12 @@ TEST(GrevilleForce, ConvergesToTheGaussRouteWithTheOrderOfTheSpace) {
   }
 }
 
-/// A quarter cylinder with n spans round and n along: the exact rational one, its knots inserted by interpolation of
-/// the homogeneous coordinates, which the finer space holds.
+/// A quarter cylinder with n spans round and n along: the exact rational one, its knots inserted by
+/// interpolation of the homogeneous coordinates, which the finer space holds.
 Surface quarter_cylinder(int n) {
   const KnotVector coarse = testing::uniform_clamped(2, 1);
-  const KnotVector u = *KnotVector::clamped_uniform(2, n + 2), v = *KnotVector::clamped_uniform(2, n + 2);
+  const KnotVector u = *KnotVector::clamped_uniform(2, n + 2),
+                   v = *KnotVector::clamped_uniform(2, n + 2);
   const double r = std::sqrt(0.5), xyw[3][3] = {{1, 0, 1}, {1, 1, r}, {0, 1, 1}};
   const auto line = *GrevilleInterpolation::create(u);
   std::vector<double> h(static_cast<std::size_t>(3 * u.count()));
@@ -138,7 +152,8 @@ Surface quarter_cylinder(int n) {
   for (int i = 0; i < u.count(); ++i) {
     for (int k = 0; k < 3; ++k) {
       for (int c = 0; c < 3; ++c) {
-        h[static_cast<std::size_t>(3 * i + c)] += table.row(i, 0)[k] * xyw[k][c] * (c < 2 ? xyw[k][2] : 1);
+        h[static_cast<std::size_t>(3 * i + c)] +=
+            table.row(i, 0)[k] * xyw[k][c] * (c < 2 ? xyw[k][2] : 1);
       }
     }
   }
@@ -165,24 +180,29 @@ TEST(GrevilleForce, ConvergesOnRationalSurfacesToo) {
 
 TEST(GrevilleForce, KeepsConstantForcesWhateverTheWeights) {
   for (const double spread : {2.0, 10.0, 1e6}) {
-    const Surface s = testing::relief(testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 2), 5, 0.1, spread);
+    const Surface s = testing::relief(testing::uniform_clamped(3, 3),
+                                      testing::uniform_clamped(2, 2), 5, 0.1, spread);
     const auto greville = route<2>(s, scaling);
     const Point f(1, -2, 0.5);
     const Points got = greville.greville_force(s.control_points(), [&](const Point&) { return f; });
-    const auto mass = Stiffness<2>::create(s, on_scaled_domain<2>(mass_energy<2>(), scaling.factors));
+    const auto mass =
+        Stiffness<2>::create(s, on_scaled_domain<2>(mass_energy<2>(), scaling.factors));
     const Points expected = mass->apply(f.transpose().replicate(s.size(), 1));
-    // What a small weight takes from a coefficient's digits it takes from its force too: rounding is all that stays.
+    // What a small weight takes from a coefficient's digits it takes from its force too: rounding
+    // is all that stays.
     EXPECT_LE(largest(got - expected), 1e-14 * largest(expected)) << spread;
   }
 }
 
 TEST(GrevilleForce, OfACollisionHasTheGaussForceAsItsLimitWithLowOrder) {
   // The force has a kink at the edge of the contact: the bound is O(h), measured.
-  const ModelTool tool({"ball", testing::sphere_at(Point(0.5, 0.5, 0.25), 0.3), ToolMode::collision, 1, 1},
-                       Point::Zero(), 1);
+  const ModelTool tool(
+      {"ball", testing::sphere_at(Point(0.5, 0.5, 0.25), 0.3), ToolMode::collision, 1, 1},
+      Point::Zero(), 1);
   const auto force = [&](const Point& x) -> Point { return tool.action(x).force; };
   const auto sheet = [&](int n) {
-    return testing::sheet(*KnotVector::clamped_uniform(3, n + 3), *KnotVector::clamped_uniform(3, n + 3));
+    return testing::sheet(*KnotVector::clamped_uniform(3, n + 3),
+                          *KnotVector::clamped_uniform(3, n + 3));
   };
   const std::vector<double> e = differences(sheet, force, {16, 32, 64}, 12);
   EXPECT_LE(e[2], e[0] / 2);
@@ -194,21 +214,26 @@ TEST(GrevilleForce, OnCurvesAndVolumes) {
   for (const int n : {12, 24, 48}) {  // a line over [0, 1] on unclamped knots, F per ∫ R_i
     const KnotVector u = testing::uniform_unclamped(3, n);
     Points line(u.count(), 3);
-    for (int i = 0; i < u.count(); ++i) line.row(i) << (u.greville(i) - 3) / n, (u.greville(i) - 3) / (2 * n), 0;
+    for (int i = 0; i < u.count(); ++i)
+      line.row(i) << (u.greville(i) - 3) / n, (u.greville(i) - 3) / (2 * n), 0;
     const Curve c = *Curve::create({u}, line);
     const DomainScaling<1> unit{1, {1.0 / n}};
-    const Points difference = route<1>(c, unit).greville_force(line, smooth) - by_gauss<1>(c, unit, smooth, 10);
+    const Points difference =
+        route<1>(c, unit).greville_force(line, smooth) - by_gauss<1>(c, unit, smooth, 10);
     const Points length = by_gauss<1>(
         c, unit, [](const Point&) { return Point(1, 1, 1); }, 4);
     error.push_back((difference.array() / length.array()).abs().maxCoeff());
   }
-  EXPECT_GE(std::log2(error[1] / error[2]), 4 - 0.35) << error[0] << " " << error[1] << " " << error[2];
+  EXPECT_GE(std::log2(error[1] / error[2]), 4 - 0.35)
+      << error[0] << " " << error[1] << " " << error[2];
   const KnotVector k = *KnotVector::clamped_uniform(3, 9);
   Points x(729, 3);
-  for (int i = 0; i < 729; ++i) x.row(i) << k.greville(i / 81), k.greville(i / 9 % 9), k.greville(i % 9);
+  for (int i = 0; i < 729; ++i)
+    x.row(i) << k.greville(i / 81), k.greville(i / 9 % 9), k.greville(i % 9);
   const Volume v = *Volume::create({k, k, k}, x);
   const Points d = route<3>(v, {}).greville_force(x, smooth), e = by_gauss<3>(v, {}, smooth, 7);
-  // (h/2)⁴/4! times the fourth derivatives, up to 3⁴, with h = 1/6, and as much again from the other directions.
+  // (h/2)⁴/4! times the fourth derivatives, up to 3⁴, with h = 1/6, and as much again from the
+  // other directions.
   EXPECT_LE(largest(d - e), 3e-4 * largest(e));
 }
 
@@ -216,8 +241,8 @@ TEST(GrevilleForce, RefusesWeightsThatNoForceDetermines) {
   Surface s = testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 2), 5);
   std::vector<double> weights(static_cast<std::size_t>(s.size()), 1.0);
   weights[7] = 0;
-  const auto made =
-      GrevilleForce<2>::create(testing::make_surface(s.knots(0), s.knots(1), s.control_points(), weights), scaling);
+  const auto made = GrevilleForce<2>::create(
+      testing::make_surface(s.knots(0), s.knots(1), s.control_points(), weights), scaling);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().where, "control point 7");
 }

@@ -8,15 +8,16 @@
 
 namespace knead::testing {
 
-/// What a stroke over a flat sheet at z = 0 has left, in lengths of the sheet: the sheet is sampled on a grid of its
-/// parameters and seen from above.
+/// What a stroke over a flat sheet at z = 0 has left, in lengths of the sheet: the sheet is sampled
+/// on a grid of its parameters and seen from above.
 struct Groove {
-  double shallowest = 0, deepest = 0;  ///< of the bottom along the path, apart from one radius at both ends
-  double width = 0;                    ///< widest at half depth, across the path
-  double beyond = 0;                   ///< largest displacement further than 2.5 radii from the path
-  double rim = 0;                      ///< highest point of the sheet
-  double ripple = 0;                   ///< across the groove: largest rise on the way down to the bottom
-  double lowest = 0;                   ///< deepest point of the sheet
+  double shallowest = 0,
+         deepest = 0;  ///< of the bottom along the path, apart from one radius at both ends
+  double width = 0;    ///< widest at half depth, across the path
+  double beyond = 0;   ///< largest displacement further than 2.5 radii from the path
+  double rim = 0;      ///< highest point of the sheet
+  double ripple = 0;   ///< across the groove: largest rise on the way down to the bottom
+  double lowest = 0;   ///< deepest point of the sheet
 };
 
 /// The points of surfaces on equal grids of their parameters, one surface after the other.
@@ -29,18 +30,21 @@ inline Points sampled(const std::vector<const Surface*>& surfaces) {
     const Interval u = surfaces[k]->knots(0).domain(), v = surfaces[k]->knots(1).domain();
     for (int i = 0; i < samples; ++i) {
       for (int j = 0; j < samples; ++j)
-        grid.row(static_cast<Eigen::Index>(i) * samples + j) << u.lower + u.length() * i / (samples - 1),
+        grid.row(static_cast<Eigen::Index>(i) * samples + j)
+            << u.lower + u.length() * i / (samples - 1),
             v.lower + v.length() * j / (samples - 1);
     }
-    points.middleRows(each * static_cast<Eigen::Index>(k), each) = evaluate<2>(*surfaces[k], grid, 0)->at({0, 0});
+    points.middleRows(each * static_cast<Eigen::Index>(k), each) =
+        evaluate<2>(*surfaces[k], grid, 0)->at({0, 0});
   }
   return points;
 }
 
-/// \param displaced the sheet, of one surface or of several that lie in the plane, \param flat as it was. Depths are
-/// positive.
-inline Groove groove_of(const std::vector<const Surface*>& displaced, const std::vector<const Surface*>& flat,
-                        const Point& from, const Point& to, double radius, double depth) {
+/// \param displaced the sheet, of one surface or of several that lie in the plane, \param flat as
+/// it was. Depths are positive.
+inline Groove groove_of(const std::vector<const Surface*>& displaced,
+                        const std::vector<const Surface*>& flat, const Point& from, const Point& to,
+                        double radius, double depth) {
   const Points after = sampled(displaced), before = sampled(flat);
   Groove g;
   const Point along = (to - from).normalized(), across(-along.y(), along.x(), 0);
@@ -91,8 +95,8 @@ inline Groove groove_of(const std::vector<const Surface*>& displaced, const std:
   return g;
 }
 
-inline Groove groove_of(const Surface& displaced, const Surface& flat, const Point& from, const Point& to,
-                        double radius, double depth) {
+inline Groove groove_of(const Surface& displaced, const Surface& flat, const Point& from,
+                        const Point& to, double radius, double depth) {
   return groove_of(std::vector{&displaced}, std::vector{&flat}, from, to, radius, depth);
 }
 

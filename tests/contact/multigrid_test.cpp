@@ -17,7 +17,8 @@ using testing::random_points;
 using testing::rim;
 using testing::sheet;
 
-/// Spans of random length, the longest up to 20 times the shortest; every seventh knot is repeated so often.
+/// Spans of random length, the longest up to 20 times the shortest; every seventh knot is repeated
+/// so often.
 KnotVector uneven(int degree, int spans, unsigned seed, int repeated) {
   std::mt19937 random(seed);
   std::vector<double> knots(static_cast<std::size_t>(degree) + 1, 0.0);
@@ -44,18 +45,21 @@ System system_of(const Surface& s, const Material& material, double lambda, int 
     energy.push_back(term);
   }
   const DomainScaling<2> scaling;
-  return {Stiffness<2>::create(s, energy)->assemble(), nested_prolongations<2>({&s, 1}, {&scaling, 1}, enough)};
+  return {Stiffness<2>::create(s, energy)->assemble(),
+          nested_prolongations<2>({&s, 1}, {&scaling, 1}, enough)};
 }
 
 Expected<ConstrainedMultigrid> iterated(const System& system, const ConstraintSpace& space) {
   const SparseMatrix a = system.a;
   return ConstrainedMultigrid::create(
-      SparseMatrix(a), [a](const Points& x) { return symmetric_product(a, x); }, space, system.prolongations);
+      SparseMatrix(a), [a](const Points& x) { return symmetric_product(a, x); }, space,
+      system.prolongations);
 }
 
 std::vector<bool> pinned(std::vector<bool> held, int every) {
   std::mt19937 random(7);
-  for (std::size_t i = 0; i < held.size(); ++i) held[i] = held[i] || random() % static_cast<unsigned>(every) == 0;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    held[i] = held[i] || random() % static_cast<unsigned>(every) == 0;
   return held;
 }
 
@@ -110,12 +114,14 @@ TEST(Multigrid, CycleIsSymmetricAndPositive) {
   const auto made = iterated(system, ConstraintSpace(pinned(rim(s, 2), 50)));
   ASSERT_TRUE(made) << made.error().message();
   const ConstraintSpace& space = made->space();
-  const Points x = space.lumped(random_points(s.size(), 1)), y = space.lumped(random_points(s.size(), 2));
+  const Points x = space.lumped(random_points(s.size(), 1)),
+               y = space.lumped(random_points(s.size(), 2));
   const Points bx = made->precondition(x), by = made->precondition(y);
   const double xx = x.cwiseProduct(bx).sum(), yy = y.cwiseProduct(by).sum();
   EXPECT_GT(xx, 0);
   EXPECT_GT(yy, 0);
-  EXPECT_NEAR(x.cwiseProduct(by).sum(), y.cwiseProduct(bx).sum(), 1e-6 * std::sqrt(xx * yy)) << "single precision";
+  EXPECT_NEAR(x.cwiseProduct(by).sum(), y.cwiseProduct(bx).sum(), 1e-6 * std::sqrt(xx * yy))
+      << "single precision";
   for (int i = 0; i < s.size(); ++i) {
     if (space.is_determined(i)) {
       EXPECT_TRUE((bx.row(i).array() == 0).all());
@@ -123,7 +129,8 @@ TEST(Multigrid, CycleIsSymmetricAndPositive) {
   }
 }
 
-/// How far the solution is from that of a factor, as a share of it, and how many iterations it takes.
+/// How far the solution is from that of a factor, as a share of it, and how many iterations it
+/// takes.
 struct Compared {
   double off = 1;
   int iterations = 1000;
@@ -140,7 +147,8 @@ Compared compared(const System& system, const ConstraintSpace& space) {
     ADD_FAILURE() << factor.error().message();
     return {};
   }
-  const Points b = system.a * random_points(space.size(), 5), exact = factor->solve(b), found = made->solve(b);
+  const Points b = system.a * random_points(space.size(), 5), exact = factor->solve(b),
+               found = made->solve(b);
   return {(found - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff(), made->iterations()};
 }
 
@@ -164,7 +172,8 @@ TEST(Multigrid, NeedsHardlyMoreIterationsOnFinerNets) {
   int before = 12;
   for (const int net : {40, 80, 160}) {
     const Surface s = box<2>(3, net);
-    const int found = compared(system_of(s, {}, 20, 500), ConstraintSpace(pinned(rim(s, 2), 50))).iterations;
+    const int found =
+        compared(system_of(s, {}, 20, 500), ConstraintSpace(pinned(rim(s, 2), 50))).iterations;
     EXPECT_LE(found, before + 3) << net;
     before = found;
   }
@@ -176,7 +185,8 @@ TEST(Multigrid, TakesMembranesThinPlatesAndUnevenKnots) {
   plate.alpha = {0, 0, 0};
   const Surface even = box<2>(3, 48);
   for (const Material& material : {membrane, plate}) {
-    const Compared found = compared(system_of(even, material, 1e-3, 300), ConstraintSpace(rim(even, 2)));
+    const Compared found =
+        compared(system_of(even, material, 1e-3, 300), ConstraintSpace(rim(even, 2)));
     EXPECT_LE(found.off, 1e-8);
     EXPECT_LE(found.iterations, 25);
   }
@@ -200,7 +210,8 @@ TEST(Multigrid, SolvesUnderTies) {
 
 TEST(Multigrid, IsNotMadeForCoupledCoordinates) {
   const Surface s = box<2>(3, 20);
-  const std::vector<LinearConstraint> plane = {{"plane", {{210, 1.0}}, Point::Zero(), Point(1, 1, 0)}};
+  const std::vector<LinearConstraint> plane = {
+      {"plane", {{210, 1.0}}, Point::Zero(), Point(1, 1, 0)}};
   const auto space = ConstraintSpace::create(s.size(), plane, rim(s, 2));
   ASSERT_TRUE(space && space->coupled());
   EXPECT_FALSE(iterated(system_of(s, {}, 20, 200), *space));

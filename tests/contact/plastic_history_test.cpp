@@ -33,7 +33,8 @@ struct ClaySheet {
   /// What stays of `before` after a stroke whose path has these pieces.
   Surface stroke(const Surface& before, const Point& from, const Point& to, int events,
                  const Plasticity& plasticity = {}) {
-    std::vector<Tool> tools = {{"ball", testing::sphere_at(from, radius), ToolMode::collision, 300 * bed.lambda, 1}};
+    std::vector<Tool> tools = {
+        {"ball", testing::sphere_at(from, radius), ToolMode::collision, 300 * bed.lambda, 1}};
     ToolPath path(radius / 8);
     std::vector<Point> centres;
     for (int k = 0; k <= events; ++k)
@@ -86,11 +87,13 @@ TEST(PlasticHistory, AShareStaysOfWhatIsBeyondTheYield) {
   EXPECT_LT(left.bottomRows(2).norm(), 1e-15);
 }
 
-// Figures of docs/clay.md: a ball of radius 20 led at depth 8 over a sheet of 200, bicubic, 64 × 64.
+// Figures of docs/clay.md: a ball of radius 20 led at depth 8 over a sheet of 200, bicubic, 64
+// × 64.
 TEST(PlasticHistory, AStrokeLeavesItsGroove) {
   ClaySheet clay;
   const double chord = 2 * std::sqrt(radius * radius - (radius - depth / 2) * (radius - depth / 2));
-  for (const auto& [from, to] : {std::pair{Point(25, 97, 0), Point(175, 97, 0)}, {{47, 47, 0}, {153, 153, 0}}}) {
+  for (const auto& [from, to] :
+       {std::pair{Point(25, 97, 0), Point(175, 97, 0)}, {{47, 47, 0}, {153, 153, 0}}}) {
     const Surface once = clay.stroke(clay.flat, from, to, 8);
     const testing::Groove g = testing::groove_of(once, clay.flat, from, to, radius, depth);
     EXPECT_GT(g.shallowest, 0.92 * depth);
@@ -102,7 +105,8 @@ TEST(PlasticHistory, AStrokeLeavesItsGroove) {
     EXPECT_LT(g.deepest - g.shallowest, 0.02 * depth) << "ripples along the bottom";
 
     const Surface twice = clay.stroke(once, from, to, 8);
-    const double change = (twice.control_points() - once.control_points()).rowwise().norm().maxCoeff();
+    const double change =
+        (twice.control_points() - once.control_points()).rowwise().norm().maxCoeff();
     EXPECT_LT(change, 0.05 * depth);
     EXPECT_LT(testing::groove_of(twice, clay.flat, from, to, radius, depth).lowest, 1.01 * depth);
   }
@@ -111,14 +115,17 @@ TEST(PlasticHistory, AStrokeLeavesItsGroove) {
 TEST(PlasticHistory, TheNumberOfEventsDoesNotMatter) {
   ClaySheet clay;
   const Point from(60, 97, 0), to(140, 110, 0);
-  const Surface few = clay.stroke(clay.flat, from, to, 8), many = clay.stroke(clay.flat, from, to, 480);
-  EXPECT_LT((few.control_points() - many.control_points()).rowwise().norm().maxCoeff(), 1e-6 * size);
+  const Surface few = clay.stroke(clay.flat, from, to, 8),
+                many = clay.stroke(clay.flat, from, to, 480);
+  EXPECT_LT((few.control_points() - many.control_points()).rowwise().norm().maxCoeff(),
+            1e-6 * size);
 }
 
 TEST(PlasticHistory, HeldPointsStayAndHalfTheShareIsHalfTheGroove) {
   ClaySheet clay;
   const Point from(5, 97, 0), to(60, 97, 0);  // over the held rim
-  const Surface all = clay.stroke(clay.flat, from, to, 2), half = clay.stroke(clay.flat, from, to, 2, {0.5, 0});
+  const Surface all = clay.stroke(clay.flat, from, to, 2),
+                half = clay.stroke(clay.flat, from, to, 2, {0.5, 0});
   const std::vector<bool> rim = testing::rim(clay.flat, 1);
   for (int i = 0; i < clay.flat.size(); ++i) {
     if (rim[static_cast<std::size_t>(i)]) {

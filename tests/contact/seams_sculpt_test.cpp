@@ -14,7 +14,8 @@ struct Sculpted {
   double moved = 0;           // largest displacement on the seam, of the model's size
 };
 
-Sculpted sculpt(const Coupled& c, const PlacedShape& ball, const std::vector<bool>& held, int steps = 6) {
+Sculpted sculpt(const Coupled& c, const PlacedShape& ball, const std::vector<bool>& held,
+                int steps = 6) {
   ActiveSettings<2> settings;
   settings.constraints = c.coupling.constraints;
   settings.held = held;
@@ -54,7 +55,8 @@ Sculpted sculpt(const Coupled& c, const PlacedShape& ball, const std::vector<boo
   return result;
 }
 
-/// Two patches of one sheet, the second turned, with a gap as a file may have it; the far edges are held.
+/// Two patches of one sheet, the second turned, with a gap as a file may have it; the far edges are
+/// held.
 std::vector<Surface> two_patches(double gap) {
   const KnotVector across = uniform_clamped(3, 7), along = uniform_clamped(3, 8);
   const Surface left = sheet(across, along), right = sheet(uniform_clamped(2, 9), along, 1.5);
@@ -97,8 +99,8 @@ TEST(SeamSculpting, TwoPatchesStayTogetherUnderABallOnTheirSeam) {
     const Sculpted torn = sculpt(Coupled(patches, {.most = SeamContinuity::none}), ball, held);
     EXPECT_GT(torn.gap, 1e-3);
     RecordProperty("tear", std::to_string(torn.gap));
-    std::printf("gap %.0e: g1 %.1e of the size, %.1e rad; c0 %.1e, %.1e rad; torn %.1e, %.1e rad\n", gap, smooth.gap,
-                smooth.angle, hinge.gap, hinge.angle, torn.gap, torn.angle);
+    std::printf("gap %.0e: g1 %.1e of the size, %.1e rad; c0 %.1e, %.1e rad; torn %.1e, %.1e rad\n",
+                gap, smooth.gap, smooth.angle, hinge.gap, hinge.angle, torn.gap, torn.angle);
   }
 }
 
@@ -129,8 +131,8 @@ TEST(SeamSculpting, AClosedCylinderStaysClosedUnderABallOnItsSeam) {
   EXPECT_LT(smooth.angle, 1e-6);
   const Sculpted torn = sculpt(Coupled({tube}, {.most = SeamContinuity::none}), ball, held);
   EXPECT_GT(torn.gap, 1e-3);
-  std::printf("cylinder: g1 %.1e of the size, %.1e rad; torn %.1e, %.1e rad\n", smooth.gap, smooth.angle, torn.gap,
-              torn.angle);
+  std::printf("cylinder: g1 %.1e of the size, %.1e rad; torn %.1e, %.1e rad\n", smooth.gap,
+              smooth.angle, torn.gap, torn.angle);
 }
 
 TEST(SeamSculpting, APeriodicTubeStaysPeriodic) {
@@ -152,7 +154,9 @@ TEST(SeamSculpting, APeriodicTubeStaysPeriodic) {
   EXPECT_GT(smooth.moved, 0.01);
   EXPECT_LT(smooth.gap, 1e-12);
   EXPECT_LT(smooth.angle, 1e-6);
-  EXPECT_GT(sculpt(Coupled({tube}, {.most = SeamContinuity::none}), testing::sphere_at(1.05 * seam, 0.3), held).gap,
+  EXPECT_GT(sculpt(Coupled({tube}, {.most = SeamContinuity::none}),
+                   testing::sphere_at(1.05 * seam, 0.3), held)
+                .gap,
             1e-3);
 }
 

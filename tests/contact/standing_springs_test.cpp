@@ -38,8 +38,8 @@ struct Pair {
 
 /// Two steps with springs too few for the matrix, and with the same springs each in three.
 template <class Change>
-Pair pair_of_steps(const ActiveSettings<2>& settings, const Surface& s, double strength, std::span<const Tool> tools,
-                   const Change& change) {
+Pair pair_of_steps(const ActiveSettings<2>& settings, const Surface& s, double strength,
+                   std::span<const Tool> tools, const Change& change) {
   const ActiveSpline<2> model = active<2>(s, settings);
   Pair pair;
   for (const bool apart : {true, false}) {
@@ -99,7 +99,8 @@ TEST(StandingSprings, StandWherePointsSlideInAPlane) {
   const Surface s = box<2>(3, 16);
   ActiveSettings<2> settings = sheet_settings(s);
   for (int k = 0; k < 4; ++k) settings.held[static_cast<std::size_t>(k)] = false;
-  settings.constraints.push_back({"plane", {{1, 1.0}}, Point::Zero(), Point(2, 1, 0.5).normalized()});
+  settings.constraints.push_back(
+      {"plane", {{1, 1.0}}, Point::Zero(), Point(2, 1, 0.5).normalized()});
   expect_same(pair_of_steps(settings, s, 100, {}, unchanged));
 }
 

@@ -14,7 +14,8 @@ using testing::ball_above_sheet;
 using testing::box;
 using testing::sheet_settings;
 
-/// The largest difference of control points after some steps by either solver, as a share of the largest displacement.
+/// The largest difference of control points after some steps by either solver, as a share of the
+/// largest displacement.
 template <int D>
 double difference(std::vector<Spline<D>> patches, ActiveSettings<D> settings, Tool tool,
                   const ActiveLoads& loads = {}) {
@@ -38,7 +39,8 @@ double difference(std::vector<Spline<D>> patches, ActiveSettings<D> settings, To
   ActiveState a{start}, b{start};
   for (int k = 0; k < 4; ++k) {
     testing::move_to(tool, tool.shape.placement().position + Point(0.02, 0.01, -0.02));
-    const auto on_a = direct->step(a, {&tool, 1}, loads), on_b = iterative->step(b, {&tool, 1}, loads);
+    const auto on_a = direct->step(a, {&tool, 1}, loads),
+               on_b = iterative->step(b, {&tool, 1}, loads);
     if (!on_a || !on_b) {
       ADD_FAILURE() << (on_a ? on_b : on_a).error().message();
       return 1;
@@ -93,16 +95,19 @@ TEST(IterativeSteps, AreThoseOfAFactorForCurvesVolumesAndSeveralDegrees) {
     const Surface s = box<2>(degree, 36);
     EXPECT_LE(difference<2>({s}, sheet_settings(s), ball_above_sheet(1e3)), 1e-7) << degree;
   }
-  EXPECT_LE(held_difference<1>(box<1>(3, 60), 2, 0.15, ball_above_sheet(1e3), Point(0.42, 0.1, 0.1)), 1e-7);
-  EXPECT_LE(held_difference<3>(box<3>(2, 9), 1, 0.3, ball_above_sheet(1e2), Point(0.5, 0.5, 1.1)), 1e-7);
+  EXPECT_LE(
+      held_difference<1>(box<1>(3, 60), 2, 0.15, ball_above_sheet(1e3), Point(0.42, 0.1, 0.1)),
+      1e-7);
+  EXPECT_LE(held_difference<3>(box<3>(2, 9), 1, 0.3, ball_above_sheet(1e2), Point(0.5, 0.5, 1.1)),
+            1e-7);
 }
 
 TEST(IterativeSteps, AreThoseOfAFactorWhereMaterialJumpsAndWeightsVary) {
   const Surface s = box<2>(3, 40);
   ActiveSettings<2> settings = sheet_settings(s);
-  const auto jump =
-      SplineField<2>::create({*KnotVector::create(1, {0, 0, 0.5, 0.5, 1, 1}), *KnotVector::create(1, {0, 0, 1, 1})},
-                             {1, 1, 1, 1, 100, 100, 100, 100});
+  const auto jump = SplineField<2>::create(
+      {*KnotVector::create(1, {0, 0, 0.5, 0.5, 1, 1}), *KnotVector::create(1, {0, 0, 1, 1})},
+      {1, 1, 1, 1, 100, 100, 100, 100});
   ASSERT_TRUE(jump);
   MaterialFieldOf<2> field;
   field.alpha[0] = field.alpha[2] = *jump;
@@ -130,7 +135,8 @@ TEST(IterativeSteps, AreThoseOfAFactorAcrossASeam) {
   for (int j = 0; j < 28; ++j) {
     settings.constraints.push_back({"seam", {{27 * 28 + j, 1.0}, {28 * 28 + j, -1.0}}});
     // and the tangents across it
-    settings.constraints.push_back({"smooth seam", {{26 * 28 + j, 1.0}, {27 * 28 + j, -2.0}, {29 * 28 + j, 1.0}}});
+    settings.constraints.push_back(
+        {"smooth seam", {{26 * 28 + j, 1.0}, {27 * 28 + j, -2.0}, {29 * 28 + j, 1.0}}});
   }
   Tool tool = ball_above_sheet(1e3);
   testing::move_to(tool, Point(0.95, 0.5, 0.14));
@@ -154,13 +160,14 @@ TEST(IterativeSteps, RepeatBitForBitWithAnyNumberOfThreads) {
 }
 
 TEST(StepEngine, FactorsWhereCyclesTakeMoreIterationsThanAFactorIsWorth) {
-  // Just above the number of points that are factored unasked, only with the usual 12; a factor's cost per point grows
-  // as the root of their number.
+  // Just above the number of points that are factored unasked, only with the usual 12; a factor's
+  // cost per point grows as the root of their number.
   EXPECT_EQ(most_iterations<2>(direct_points<2> + 1, 3), 12);
   EXPECT_EQ(most_iterations<2>(2 * direct_points<2>, 3), 24);
   EXPECT_EQ(most_iterations<1>(2 * direct_points<1>, 2), 24);
   EXPECT_EQ(most_iterations<2>(10 * direct_points<2>, 3), 40);
-  EXPECT_EQ(most_iterations<2>(400, 3), 12);  // below it, where iteration is not tried unless asked for
+  EXPECT_EQ(most_iterations<2>(400, 3),
+            12);  // below it, where iteration is not tried unless asked for
   // Denser factors: of degree 4 and more, and of volumes.
   EXPECT_EQ(most_iterations<2>(direct_points<2> + 1, 4), 40);
   EXPECT_EQ(most_iterations<3>(direct_points<3> + 1, 2), 40);

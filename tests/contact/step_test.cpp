@@ -20,7 +20,8 @@ TEST(RigidTool, IsEnteredByLessThanAFractionOfItsSize) {
   ActiveSettings<2> settings;
   settings.held = rim(s, 2);
   settings.detail = 0.2;
-  Tool ball = {"ball", testing::sphere_at(Point(0.5, 0.47, 0.15), 0.2), ToolMode::collision, 100, 1};
+  Tool ball = {"ball", testing::sphere_at(Point(0.5, 0.47, 0.15), 0.2), ToolMode::collision, 100,
+               1};
   ball.rigid = true;
   const auto step = active<2>(s, settings).step({s.control_points()}, {&ball, 1});
   ASSERT_TRUE(step);
@@ -48,7 +49,8 @@ TEST(Limit, HoldsToAMillionth) {
   ActiveSettings<2> settings;
   settings.held = rim(s, 1);
   settings.detail = 0.2;
-  const Tool ball = {"ball", testing::sphere_at(Point(0.5, 0.47, 0.1), 0.2), ToolMode::collision, 1e4, 1};
+  const Tool ball = {"ball", testing::sphere_at(Point(0.5, 0.47, 0.1), 0.2), ToolMode::collision,
+                     1e4, 1};
   const ActiveSpline<2> model = active<2>(s, settings);
   ActiveState state{s.control_points()};
   ActiveLoads loads;
@@ -56,7 +58,8 @@ TEST(Limit, HoldsToAMillionth) {
     loads.limit = limit;
     auto step = model.step(state, {&ball, 1}, loads);
     ASSERT_TRUE(step);
-    const double way = largest_norm(*s.with_control_points(step->control_points - s.control_points())).value;
+    const double way =
+        largest_norm(*s.with_control_points(step->control_points - s.control_points())).value;
     if (limit == 1.0) {
       EXPECT_GT(way, 0.05);
       EXPECT_FALSE(step->limited);
@@ -98,8 +101,8 @@ TEST(Friction, AHeavySheetOnASlantStaysOrSlides) {
   Points start = s.control_points();
   for (int i = 0; i < start.rows(); ++i) start(i, 2) = 0.5 * start(i, 0);  // in the slant
   const auto way = [&](double friction) {
-    Tool ground = {"ground", testing::sphere_at(Point(0.5, 0.5, 0.25) - radius * up, radius), ToolMode::collision, 1e4,
-                   1};
+    Tool ground = {"ground", testing::sphere_at(Point(0.5, 0.5, 0.25) - radius * up, radius),
+                   ToolMode::collision, 1e4, 1};
     ground.friction = friction;
     const Surface tilted = *s.with_control_points(start);
     const ActiveSpline<2> model = active<2>(tilted, settings);
@@ -121,7 +124,8 @@ TEST(Friction, AHeavySheetOnASlantStaysOrSlides) {
   EXPECT_GT(without, slides);
   // Without friction: g sin(slope) t²/2, with 0.1: (sin − 0.1 cos) g t²/2.
   // Gravity is in units of the model: its length is the root of its area.
-  const double length = std::pow(1.25, 0.25), t = 20 * 0.06, sine = 0.5 / std::sqrt(1.25), cosine = 1 / std::sqrt(1.25);
+  const double length = std::pow(1.25, 0.25), t = 20 * 0.06, sine = 0.5 / std::sqrt(1.25),
+               cosine = 1 / std::sqrt(1.25);
   EXPECT_NEAR(without, 0.5 * sine * t * t * length, 0.01 * without);
   EXPECT_NEAR(slides, 0.5 * (sine - 0.1 * cosine) * t * t * length, 0.03 * slides);
 }
@@ -146,10 +150,12 @@ TEST(SeveralPatches, CoupledMoveTogetherAndUncoupledTear) {
   const Surface t = *s.with_control_points(right);
   ActiveSettings<2> settings;
   settings.detail = 0.2;
-  const Tool ball = {"ball", testing::sphere_at(Point(0.9, 0.5, 0.15), 0.2), ToolMode::collision, 1e4, 1};
+  const Tool ball = {"ball", testing::sphere_at(Point(0.9, 0.5, 0.15), 0.2), ToolMode::collision,
+                     1e4, 1};
   const auto gap = [&](bool coupled) {
     settings.constraints.clear();
-    for (int j = 0; coupled && j < 8; ++j) settings.constraints.push_back({"seam", {{56 + j, 1}, {64 + j, -1}}});
+    for (int j = 0; coupled && j < 8; ++j)
+      settings.constraints.push_back({"seam", {{56 + j, 1}, {64 + j, -1}}});
     const auto model = ActiveSpline<2>::create({s, t}, settings);
     EXPECT_TRUE(model) << model.error().message();
     ActiveState state{Points(128, 3)};

@@ -76,7 +76,9 @@ TEST(Describe, ATableNamesKindsAndReachesMembers) {
 TEST(Describe, TheInitialValueHoldsTheDefaults) {
   const Type& type = type_of<Cart>();
   EXPECT_EQ(static_cast<const Cart*>(type.initial)->label, "cart");
-  EXPECT_EQ(*static_cast<const int*>(type.find("seats")->type->part(type.find("seats")->of(type.initial), 1)), 2);
+  EXPECT_EQ(*static_cast<const int*>(
+                type.find("seats")->type->part(type.find("seats")->of(type.initial), 1)),
+            2);
 }
 
 TEST(Describe, OptionalsListsAndVariantsAreChangedThroughTheTable) {

@@ -19,7 +19,8 @@ TEST(DomainScaling, OfAFlatStripIsItsProportions) {
 }
 
 TEST(DomainScaling, OfTheUnitSphereIsItsAreaAndMeanIsocurves) {
-  // Area 4π. Parallels have the mean length 2π times the mean of the radius over v; meridians have the length π.
+  // Area 4π. Parallels have the mean length 2π times the mean of the radius over v; meridians have
+  // the length π.
   const auto s = normalised_scaling<2>(testing::sphere());
   ASSERT_TRUE(s);
   EXPECT_NEAR(s->length * s->length, 4 * std::numbers::pi, 1e-5);
@@ -27,10 +28,13 @@ TEST(DomainScaling, OfTheUnitSphereIsItsAreaAndMeanIsocurves) {
 }
 
 TEST(DomainScaling, IsInvariantUnderMotionAndProportionalToSize) {
-  const Surface s = testing::relief(testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 5), 3, 0.2, 3);
+  const Surface s =
+      testing::relief(testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 5), 3, 0.2, 3);
   const auto a = normalised_scaling<2>(s);
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix();
-  const Points moved = (25.4 * s.control_points() * turn.transpose()).rowwise() + Eigen::RowVector3d(4, 5, 6);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix();
+  const Points moved =
+      (25.4 * s.control_points() * turn.transpose()).rowwise() + Eigen::RowVector3d(4, 5, 6);
   const auto b = normalised_scaling<2>(*s.with_control_points(moved));
   EXPECT_NEAR(b->length, 25.4 * a->length, 1e-13 * b->length);
   EXPECT_NEAR(b->factors[0], a->factors[0], 1e-13 * a->factors[0]);
@@ -38,15 +42,16 @@ TEST(DomainScaling, IsInvariantUnderMotionAndProportionalToSize) {
 }
 
 TEST(DomainScaling, FollowsAffineMapsOfTheKnots) {
-  const Surface s = testing::relief(testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 5), 3);
+  const Surface s =
+      testing::relief(testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 5), 3);
   const auto map = [](const KnotVector& k, double scale, double shift) {
     std::vector<double> knots(k.knots().begin(), k.knots().end());
     for (double& x : knots) x = scale * x + shift;
     return *KnotVector::create(k.degree(), knots);
   };
   const auto a = normalised_scaling<2>(s);
-  const auto b = normalised_scaling<2>(
-      testing::make_surface(map(s.knots(0), 100, -3), map(s.knots(1), 0.01, 7), s.control_points()));
+  const auto b = normalised_scaling<2>(testing::make_surface(
+      map(s.knots(0), 100, -3), map(s.knots(1), 0.01, 7), s.control_points()));
   EXPECT_NEAR(b->length, a->length, 1e-13 * a->length);
   EXPECT_NEAR(b->factors[0] * 100, a->factors[0], 1e-12 * a->factors[0]);
   EXPECT_NEAR(b->factors[1] * 0.01, a->factors[1], 1e-12 * a->factors[1]);

@@ -20,15 +20,18 @@ Spline<D> make_spline(const std::array<KnotVector, D>& knots, double weight_spre
   std::vector<double> weights;
   std::mt19937_64 random(3);
   for (int i = 0; weight_spread > 1 && i < n; ++i) {
-    weights.push_back(std::pow(weight_spread, std::uniform_real_distribution<double>(-1, 1)(random)));
+    weights.push_back(
+        std::pow(weight_spread, std::uniform_real_distribution<double>(-1, 1)(random)));
   }
   return *Spline<D>::create(knots, testing::random_points(n, 2), weights);
 }
 
 template <int D>
-SparseMatrix assemble(const Spline<D>& spline, const FieldEnergy<D>& energy, double tolerance = 1e-13) {
+SparseMatrix assemble(const Spline<D>& spline, const FieldEnergy<D>& energy,
+                      double tolerance = 1e-13) {
   auto made =
-      FieldAssembler<D>(spline, {.method = GramianMethod::gauss, .rational_tolerance = tolerance}).assemble(energy);
+      FieldAssembler<D>(spline, {.method = GramianMethod::gauss, .rational_tolerance = tolerance})
+          .assemble(energy);
   if (!made) {
     ADD_FAILURE() << made.error().message();
     return {};
@@ -60,8 +63,8 @@ MaterialFieldOf<D> random_material(const std::array<KnotVector, D>& knots, unsig
   return m;
 }
 
-/// ∫ c ∂^a R_i ∂^b R_j by plain Gauss on every piece that the knots of field and spline make: an independent, slow
-/// loop.
+/// ∫ c ∂^a R_i ∂^b R_j by plain Gauss on every piece that the knots of field and spline make: an
+/// independent, slow loop.
 template <int D>
 Eigen::MatrixXd reference(const Spline<D>& spline, const FieldEnergy<D>& energy, int points) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(spline.size(), spline.size());
@@ -73,7 +76,9 @@ Eigen::MatrixXd reference(const Spline<D>& spline, const FieldEnergy<D>& energy,
       const KnotVector& k = spline.knots()[d];
       const auto [lower, upper] = k.domain();
       std::vector<double> breaks(k.knots().begin(), k.knots().end());
-      if (field) breaks.insert(breaks.end(), field->knots()[d].knots().begin(), field->knots()[d].knots().end());
+      if (field)
+        breaks.insert(breaks.end(), field->knots()[d].knots().begin(),
+                      field->knots()[d].knots().end());
       std::ranges::sort(breaks);
       std::erase_if(breaks, [&, a = lower, b = upper](double x) { return x < a || x > b; });
       breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
@@ -97,7 +102,8 @@ Eigen::MatrixXd reference(const Spline<D>& spline, const FieldEnergy<D>& energy,
     std::size_t total = 1;
     for (std::size_t d = 0; d < D; ++d) parameters[d] = at[d], total *= at[d].size();
     const std::vector<double> c =
-        field ? *field->on_grid(parameters) : std::vector<double>(total, std::get<double>(term.coefficient));
+        field ? *field->on_grid(parameters)
+              : std::vector<double>(total, std::get<double>(term.coefficient));
     Eigen::MatrixXd f(spline.size(), static_cast<Eigen::Index>(total)), g = f;
     for (std::size_t q = 0; q < total; ++q) {
       for (int i = 0; i < spline.size(); ++i) {
@@ -122,34 +128,43 @@ Eigen::MatrixXd reference(const Spline<D>& spline, const FieldEnergy<D>& energy,
 }
 
 template <int D>
-void expect_equal(const SparseMatrix& a, const Eigen::MatrixXd& b, double tolerance, const std::string& what) {
-  // Entries are compared to the sizes of the functions they belong to: some are differences that nearly cancel.
+void expect_equal(const SparseMatrix& a, const Eigen::MatrixXd& b, double tolerance,
+                  const std::string& what) {
+  // Entries are compared to the sizes of the functions they belong to: some are differences that
+  // nearly cancel.
   const Eigen::VectorXd size = b.diagonal().cwiseAbs().cwiseSqrt();
   const Eigen::MatrixXd difference = (Eigen::MatrixXd(a) - b).cwiseAbs();
   const Eigen::MatrixXd allowed = tolerance * (size * size.transpose()).array() + 1e-300;
   EXPECT_LE((difference.array() / allowed.array()).maxCoeff(), 1) << what;
 }
 
-KnotVector short_knots(int p) { return testing::clamped_knots(p, {0, 1, 1.5, 3, 4}, {0, 1, p, 1, 0}); }
-KnotVector field_knots(int q) { return testing::clamped_knots(q, {0, 0.7, 1.5, 2.2, 4}, {0, 1, q + 1, 1, 0}); }
+KnotVector short_knots(int p) {
+  return testing::clamped_knots(p, {0, 1, 1.5, 3, 4}, {0, 1, p, 1, 0});
+}
+KnotVector field_knots(int q) {
+  return testing::clamped_knots(q, {0, 0.7, 1.5, 2.2, 4}, {0, 1, q + 1, 1, 0});
+}
 
 TEST(FieldAssembler, WithConstantsIsStiffnessToTheLastBit) {
   const Surface s = testing::relief(short_knots(3), testing::uniform_unclamped(2, 4), 1);
   const Material m = {{1, 0.3, 0.5}, {0.1, 0.2, 0.05}, 0.3};
   FieldEnergy<2> energy = stretch_energy<2>(MaterialFieldOf<2>(m));
   for (const auto& term : bend_energy<2>(MaterialFieldOf<2>(m))) energy.push_back(term);
-  const SparseMatrix expected =
-                         Stiffness<2>::create(s, stretch_and_bend(m), {.method = GramianMethod::gauss})->assemble(),
+  const SparseMatrix expected = Stiffness<2>::create(s, stretch_and_bend(m),
+                                                     {.method = GramianMethod::gauss})
+                                    ->assemble(),
                      got = assemble<2>(s, energy);
   EXPECT_EQ((expected - got).norm(), 0);
   EXPECT_EQ(expected.nonZeros(), got.nonZeros());
 }
 
 template <int D>
-void constant_fields(const std::array<KnotVector, D>& knots, const std::array<KnotVector, D>& field) {
+void constant_fields(const std::array<KnotVector, D>& knots,
+                     const std::array<KnotVector, D>& field) {
   const Spline<D> s = make_spline<D>(knots);
   MaterialOf<D> m;
-  for (std::size_t k = 0; k < m.alpha.size(); ++k) m.alpha[k] = 1.0 / (1.0 + k), m.beta[k] = 0.1 / (2.0 + k);
+  for (std::size_t k = 0; k < m.alpha.size(); ++k)
+    m.alpha[k] = 1.0 / (1.0 + k), m.beta[k] = 0.1 / (2.0 + k);
   MaterialFieldOf<D> varying(m);
   for (auto* list : {&varying.alpha, &varying.beta}) {
     for (auto& c : *list) c = *on_knots<D>(c, field);
@@ -164,7 +179,8 @@ void constant_fields(const std::array<KnotVector, D>& knots, const std::array<Kn
   const SparseMatrix expected =
       Stiffness<D>::create(s, on_scaled_domain<D>(stretch_and_bend<D>(m), factors))->assemble();
   expect_equal<D>(k, expected, 1e-13, "stiffness");
-  const SparseMatrix mass = Stiffness<D>::create(s, on_scaled_domain<D>(mass_energy<D>(2), factors))->assemble();
+  const SparseMatrix mass =
+      Stiffness<D>::create(s, on_scaled_domain<D>(mass_energy<D>(2), factors))->assemble();
   expect_equal<D>(got->mass, mass, 1e-13, "mass");
   expect_equal<D>(got->damping, 0.25 * mass, 1e-13, "damping");
   EXPECT_EQ(k.nonZeros(), expected.nonZeros());
@@ -174,8 +190,9 @@ TEST(FieldAssembler, WithFieldsThatAreConstantIsStiffnessToRounding) {
   constant_fields<1>({short_knots(3)}, {field_knots(2)});
   constant_fields<2>({short_knots(3), testing::clamped_knots(2, {0, 1, 3})},
                      {field_knots(1), testing::clamped_knots(4, {0, 2, 3})});
-  constant_fields<3>({short_knots(2), testing::uniform_clamped(1, 2), testing::uniform_clamped(3, 2)},
-                     {field_knots(1), testing::uniform_clamped(2, 2), testing::clamped_knots(1, {0, 0.5, 2})});
+  constant_fields<3>(
+      {short_knots(2), testing::uniform_clamped(1, 2), testing::uniform_clamped(3, 2)},
+      {field_knots(1), testing::uniform_clamped(2, 2), testing::clamped_knots(1, {0, 0.5, 2})});
 }
 
 TEST(FieldAssembler, OfAPlateThatVariesIsItsIntegral) {
@@ -189,7 +206,8 @@ TEST(FieldAssembler, OfAPlateThatVariesIsItsIntegral) {
                              {1, rigidity, {0, 2}, {0, 2}},
                              {0.3, rigidity, {2, 0}, {0, 2}},
                              {0.3, rigidity, {0, 2}, {2, 0}}};
-  expect_equal<2>(assemble<2>(s, bend_energy<2>(plate)), reference<2>(s, expected, 8).sparseView(), 1e-12, "plate");
+  expect_equal<2>(assemble<2>(s, bend_energy<2>(plate)), reference<2>(s, expected, 8).sparseView(),
+                  1e-12, "plate");
   // What is not the same in all directions has no such coefficient.
   plate.beta[2] = random_field<2>(field, 8, 0.5, 2);
   const auto refused = validated<2>(plate);
@@ -200,8 +218,10 @@ TEST(FieldAssembler, OfAPlateThatVariesIsItsIntegral) {
 TEST(FieldAssembler, IsTheIntegralForFieldsOfOtherDegreesAndKnots) {
   for (const int p : {1, 2, 3, 4}) {
     for (const int q : {1, 2, 3}) {
-      const std::array<KnotVector, 2> knots = {short_knots(p), testing::clamped_knots(2, {0, 1, 1 + 1e-7, 2})};
-      const std::array<KnotVector, 2> field = {field_knots(q), testing::clamped_knots(q, {0, 0.4, 2})};
+      const std::array<KnotVector, 2> knots = {short_knots(p),
+                                               testing::clamped_knots(2, {0, 1, 1 + 1e-7, 2})};
+      const std::array<KnotVector, 2> field = {field_knots(q),
+                                               testing::clamped_knots(q, {0, 0.4, 2})};
       const Spline<2> s = make_spline<2>(knots);
       const FieldEnergy<2> e = whole<2>(random_material<2>(field, 7));
       expect_equal<2>(assemble<2>(s, e), reference<2>(s, e, p + q + 3), 1e-12,
@@ -214,23 +234,26 @@ TEST(FieldAssembler, IsTheIntegralOnCurvesAndVolumes) {
   for (const auto& family : testing::knot_families(3)) {
     if (!family.ordinary() || family.knots.count() > 40) continue;
     const auto [lower, upper] = family.knots.domain();
-    const KnotVector field = testing::clamped_knots(2, {lower, lower + 0.37 * (upper - lower), upper});
+    const KnotVector field =
+        testing::clamped_knots(2, {lower, lower + 0.37 * (upper - lower), upper});
     const Spline<1> s = make_spline<1>({family.knots});
     const FieldEnergy<1> e = whole<1>(random_material<1>({field}, 2));
-    // The reference rounds its parameters: on a short span far from zero that is a large part of the span.
+    // The reference rounds its parameters: on a short span far from zero that is a large part of
+    // the span.
     double shortest = upper - lower;
     for (const int span : family.knots.spans())
       shortest = std::min(shortest, family.knots[span + 1] - family.knots[span]);
     const double moved = 1e-16 * std::max(std::abs(lower), std::abs(upper)) / shortest;
     expect_equal<1>(assemble<1>(s, e), reference<1>(s, e, 8), 1e-12 + 100 * moved, family.name);
   }
-  const Spline<3> s = make_spline<3>(
-      {testing::uniform_clamped(2, 2), testing::clamped_knots(1, {0, 1, 3}), testing::uniform_unclamped(3, 1)});
+  const Spline<3> s =
+      make_spline<3>({testing::uniform_clamped(2, 2), testing::clamped_knots(1, {0, 1, 3}),
+                      testing::uniform_unclamped(3, 1)});
   const Interval last = s.knots(2).domain();
-  const FieldEnergy<3> e =
-      whole<3>(random_material<3>({testing::clamped_knots(1, {0, 0.6, 2}), testing::clamped_knots(2, {0, 3}),
-                                   testing::clamped_knots(2, {last.lower, last.upper})},
-                                  4));
+  const FieldEnergy<3> e = whole<3>(
+      random_material<3>({testing::clamped_knots(1, {0, 0.6, 2}), testing::clamped_knots(2, {0, 3}),
+                          testing::clamped_knots(2, {last.lower, last.upper})},
+                         4));
   expect_equal<3>(assemble<3>(s, e), reference<3>(s, e, 6), 1e-12, "volume");
 }
 
@@ -245,7 +268,8 @@ TEST(FieldAssembler, IsSymmetricToTheLastBitAndPositiveSemidefinite) {
     ASSERT_TRUE(made);
     for (const SparseMatrix& k : {made->stretch, made->bend, made->mass, made->damping}) {
       EXPECT_EQ((k - SparseMatrix(k.transpose())).norm(), 0);
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(k), Eigen::EigenvaluesOnly);
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(k),
+                                                                 Eigen::EigenvaluesOnly);
       EXPECT_GE(eigen.eigenvalues()(0), -1e-13 * eigen.eigenvalues().tail(1)(0));
     }
     const Points constant = Points::Constant(s.size(), 3, 2.5);
@@ -259,7 +283,8 @@ TEST(FieldAssembler, IsLinearInTheField) {
   const Spline<2> s = make_spline<2>({short_knots(3), testing::uniform_clamped(2, 2)});
   const SplineField<2> a = random_field<2>(knots, 1), b = random_field<2>(knots, 2);
   std::vector<double> sum(a.coefficients().size());
-  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] = 2 * a.coefficients()[k] - 3 * b.coefficients()[k];
+  for (std::size_t k = 0; k < sum.size(); ++k)
+    sum[k] = 2 * a.coefficients()[k] - 3 * b.coefficients()[k];
   const auto with = [&](const SplineField<2>& f) {
     return assemble<2>(s, {{1, f, {1, 0}, {0, 1}}, {1, f, {0, 1}, {1, 0}}, {1, f, {2, 0}, {2, 0}}});
   };
@@ -270,28 +295,33 @@ TEST(FieldAssembler, IsLinearInTheField) {
 
 TEST(FieldAssembler, OnARationalSplineWithEqualWeightsIsThePolynomialOne) {
   const Spline<2> plain = make_spline<2>({short_knots(3), testing::uniform_clamped(2, 2)});
-  const Spline<2> weighted = *Spline<2>::create(plain.knots(), plain.control_points(),
-                                                std::vector<double>(static_cast<std::size_t>(plain.size()), 0.25));
-  const FieldEnergy<2> e =
-      whole<2>(random_material<2>({field_knots(3), testing::clamped_knots(2, {0, 0.5, 2}, {0, 3, 0})}, 5));
+  const Spline<2> weighted =
+      *Spline<2>::create(plain.knots(), plain.control_points(),
+                         std::vector<double>(static_cast<std::size_t>(plain.size()), 0.25));
+  const FieldEnergy<2> e = whole<2>(
+      random_material<2>({field_knots(3), testing::clamped_knots(2, {0, 0.5, 2}, {0, 3, 0})}, 5));
   const SparseMatrix a = assemble<2>(plain, e), b = assemble<2>(weighted, e);
   EXPECT_EQ(a.nonZeros(), b.nonZeros());
   expect_equal<2>(b, a, 1e-12, "equal weights");
   // Constants and fields that are constant agree on a spline whose weights vary.
   const Spline<2> rational = make_spline<2>({short_knots(3), testing::uniform_clamped(2, 2)}, 3);
   const FieldEnergy<2> constant = weighted_mass_energy<2>(3.0),
-                       varying =
-                           weighted_mass_energy<2>(*on_knots<2>(3.0, {short_knots(1), testing::uniform_clamped(1, 2)}));
-  expect_equal<2>(assemble<2>(rational, varying), assemble<2>(rational, constant), 1e-12, "constant field");
+                       varying = weighted_mass_energy<2>(
+                           *on_knots<2>(3.0, {short_knots(1), testing::uniform_clamped(1, 2)}));
+  expect_equal<2>(assemble<2>(rational, varying), assemble<2>(rational, constant), 1e-12,
+                  "constant field");
 }
 
 TEST(FieldAssembler, KeepsItsTriplesWithoutAChangeOfTheResult) {
   const Spline<2> s = make_spline<2>({short_knots(3), testing::uniform_clamped(2, 2)});
   FieldAssembler<2> kept(s);
   for (unsigned seed = 0; seed < 4; ++seed) {
-    const auto m = random_material<2>({field_knots(1 + seed % 2), testing::uniform_clamped(2, 2)}, seed);
+    const auto m =
+        random_material<2>({field_knots(1 + seed % 2), testing::uniform_clamped(2, 2)}, seed);
     const auto a = kept.assemble(m, {1, 2}), b = FieldAssembler<2>(s).assemble(m, {1, 2});
-    EXPECT_EQ((a->stretch - b->stretch).norm() + (a->bend - b->bend).norm() + (a->mass - b->mass).norm(), 0);
+    EXPECT_EQ(
+        (a->stretch - b->stretch).norm() + (a->bend - b->bend).norm() + (a->mass - b->mass).norm(),
+        0);
   }
 }
 

@@ -53,7 +53,8 @@ Volume block(double spread) {
 /// ∂^a S of order 1 and 2 in extended precision from the derivatives in double.
 Real3 extended(const Points& rows) { return rows.row(0).transpose().cast<Real>(); }
 
-Real density(const Curve& rest, const Curve& now, const std::array<double, 1>& u, const FormWeights& weights) {
+Real density(const Curve& rest, const Curve& now, const std::array<double, 1>& u,
+             const FormWeights& weights) {
   const auto jet = [&](const Curve& s) {
     const auto e = *evaluate<1>(s, Parameters<1>{{u[0]}}, 2);
     const Real3 a = extended(e.at({1})), b = extended(e.at({2}));
@@ -64,7 +65,8 @@ Real density(const Curve& rest, const Curve& now, const std::array<double, 1>& u
   return weights.w1 * (s1 - s0) * (s1 - s0) + weights.w2 * (k1 - k0) * (k1 - k0);
 }
 
-Real density(const Volume& rest, const Volume& now, const std::array<double, 3>& u, const FormWeights& weights) {
+Real density(const Volume& rest, const Volume& now, const std::array<double, 3>& u,
+             const FormWeights& weights) {
   const auto metric = [&](const Volume& s) {
     const auto e = *evaluate<3>(s, Parameters<3>{{u[0], u[1], u[2]}}, 1);
     Eigen::Matrix<Real, 3, 3> a;
@@ -76,7 +78,8 @@ Real density(const Volume& rest, const Volume& now, const std::array<double, 3>&
 
 /// The integral by its definition, with these Gauss points per span.
 template <int D>
-double by_definition(const Spline<D>& rest, const Spline<D>& now, const FormWeights& weights, int points) {
+double by_definition(const Spline<D>& rest, const Spline<D>& now, const FormWeights& weights,
+                     int points) {
   std::array<BasisQuadrature, D> q;
   std::size_t total = 1;
   for (std::size_t d = 0; d < D; ++d) {
@@ -125,7 +128,8 @@ void check_all(const Spline<D>& rest) {
                         (12 * h);
   const SparseMatrix hessian = energy->hessian(x);
   const Eigen::VectorXd product = hessian * Eigen::Map<const Eigen::VectorXd>(d.data(), d.size());
-  EXPECT_LT((product - Eigen::Map<const Eigen::VectorXd>(turned.data(), turned.size())).norm(), 1e-7 * product.norm());
+  EXPECT_LT((product - Eigen::Map<const Eigen::VectorXd>(turned.data(), turned.size())).norm(),
+            1e-7 * product.norm());
   EXPECT_EQ((hessian - SparseMatrix(hessian.transpose())).norm(), 0);
 
   // At rest nothing is strained: both Hessians are the same, and not negative in any direction.
@@ -133,8 +137,10 @@ void check_all(const Spline<D>& rest) {
                      material = energy->material_hessian(rest.control_points());
   EXPECT_LT((at_rest - material).norm(), 1e-11 * material.norm());
   for (const Points* place : {&rest.control_points(), &x}) {
-    for (const SparseMatrix& part : {energy->material_hessian(*place), energy->tense_hessian(*place)}) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(Eigen::MatrixXd(part), Eigen::EigenvaluesOnly);
+    for (const SparseMatrix& part :
+         {energy->material_hessian(*place), energy->tense_hessian(*place)}) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(Eigen::MatrixXd(part),
+                                                                    Eigen::EigenvaluesOnly);
       EXPECT_GT(spectrum.eigenvalues()[0], -1e-12 * spectrum.eigenvalues().maxCoeff());
     }
   }
@@ -142,11 +148,15 @@ void check_all(const Spline<D>& rest) {
   // Stretched in all directions, nothing is left out of the metric's.
   const FormEnergy<D> metric = *FormEnergy<D>::create(rest, {1.3, 0}, points);
   const SparseMatrix stretched = metric.hessian(1.5 * rest.control_points());
-  EXPECT_LT((stretched - metric.tense_hessian(1.5 * rest.control_points())).norm(), 1e-13 * stretched.norm());
-  EXPECT_GT((stretched - metric.material_hessian(1.5 * rest.control_points())).norm(), 1e-2 * stretched.norm());
+  EXPECT_LT((stretched - metric.tense_hessian(1.5 * rest.control_points())).norm(),
+            1e-13 * stretched.norm());
+  EXPECT_GT((stretched - metric.material_hessian(1.5 * rest.control_points())).norm(),
+            1e-2 * stretched.norm());
 
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  const Points moved = (rest.control_points() * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -1, 2);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Points moved =
+      (rest.control_points() * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -1, 2);
   EXPECT_LE(energy->energy(moved).sum(), 1e-26 * energy->stretching_scale());
 }
 
@@ -161,22 +171,24 @@ TEST(FormEnergy, OfVolumesIsItsDefinitionWithItsDerivatives) {
 TEST(FormEnergy, OfPolynomialVolumesIsExact) {
   const Volume rest = block(1);
   const Points x = rest.control_points() + 0.1 * testing::random_points(rest.size(), 7);
-  const FormEnergy<3> standard = *FormEnergy<3>::create(rest, {}), more = *FormEnergy<3>::create(rest, {}, 9);
+  const FormEnergy<3> standard = *FormEnergy<3>::create(rest, {}),
+                      more = *FormEnergy<3>::create(rest, {}, 9);
   EXPECT_NEAR(standard.energy(x).sum(), more.energy(x).sum(), 1e-13 * more.energy(x).sum());
 }
 
 TEST(FormEnergy, OfAVolumeIsFreeOfOtherZeroModesThanTheRigidOnes) {
   const Volume rest = block(1);
   const FormEnergy<3> energy = *FormEnergy<3>::create(rest, {});
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(Eigen::MatrixXd(energy.hessian(rest.control_points())),
-                                                                Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(
+      Eigen::MatrixXd(energy.hessian(rest.control_points())), Eigen::EigenvaluesOnly);
   const double largest = spectrum.eigenvalues().maxCoeff();
   EXPECT_LT(spectrum.eigenvalues()[5], 1e-13 * largest);
   EXPECT_GT(spectrum.eigenvalues()[6], 1e-6 * largest);
 }
 
 TEST(FormEnergy, OfAStraightCurveIsThatOfStretchAndBend) {
-  // S = (L u, 0, 0) to (λ L u, 0, 0): w1 (λ² − 1)² L⁴; to a circle of radius R at the same speed: w2 / R².
+  // S = (L u, 0, 0) to (λ L u, 0, 0): w1 (λ² − 1)² L⁴; to a circle of radius R at the same speed:
+  // w2 / R².
   const KnotVector k = *KnotVector::clamped_uniform(2, 3);
   const Curve rest = *Curve::create({k}, (Points(3, 3) << 0, 0, 0, 1, 0, 0, 2, 0, 0).finished());
   const FormEnergy<1> energy = *FormEnergy<1>::create(rest, {3, 5});
@@ -192,8 +204,8 @@ TEST(FormEnergy, OfAStraightCurveIsThatOfStretchAndBend) {
 }
 
 TEST(FormEnergy, NamesWhatIsWrong) {
-  const Curve line =
-      *Curve::create({*KnotVector::clamped_uniform(1, 3)}, (Points(3, 3) << 0, 0, 0, 1, 0, 0, 2, 1, 0).finished());
+  const Curve line = *Curve::create({*KnotVector::clamped_uniform(1, 3)},
+                                    (Points(3, 3) << 0, 0, 0, 1, 0, 0, 2, 1, 0).finished());
   EXPECT_EQ(FormEnergy<1>::create(line, {1, 1}).error().where, "w2");
   EXPECT_TRUE(FormEnergy<1>::create(line, {1, 0}));
   EXPECT_EQ(FormEnergy<3>::create(block(1), {-1, 0}).error().where, "w1");

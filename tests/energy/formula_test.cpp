@@ -127,7 +127,8 @@ Written random_expression(std::mt19937_64& random, int depth, double s, double t
   const Written a = random_expression(random, depth - 1, s, t);
   const Written b = random_expression(random, below(depth), s, t);
   const auto spaced = [&](const char* op) {
-    return fmt::format("({}{}{}{}{})", a.text, below(2) ? " " : "", op, below(2) ? " " : "", b.text);
+    return fmt::format("({}{}{}{}{})", a.text, below(2) ? " " : "", op, below(2) ? " " : "",
+                       b.text);
   };
   switch (below(9)) {
     case 0:
@@ -157,7 +158,8 @@ TEST(Formula, RandomExpressionsHaveTheValuesOfCpp) {
     const double s = std::uniform_real_distribution<double>(-1, 1)(random), t = 2 * s + 1;
     const Written written = random_expression(random, 1 + k % 6, s, t);
     const double value = value_of(written.text, s, t);
-    // A power of b that begins with a power is to the right: written with parentheses unless b is simple.
+    // A power of b that begins with a power is to the right: written with parentheses unless b is
+    // simple.
     if (std::isnan(written.value)) {
       EXPECT_TRUE(std::isnan(value)) << written.text;
     } else {
@@ -172,7 +174,8 @@ TEST(Formula, TextThatIsDamagedIsReadOrRefused) {
   int read = 0;
   for (int k = 0; k < 30000; ++k) {
     std::string text = random_expression(random, k % 5, 0.5, 0.5).text;
-    for (unsigned changes = static_cast<unsigned>(random() % 4); changes > 0 && !text.empty(); --changes) {
+    for (unsigned changes = static_cast<unsigned>(random() % 4); changes > 0 && !text.empty();
+         --changes) {
       const std::size_t at = random() % text.size();
       const char c = letters[random() % letters.size()];
       switch (random() % 3) {

@@ -18,9 +18,11 @@ std::vector<Surface> surfaces() {
   std::vector<Surface> result;
   for (const auto& family : testing::knot_families(3)) {
     if (!family.ordinary() || family.knots.count() > 30) continue;
-    result.push_back(testing::relief(family.knots, testing::clamped_knots(2, {0, 1, 3}, {3, 2, 3}), 3));
+    result.push_back(
+        testing::relief(family.knots, testing::clamped_knots(2, {0, 1, 3}, {3, 2, 3}), 3));
   }
-  result.push_back(testing::relief(testing::uniform_unclamped(2, 3), testing::uniform_clamped(3, 2), 5, 0.1, 2));
+  result.push_back(
+      testing::relief(testing::uniform_unclamped(2, 3), testing::uniform_clamped(3, 2), 5, 0.1, 2));
   result.push_back(testing::cylinder());
   result.push_back(testing::sphere());
   return result;
@@ -28,8 +30,8 @@ std::vector<Surface> surfaces() {
 
 /// What a constant load gives by the mass matrix: Σ_j ∫ R_i R_j = ∫ R_i.
 Points by_mass(const Surface& s, const Point& f) {
-  const auto m =
-      Stiffness<2>::create(s, on_scaled_domain<2>(mass_energy<2>(), scaling.factors), {.rational_tolerance = 1e-13});
+  const auto m = Stiffness<2>::create(s, on_scaled_domain<2>(mass_energy<2>(), scaling.factors),
+                                      {.rational_tolerance = 1e-13});
   return m->apply(f.transpose().replicate(s.size(), 1));
 }
 
@@ -49,25 +51,29 @@ TEST(Load, ThatIsConstantIsTheSameByEveryRoute) {
     // The function is asked at parameters, which are rounded: much on a short span far from zero.
     double moved = 0;
     for (const int span : s.knots(0).spans()) {
-      moved = std::max(moved, 1e-16 * std::abs(s.knots(0)[span]) / (s.knots(0)[span + 1] - s.knots(0)[span]));
+      moved = std::max(
+          moved, 1e-16 * std::abs(s.knots(0)[span]) / (s.knots(0)[span + 1] - s.knots(0)[span]));
     }
-    EXPECT_LE(largest(*b - expected), ((s.rational() ? 1e-12 : 1e-14) + 10 * moved) * largest(expected));
+    EXPECT_LE(largest(*b - expected),
+              ((s.rational() ? 1e-12 : 1e-14) + 10 * moved) * largest(expected));
   }
 }
 
 TEST(Load, ThatIsASplineIsIntegratedExactly) {
   // f = u² + 3uv in one component, on knots that have nothing to do with those of the surface.
-  const Surface s =
-      testing::relief(testing::clamped_knots(3, {0, 1, 1.5, 4}, {0, 1, 4, 0}), testing::uniform_clamped(2, 3), 3);
-  const KnotVector u = testing::clamped_knots(2, {0, 0.3, 2.2, 4}), v = testing::clamped_knots(1, {0, 1.7, 3});
+  const Surface s = testing::relief(testing::clamped_knots(3, {0, 1, 1.5, 4}, {0, 1, 4, 0}),
+                                    testing::uniform_clamped(2, 3), 3);
+  const KnotVector u = testing::clamped_knots(2, {0, 0.3, 2.2, 4}),
+                   v = testing::clamped_knots(1, {0, 1.7, 3});
   Points c = Points::Zero(u.count() * v.count(), 3);
   for (int i = 0; i < u.count(); ++i) {
     for (int j = 0; j < v.count(); ++j)
       c(i * v.count() + j, 1) = u[i + 1] * u[i + 2] + 3 * u.greville(i) * v.greville(j);
   }
   const auto exact = load_forces<2>(s, scaling, testing::make_surface(u, v, c));
-  const auto gauss = load_forces<2>(
-      s, scaling, LoadFunction<2>([](const auto& at) { return Point(0, at[0] * at[0] + 3 * at[0] * at[1], 0); }));
+  const auto gauss = load_forces<2>(s, scaling, LoadFunction<2>([](const auto& at) {
+                                      return Point(0, at[0] * at[0] + 3 * at[0] * at[1], 0);
+                                    }));
   ASSERT_TRUE(exact && gauss);
   EXPECT_LE(largest(*exact - *gauss), 1e-14 * largest(*exact));
   // The sum of all forces is ∫ f dû: 0.7 · 2.5 · (64/3 · 3 + 3 · 8 · 4.5).
@@ -75,18 +81,21 @@ TEST(Load, ThatIsASplineIsIntegratedExactly) {
 }
 
 TEST(Load, WithWeightsIsTheSameAsWithoutWhereTheyAreEqual) {
-  const Surface s = testing::relief(testing::clamped_knots(3, {0, 1, 1.5, 4}), testing::uniform_clamped(2, 3), 3);
-  const Surface weighted = testing::make_surface(s.knots(0), s.knots(1), s.control_points(),
-                                                 std::vector<double>(static_cast<std::size_t>(s.size()), 0.5));
+  const Surface s =
+      testing::relief(testing::clamped_knots(3, {0, 1, 1.5, 4}), testing::uniform_clamped(2, 3), 3);
+  const Surface weighted =
+      testing::make_surface(s.knots(0), s.knots(1), s.control_points(),
+                            std::vector<double>(static_cast<std::size_t>(s.size()), 0.5));
   const auto load = sampled_load<2>(s, {5, 7}, testing::random_points(35, 3));
-  const Points a = *load_forces<2>(s, scaling, *load), b = *load_forces<2>(weighted, scaling, *load);
+  const Points a = *load_forces<2>(s, scaling, *load),
+               b = *load_forces<2>(weighted, scaling, *load);
   EXPECT_LE(largest(a - b), 1e-13 * largest(a));
 }
 
 TEST(Load, OnCurvesAndVolumes) {
   const Curve c = *Curve::create({testing::uniform_clamped(3, 4)}, testing::random_points(7, 1));
-  const auto line =
-      load_forces<1>(c, {1, {0.5}}, *sampled_load<1>(c, {2}, (Points(2, 3) << 0, 0, 0, 4, 0, 0).finished()));
+  const auto line = load_forces<1>(
+      c, {1, {0.5}}, *sampled_load<1>(c, {2}, (Points(2, 3) << 0, 0, 0, 4, 0, 0).finished()));
   ASSERT_TRUE(line);
   EXPECT_NEAR(line->col(0).sum(), 0.5 * 8, 1e-14);  // ∫ u du over [0, 4]
   const KnotVector k = testing::uniform_clamped(2, 2);
@@ -100,22 +109,24 @@ TEST(Load, OnCurvesAndVolumes) {
 
 TEST(Load, RefusesWhatHasNoSense) {
   const Surface s = testing::uniform_sheet(3, 6, 6);
-  EXPECT_EQ(load_forces<2>(s, scaling, testing::sheet(testing::uniform_clamped(1, 2), testing::uniform_clamped(1, 2)))
-                .error()
-                .kind,
-            ErrorKind::input);
+  EXPECT_EQ(
+      load_forces<2>(s, scaling,
+                     testing::sheet(testing::uniform_clamped(1, 2), testing::uniform_clamped(1, 2)))
+          .error()
+          .kind,
+      ErrorKind::input);
   EXPECT_FALSE(sampled_load<2>(s, {1, 3}, testing::random_points(3, 1)));
   EXPECT_FALSE(sampled_load<2>(s, {3, 3}, testing::random_points(8, 1)));
-  const auto infinite =
-      load_forces<2>(s, scaling, LoadFunction<2>([](const auto& u) { return Point(1 / (u[0] - u[0]), 0, 0); }));
+  const auto infinite = load_forces<2>(
+      s, scaling, LoadFunction<2>([](const auto& u) { return Point(1 / (u[0] - u[0]), 0, 0); }));
   ASSERT_FALSE(infinite);
   EXPECT_EQ(infinite.error().kind, ErrorKind::input);
 }
 
 TEST(AreaLoad, AddsUpToTheLoadTimesTheArea) {
   const Point f(0.3, -2, 1);
-  for (const auto& [s, area] :
-       {std::pair(testing::cylinder(3), 6 * std::numbers::pi), std::pair(testing::sphere(), 4 * std::numbers::pi)}) {
+  for (const auto& [s, area] : {std::pair(testing::cylinder(3), 6 * std::numbers::pi),
+                                std::pair(testing::sphere(), 4 * std::numbers::pi)}) {
     const auto load = sampled_load<2>(s, {3, 2}, f.transpose().replicate(6, 1));
     ASSERT_TRUE(load);
     const auto forces = area_load_forces(s, *load);
@@ -127,7 +138,8 @@ TEST(AreaLoad, AddsUpToTheLoadTimesTheArea) {
 TEST(AreaLoad, OnAFlatSheetIsTheLoadOfTheParametersTimesItsArea) {
   const Surface s = testing::uniform_sheet(3, 7, 5, 1.3, 0.9);
   Points samples(12, 3);
-  for (Eigen::Index k = 0; k < samples.size(); ++k) samples.data()[k] = std::sin(3.0 * static_cast<double>(k));
+  for (Eigen::Index k = 0; k < samples.size(); ++k)
+    samples.data()[k] = std::sin(3.0 * static_cast<double>(k));
   const auto load = sampled_load<2>(s, {4, 3}, samples);  // kinks within the spans of the sheet
   ASSERT_TRUE(load);
   const auto area = area_load_forces(s, *load), parameters = load_forces<2>(s, {}, *load);
@@ -137,17 +149,19 @@ TEST(AreaLoad, OnAFlatSheetIsTheLoadOfTheParametersTimesItsArea) {
 
 TEST(AreaLoad, OnAReliefIsThatOfManyGaussPoints) {
   for (const double spread : {1.0, 2.0}) {
-    const Surface s = testing::relief(testing::uniform_clamped(2, 2), testing::uniform_clamped(3, 2), 5, 0.4, spread);
-    const auto load = sampled_load<2>(s, {2, 2}, (Points(4, 3) << 1, 0, 0, 0, 2, 0, 0, 0, 3, 1, 1, 1).finished());
+    const Surface s = testing::relief(testing::uniform_clamped(2, 2),
+                                      testing::uniform_clamped(3, 2), 5, 0.4, spread);
+    const auto load =
+        sampled_load<2>(s, {2, 2}, (Points(4, 3) << 1, 0, 0, 0, 2, 0, 0, 0, 3, 1, 1, 1).finished());
     ASSERT_TRUE(load);
-    const auto exact =
-        load_forces<2>(s, {}, LoadFunction<2>([&](const std::array<double, 2>& u) -> Point {
-                         const Parameters<2> at = Parameters<2>{{u[0], u[1]}};
-                         const auto e = *evaluate<2>(s, at, 1);
-                         const Eigen::Vector3d a = e.at({1, 0}).row(0), b = e.at({0, 1}).row(0);
-                         return a.cross(b).norm() * Point(evaluate<2>(*load, at)->points().row(0).transpose());
-                       }),
-                       40);
+    const auto exact = load_forces<2>(
+        s, {}, LoadFunction<2>([&](const std::array<double, 2>& u) -> Point {
+          const Parameters<2> at = Parameters<2>{{u[0], u[1]}};
+          const auto e = *evaluate<2>(s, at, 1);
+          const Eigen::Vector3d a = e.at({1, 0}).row(0), b = e.at({0, 1}).row(0);
+          return a.cross(b).norm() * Point(evaluate<2>(*load, at)->points().row(0).transpose());
+        }),
+        40);
     const auto forces = area_load_forces(s, *load);
     ASSERT_TRUE(exact && forces);
     EXPECT_LE(largest(*forces - *exact), 1e-10 * largest(*exact));
@@ -156,7 +170,8 @@ TEST(AreaLoad, OnAReliefIsThatOfManyGaussPoints) {
 
 TEST(AreaLoad, NamesDomainsThatDiffer) {
   const Surface s = testing::uniform_sheet(3, 7, 5);
-  const Surface other = testing::sheet(testing::clamped_knots(2, {0, 2}), testing::clamped_knots(2, {0, 1}));
+  const Surface other =
+      testing::sheet(testing::clamped_knots(2, {0, 2}), testing::clamped_knots(2, {0, 1}));
   EXPECT_EQ(area_load_forces(s, other).error().where, "load: direction u");
 }
 

@@ -25,8 +25,9 @@ TEST(Material, OthersAreRefusedByName) {
 
 TEST(Energy, OfEquation48HasTheCoefficientsOfItsDefinition) {
   const Energy<2> e = stretch_and_bend({{1, 0.3, 0.5}, {2, 3, 4}});
-  const Energy<2> expected = {{1, {1, 0}, {1, 0}}, {0.3, {1, 0}, {0, 1}}, {0.3, {0, 1}, {1, 0}}, {0.5, {0, 1}, {0, 1}},
-                              {2, {2, 0}, {2, 0}}, {6, {1, 1}, {1, 1}},   {4, {0, 2}, {0, 2}}};
+  const Energy<2> expected = {{1, {1, 0}, {1, 0}},   {0.3, {1, 0}, {0, 1}}, {0.3, {0, 1}, {1, 0}},
+                              {0.5, {0, 1}, {0, 1}}, {2, {2, 0}, {2, 0}},   {6, {1, 1}, {1, 1}},
+                              {4, {0, 2}, {0, 2}}};
   EXPECT_EQ(e, expected);
 }
 
@@ -45,7 +46,8 @@ TEST(Energy, OfAThinPlateHasTheCoefficientsOfItsDefinition) {
 }
 
 TEST(Energy, WithAPoissonsRatioIsConvexFromMinusOneToOne) {
-  for (const double ratio : {-1.0, 0.5, 1.0}) EXPECT_TRUE(validated(Material{{0, 0, 0}, {1, 0, 1}, ratio}));
+  for (const double ratio : {-1.0, 0.5, 1.0})
+    EXPECT_TRUE(validated(Material{{0, 0, 0}, {1, 0, 1}, ratio}));
   for (const double ratio : {-1.001, 1.001, std::numeric_limits<double>::quiet_NaN()}) {
     const auto refused = validated(Material{{0, 0, 0}, {1, 0, 1}, ratio});
     ASSERT_FALSE(refused);
@@ -62,9 +64,10 @@ TEST(Energy, WithAPoissonsRatioIsConvexFromMinusOneToOne) {
 }
 
 TEST(Energy, OnAScaledDomainFollowsTheChainRule) {
-  // û = 2u, v̂ = 4v: du dv = dû dv̂ / 8, ∂/∂u = 2 ∂/∂û; written for the old knots the factors are inverted.
-  const Energy<2> scaled =
-      on_scaled_domain<2>({{1, {0, 0}, {0, 0}}, {1, {1, 0}, {1, 0}}, {1, {2, 0}, {2, 0}}, {1, {1, 1}, {1, 1}}}, {2, 4});
+  // û = 2u, v̂ = 4v: du dv = dû dv̂ / 8, ∂/∂u = 2 ∂/∂û; written for the old knots the factors are
+  // inverted.
+  const Energy<2> scaled = on_scaled_domain<2>(
+      {{1, {0, 0}, {0, 0}}, {1, {1, 0}, {1, 0}}, {1, {2, 0}, {2, 0}}, {1, {1, 1}, {1, 1}}}, {2, 4});
   EXPECT_EQ(scaled[0].coefficient, 8);
   EXPECT_EQ(scaled[1].coefficient, 2);
   EXPECT_EQ(scaled[2].coefficient, 0.5);

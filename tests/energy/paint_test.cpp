@@ -10,7 +10,9 @@
 namespace knead {
 namespace {
 
-KnotVector knots(int p, int n, double a = 0, double b = 1) { return *KnotVector::clamped_uniform(p, n, a, b); }
+KnotVector knots(int p, int n, double a = 0, double b = 1) {
+  return *KnotVector::clamped_uniform(p, n, a, b);
+}
 
 /// Largest |f − field| on a grid that has nothing to do with knots or samples.
 double largest_error(const ParameterFunction<2>& f, const SplineField<2>& field, int n = 397) {
@@ -31,7 +33,8 @@ double largest_error(const ParameterFunction<2>& f, const SplineField<2>& field,
 
 TEST(FitField, MeetsSmoothFunctionsToTheTolerance) {
   const ParameterFunction<2> f = [](const std::array<double, 2>& u) {
-    return std::exp(-40 * (std::pow(u[0] - 0.3, 2) + std::pow(u[1] - 0.6, 2))) + std::sin(6 * u[0]) * u[1];
+    return std::exp(-40 * (std::pow(u[0] - 0.3, 2) + std::pow(u[1] - 0.6, 2))) +
+           std::sin(6 * u[0]) * u[1];
   };
   for (const int p : {1, 2, 3, 4}) {
     for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
@@ -45,27 +48,31 @@ TEST(FitField, MeetsSmoothFunctionsToTheTolerance) {
 }
 
 TEST(FitField, ReproducesWhatTheKnotsCanRepresent) {
-  const auto field = testing::random_field<2>({knots(3, 6), testing::clamped_knots(2, {0, 0.25, 1}, {3, 3, 3})}, 3);
-  const auto fit = fit_field<2>([&](const std::array<double, 2>& u) { return *field.at(u); }, field.knots(), {1e-9});
+  const auto field = testing::random_field<2>(
+      {knots(3, 6), testing::clamped_knots(2, {0, 0.25, 1}, {3, 3, 3})}, 3);
+  const auto fit = fit_field<2>([&](const std::array<double, 2>& u) { return *field.at(u); },
+                                field.knots(), {1e-9});
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->field.knots()[0], field.knots()[0]);
 }
 
 TEST(FitField, RefinesOnlyTheDirectionThatNeedsIt) {
-  const auto fit = fit_field<2>([](const std::array<double, 2>& u) { return std::tanh(20 * (u[0] - 0.4)) + u[1]; },
-                                {knots(3, 4), knots(3, 4)}, {1e-4});
+  const auto fit = fit_field<2>(
+      [](const std::array<double, 2>& u) { return std::tanh(20 * (u[0] - 0.4)) + u[1]; },
+      {knots(3, 4), knots(3, 4)}, {1e-4});
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->field.net()[1], 4);
   EXPECT_GT(fit->field.net()[0], 12);
 }
 
 TEST(FitField, WorksOnCurvesAndVolumes) {
-  const auto curve =
-      fit_field<1>([](const std::array<double, 1>& u) { return std::sqrt(u[0]); }, {knots(3, 4)}, {1e-3});
+  const auto curve = fit_field<1>([](const std::array<double, 1>& u) { return std::sqrt(u[0]); },
+                                  {knots(3, 4)}, {1e-3});
   ASSERT_TRUE(curve) << curve.error().message();
   EXPECT_LE(curve->error, 1e-3);
-  const auto volume = fit_field<3>([](const std::array<double, 3>& u) { return std::cos(u[0] + 2 * u[1] * u[2]); },
-                                   {knots(2, 3), knots(2, 3), knots(2, 3)}, {1e-3, 1 << 16, 24});
+  const auto volume =
+      fit_field<3>([](const std::array<double, 3>& u) { return std::cos(u[0] + 2 * u[1] * u[2]); },
+                   {knots(2, 3), knots(2, 3), knots(2, 3)}, {1e-3, 1 << 16, 24});
   ASSERT_TRUE(volume);
   EXPECT_NEAR(*volume->field.at({0.3, 0.7, 0.2}), std::cos(0.3 + 0.28), 1e-3);
 }
@@ -77,14 +84,15 @@ TEST(FitField, SaysWhatItReachedWhereItCannotReachTheTolerance) {
   EXPECT_EQ(fit.error().kind, ErrorKind::numerical);
   EXPECT_NE(fit.error().what.find("met to"), std::string::npos);
   // In one direction the spans end before the coefficients do.
-  const auto line =
-      fit_field<1>([](const std::array<double, 1>& u) { return u[0] < 0.7 ? 0.0 : 1.0; }, {knots(2, 3)}, {1e-3});
+  const auto line = fit_field<1>(
+      [](const std::array<double, 1>& u) { return u[0] < 0.7 ? 0.0 : 1.0; }, {knots(2, 3)}, {1e-3});
   ASSERT_FALSE(line);
   EXPECT_EQ(line.error().kind, ErrorKind::numerical);
 }
 
 TEST(FitField, RefusesValuesThatAreNotFinite) {
-  const auto fit = fit_field<1>([](const std::array<double, 1>& u) { return 1 / (u[0] - 1); }, {knots(2, 3)});
+  const auto fit =
+      fit_field<1>([](const std::array<double, 1>& u) { return 1 / (u[0] - 1); }, {knots(2, 3)});
   ASSERT_FALSE(fit);
   EXPECT_EQ(fit.error().where, "parameters (1)");
   EXPECT_FALSE(fit_field<1>([](const std::array<double, 1>&) { return 1.0; }, {knots(2, 3)}, {0}));
@@ -107,10 +115,13 @@ TEST(Region, IsOneInsideZeroBeyondItsFallOffAndSmoothBetween) {
   const double middle = r.weight({0.4 + 0.275 / 2, 0.6}, strip);
   EXPECT_NEAR(middle, 0.5, 1e-14);
   Region<2> box{ParameterBox<2>{{0.2, 0.3}, {0.5, 0.4}}, 0.1};
-  for (const Region<2>& region : {disc(), box}) {  // C1: slopes from either side agree at every point
+  for (const Region<2>& region :
+       {disc(), box}) {  // C1: slopes from either side agree at every point
     for (double t = 0.001; t < 1; t += 0.003) {
-      const double h = 1e-5, left = (region.weight({t, t}, strip) - region.weight({t - h, t - h}, strip)) / h,
-                   right = (region.weight({t + h, t + h}, strip) - region.weight({t, t}, strip)) / h;
+      const double h = 1e-5,
+                   left = (region.weight({t, t}, strip) - region.weight({t - h, t - h}, strip)) / h,
+                   right =
+                       (region.weight({t + h, t + h}, strip) - region.weight({t, t}, strip)) / h;
       EXPECT_NEAR(left, right, 2e-2) << t;
     }
   }
@@ -125,12 +136,15 @@ TEST(Region, GoesTheShorterWayRoundWhereClosed) {
 }
 
 TEST(Paint, OnAConstantIsTheBlendToTheToleranceAndKeepsTheRange) {
-  for (const Region<2>& region : {disc(), Region<2>{ParameterBox<2>{{0.2, 0.3}, {0.5, 1.0}}, 0.1}}) {
+  for (const Region<2>& region :
+       {disc(), Region<2>{ParameterBox<2>{{0.2, 0.3}, {0.5, 1.0}}, 0.1}}) {
     const auto painted = paint<2>(2.0, 5.0, region, {knots(3, 6), knots(3, 6)}, {1e-3});
     ASSERT_TRUE(painted) << painted.error().message();
     EXPECT_GE(painted->range().lower, 2);
     EXPECT_LE(painted->range().upper, 5);
-    EXPECT_LE(largest_error([&](const auto& u) { return 2 + 3 * region.weight(u, strip); }, *painted), 3e-3);
+    EXPECT_LE(
+        largest_error([&](const auto& u) { return 2 + 3 * region.weight(u, strip); }, *painted),
+        3e-3);
   }
 }
 
@@ -139,7 +153,8 @@ TEST(Paint, IsTheValueInsideAndTheOldOneFarFromTheRegionToTheLastBit) {
   const auto painted = paint<2>(0.1, 0.7, region, {knots(3, 24), knots(3, 8)});
   ASSERT_TRUE(painted);
   for (const double v : {0.0, 0.37, 1.0}) {
-    // Two spans of 1/21 away: no function that lives there reaches the fall-off. Sums of equal coefficients round.
+    // Two spans of 1/21 away: no function that lives there reaches the fall-off. Sums of equal
+    // coefficients round.
     EXPECT_NEAR(*painted->at({0.02, v}), 0.1, 1e-16);
     EXPECT_NEAR(*painted->at({0.5, v}), 0.7, 3e-16);
   }
@@ -175,7 +190,8 @@ TEST(Paint, ConvexMaterialsStayConvex) {
   values.alpha = {1, -1.9, 4};
   values.beta[1] = 0.5;
   values.mass = 0;
-  for (const Region<2>& region : {disc(), Region<2>{ParameterBox<2>{{0.2, 0.3}, {0.5, 0.4}}, 0.1}}) {
+  for (const Region<2>& region :
+       {disc(), Region<2>{ParameterBox<2>{{0.2, 0.3}, {0.5, 0.4}}, 0.1}}) {
     auto painted = paint<2>(m, values, region, hint, {1e-2});
     ASSERT_TRUE(painted) << painted.error().message();
     m = std::move(*painted);

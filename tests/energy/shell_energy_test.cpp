@@ -14,7 +14,8 @@ namespace {
 
 const ShellMaterial rubber{3, 0.3, 0.05, 1};
 
-ShellEnergy shell_of(const Surface& rest, const ShellMaterial& material = rubber, int gauss_points = 0) {
+ShellEnergy shell_of(const Surface& rest, const ShellMaterial& material = rubber,
+                     int gauss_points = 0) {
   auto made = ShellEnergy::create(rest, material, gauss_points);
   if (!made) ADD_FAILURE() << made.error().message();
   return std::move(*made);
@@ -22,17 +23,19 @@ ShellEnergy shell_of(const Surface& rest, const ShellMaterial& material = rubber
 
 /// Curved rest shapes: polynomial and rational, degrees that differ, double knots, unclamped.
 std::vector<Surface> shells() {
-  const KnotVector cubic = testing::uniform_clamped(3, 3), quadratic = testing::uniform_clamped(2, 2);
+  const KnotVector cubic = testing::uniform_clamped(3, 3),
+                   quadratic = testing::uniform_clamped(2, 2);
   return {testing::relief(cubic, quadratic, 1), testing::relief(quadratic, cubic, 2, 0.1, 3),
-          testing::relief(testing::clamped_knots(3, {0, 1, 2}, {4, 2, 4}), testing::uniform_unclamped(4, 2), 3)};
+          testing::relief(testing::clamped_knots(3, {0, 1, 2}, {4, 2, 4}),
+                          testing::uniform_unclamped(4, 2), 3)};
 }
 
 Points bent(const Surface& rest, unsigned seed, double by = 0.1) {
   return rest.control_points() + by * testing::random_points(rest.size(), seed);
 }
 
-/// A Bézier patch in extended precision, its shell energy written down from the definition by cross products: no code
-/// and no formula of the derivatives is shared with the library.
+/// A Bézier patch in extended precision, its shell energy written down from the definition by cross
+/// products: no code and no formula of the derivatives is shared with the library.
 class ExtendedPatch {
  public:
   using Real = long double;
@@ -43,12 +46,14 @@ class ExtendedPatch {
 
   [[nodiscard]] Real energy(const Net& x) const {
     const Net at_rest = rest_.control_points().cast<Real>();
-    const GaussRule u = gauss_legendre(rest_.knots(0).degree() + 1), v = gauss_legendre(rest_.knots(1).degree() + 1);
+    const GaussRule u = gauss_legendre(rest_.knots(0).degree() + 1),
+                    v = gauss_legendre(rest_.knots(1).degree() + 1);
     Real sum = 0;
     for (std::size_t i = 0; i < u.abscissae.size(); ++i) {
       for (std::size_t j = 0; j < v.abscissae.size(); ++j) {
         const Real s = (1 + Real(u.abscissae[i])) / 2, t = (1 + Real(v.abscissae[j])) / 2;
-        sum += Real(u.weights[i]) * Real(v.weights[j]) / 4 * density(forms(at_rest, s, t), forms(x, s, t));
+        sum += Real(u.weights[i]) * Real(v.weights[j]) / 4 *
+               density(forms(at_rest, s, t), forms(x, s, t));
       }
     }
     return sum;
@@ -65,8 +70,9 @@ class ExtendedPatch {
     return (1 - t) * bernstein(p - 1, i, t) + t * bernstein(p - 1, i - 1, t);
   }
   static Real bernstein(int p, int i, Real t, int order) {
-    return order == 0 ? bernstein(p, i, t)
-                      : p * (bernstein(p - 1, i - 1, t, order - 1) - bernstein(p - 1, i, t, order - 1));
+    return order == 0
+               ? bernstein(p, i, t)
+               : p * (bernstein(p - 1, i - 1, t, order - 1) - bernstein(p - 1, i, t, order - 1));
   }
 
   /// Homogeneous derivatives, then the quotient rule.
@@ -79,7 +85,8 @@ class ExtendedPatch {
         h[a][b].setZero();
         w[a][b] = 0;
         for (int k = 0; k < x.rows(); ++k) {
-          const Real weight = rest_.rational() ? Real(rest_.weights()[static_cast<std::size_t>(k)]) : 1;
+          const Real weight =
+              rest_.rational() ? Real(rest_.weights()[static_cast<std::size_t>(k)]) : 1;
           const Real n = weight * bernstein(p, k / (q + 1), s, a) * bernstein(q, k % (q + 1), t, b);
           h[a][b] += n * x.row(k).transpose();
           w[a][b] += n;
@@ -106,16 +113,20 @@ class ExtendedPatch {
 
   /// By the four-index tensor C.
   [[nodiscard]] Real density(const Forms& rest, const Forms& now) const {
-    const Real det = rest.a[0][0] * rest.a[1][1] - rest.a[0][1] * rest.a[0][1], nu = m_.poisson, t = m_.thickness;
-    const Real inverse[2][2] = {{rest.a[1][1] / det, -rest.a[0][1] / det}, {-rest.a[0][1] / det, rest.a[0][0] / det}};
+    const Real det = rest.a[0][0] * rest.a[1][1] - rest.a[0][1] * rest.a[0][1], nu = m_.poisson,
+               t = m_.thickness;
+    const Real inverse[2][2] = {{rest.a[1][1] / det, -rest.a[0][1] / det},
+                                {-rest.a[0][1] / det, rest.a[0][0] / det}};
     Real sum = 0;
     for (int k = 0; k < 16; ++k) {
       const int a = k & 1, b = k >> 1 & 1, c = k >> 2 & 1, d = k >> 3;
-      const Real tensor = Real(m_.young) / (1 - nu * nu) *
-                          (nu * inverse[a][b] * inverse[c][d] +
-                           (1 - nu) / 2 * (inverse[a][c] * inverse[b][d] + inverse[a][d] * inverse[b][c]));
-      sum += tensor * (t * (now.a[a][b] - rest.a[a][b]) * (now.a[c][d] - rest.a[c][d]) / 4 +
-                       t * t * t / 12 * (rest.b[a][b] - now.b[a][b]) * (rest.b[c][d] - now.b[c][d]));
+      const Real tensor =
+          Real(m_.young) / (1 - nu * nu) *
+          (nu * inverse[a][b] * inverse[c][d] +
+           (1 - nu) / 2 * (inverse[a][c] * inverse[b][d] + inverse[a][d] * inverse[b][c]));
+      sum +=
+          tensor * (t * (now.a[a][b] - rest.a[a][b]) * (now.a[c][d] - rest.a[c][d]) / 4 +
+                    t * t * t / 12 * (rest.b[a][b] - now.b[a][b]) * (rest.b[c][d] - now.b[c][d]));
     }
     return sum / 2 * rest.area;
   }
@@ -126,8 +137,8 @@ class ExtendedPatch {
 
 TEST(ShellEnergy, AgreesWithItsDefinitionAndTheDifferencesOfItInExtendedPrecision) {
   const auto bezier = [](int p) { return testing::clamped_knots(p, {0, 1}); };
-  for (const Surface& rest :
-       {testing::relief(bezier(3), bezier(2), 4), testing::relief(bezier(2), bezier(4), 5, 0.2, 3)}) {
+  for (const Surface& rest : {testing::relief(bezier(3), bezier(2), 4),
+                              testing::relief(bezier(2), bezier(4), 5, 0.2, 3)}) {
     const ShellEnergy shell = shell_of(rest);
     const ExtendedPatch patch(rest, rubber);
     const Points x = bent(rest, 6), gradient = shell.gradient(x);
@@ -143,11 +154,14 @@ TEST(ShellEnergy, AgreesWithItsDefinitionAndTheDifferencesOfItInExtendedPrecisio
         moved(other / 3, other % 3) += other_steps * h;
         return patch.energy(moved);
       };
-      const long double slope = (8 * (energy(1) - energy(-1)) - (energy(2) - energy(-2))) / (12 * h);
-      EXPECT_NEAR(gradient(k / 3, k % 3), static_cast<double>(slope), 1e-10 * gradient.cwiseAbs().maxCoeff());
+      const long double slope =
+          (8 * (energy(1) - energy(-1)) - (energy(2) - energy(-2))) / (12 * h);
+      EXPECT_NEAR(gradient(k / 3, k % 3), static_cast<double>(slope),
+                  1e-10 * gradient.cwiseAbs().maxCoeff());
       const int other = (7 * k + 3) % (3 * rest.size());
       const auto mixed = [&](int n) {
-        return (energy(n, other, n) - energy(n, other, -n) - energy(-n, other, n) + energy(-n, other, -n)) /
+        return (energy(n, other, n) - energy(n, other, -n) - energy(-n, other, n) +
+                energy(-n, other, -n)) /
                (4 * n * n * h * h);
       };
       EXPECT_NEAR(hessian.coeff(k, other), static_cast<double>((4 * mixed(1) - mixed(2)) / 3),
@@ -166,7 +180,9 @@ TEST(ShellEnergy, HasTheHessianOfItsGradient) {
     const auto g = [&](double t) { return shell.gradient(x + t * h * d); };
     const Points difference = (8 * (g(1) - g(-1)) - (g(2) - g(-2))) / (12 * h);
     const Eigen::VectorXd image = hessian * Eigen::Map<const Eigen::VectorXd>(d.data(), d.size());
-    EXPECT_LE((Eigen::Map<const Eigen::VectorXd>(difference.data(), d.size()) - image).cwiseAbs().maxCoeff(),
+    EXPECT_LE((Eigen::Map<const Eigen::VectorXd>(difference.data(), d.size()) - image)
+                  .cwiseAbs()
+                  .maxCoeff(),
               1e-9 * image.cwiseAbs().maxCoeff());
   }
 }
@@ -185,9 +201,12 @@ TEST(ShellEnergy, DoesNotChangeUnderRigidMotions) {
   for (const Surface& rest : shells()) {
     const ShellEnergy shell = shell_of(rest);
     for (const double angle : {0.01, 1.0, 3.0}) {
-      const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Point(1, 2, -0.5).normalized()).toRotationMatrix();
-      const Points turned = (rest.control_points() * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -2, 5);
-      // The differences of coordinates of 10 are rounded to 1e-15 each, and energy is quadratic in them.
+      const Eigen::Matrix3d turn =
+          Eigen::AngleAxisd(angle, Point(1, 2, -0.5).normalized()).toRotationMatrix();
+      const Points turned =
+          (rest.control_points() * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -2, 5);
+      // The differences of coordinates of 10 are rounded to 1e-15 each, and energy is quadratic in
+      // them.
       EXPECT_LE(shell.energy(turned).sum(), 1e-26 * shell.stretching_scale());
       const Points x = bent(rest, 11), y = x * turn.transpose();
       EXPECT_NEAR(shell.energy(y).sum(), shell.energy(x).sum(), 1e-12 * shell.energy(x).sum());
@@ -202,7 +221,8 @@ TEST(ShellEnergy, HasSixZeroModesAndNoMore) {
   cases.push_back(testing::sheet(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3)));
   for (const Surface& rest : cases) {
     const ShellEnergy shell = shell_of(rest);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(shell.hessian(rest.control_points())));
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+        Eigen::MatrixXd(shell.hessian(rest.control_points())));
     const Eigen::VectorXd& values = modes.eigenvalues();
     const double largest = values[values.size() - 1];
     EXPECT_LE(std::abs(values[0]), 1e-13 * largest);
@@ -212,7 +232,8 @@ TEST(ShellEnergy, HasSixZeroModesAndNoMore) {
 }
 
 TEST(ShellEnergy, OfSimpleDeformationsIsThatOfPlateTheory) {
-  const Surface rest = testing::sheet(testing::uniform_clamped(3, 2), testing::uniform_clamped(3, 2), 2, 1.5);
+  const Surface rest =
+      testing::sheet(testing::uniform_clamped(3, 2), testing::uniform_clamped(3, 2), 2, 1.5);
   const ShellEnergy shell = shell_of(rest);
   const double young = rubber.young, poisson = rubber.poisson, t = rubber.thickness;
   const double stretch = young * t / (1 - poisson * poisson), bend = stretch * t * t / 12;
@@ -236,9 +257,11 @@ TEST(ShellEnergy, NamesWhatIsWrong) {
   EXPECT_NE(message({1, 0.6, 1, 0}).find("poisson"), std::string::npos);
   EXPECT_NE(message({1, 0.3, -1, 0}).find("thickness"), std::string::npos);
   EXPECT_NE(message({1, 0.3, 1, NAN}).find("density"), std::string::npos);
-  EXPECT_NE(ShellEnergy::create(testing::cylinder(), rubber).error().message().find("degree"), std::string::npos);
+  EXPECT_NE(ShellEnergy::create(testing::cylinder(), rubber).error().message().find("degree"),
+            std::string::npos);
   const Surface sheet = testing::uniform_sheet(2, 4, 4);
-  const auto flat = ShellEnergy::create(*sheet.with_control_points(Points::Zero(sheet.size(), 3)), rubber);
+  const auto flat =
+      ShellEnergy::create(*sheet.with_control_points(Points::Zero(sheet.size(), 3)), rubber);
   ASSERT_FALSE(flat);
   EXPECT_EQ(flat.error().kind, ErrorKind::numerical);
 }

@@ -18,14 +18,16 @@ using testing::epsilon;
 SplineField<2> along_u(const std::vector<double>& values) {
   std::vector<double> samples;
   for (const double x : values) samples.insert(samples.end(), 2, x);
-  return *sampled_field<2>({Interval{0, 1}, Interval{0, 1}}, {static_cast<int>(values.size()), 2}, samples);
+  return *sampled_field<2>({Interval{0, 1}, Interval{0, 1}}, {static_cast<int>(values.size()), 2},
+                           samples);
 }
 
 /// 2 × 1 on [0, 1]², on 3 × 2 spans: the samples below have their kinks within these.
 const Surface plate = testing::uniform_sheet(3, 6, 5, 2, 1);
 
 TEST(ShellField, ThatIsConstantIsTheConstant) {
-  const Surface rest = testing::relief(testing::uniform_clamped(2, 4), testing::uniform_clamped(3, 3), 5, 0.2, 2);
+  const Surface rest =
+      testing::relief(testing::uniform_clamped(2, 4), testing::uniform_clamped(3, 3), 5, 0.2, 2);
   ShellMaterial material{3, 0.3, 0.05, 2}, field = material;
   const Interval u = rest.knots(0).domain(), v = rest.knots(1).domain();
   field.young_field = *sampled_field<2>({u, v}, {2, 2}, std::vector<double>(4, 3.0));
@@ -47,18 +49,21 @@ TEST(ShellField, StretchesAPlateByTheMeanOfItsThickness) {
   ASSERT_TRUE(energy) << energy.error().message();
   Points x = plate.control_points();
   x.col(0) *= 1.1;
-  const double strain = (1.1 * 1.1 - 1) / 2, exact = 0.5 * 3 / (1 - 0.09) * strain * strain * 2 * 0.275;
+  const double strain = (1.1 * 1.1 - 1) / 2,
+               exact = 0.5 * 3 / (1 - 0.09) * strain * strain * 2 * 0.275;
   EXPECT_NEAR(energy->energy(x).membrane, exact, 100 * epsilon * exact);
 }
 
 TEST(ShellField, BendsByTheIntegralOfYoungTimesThicknessCubed) {
-  // E = 1 + u, t = 0.1 (1 + 3 u): ∫ E t³ du = 1e-3 ∫ (1 + u)(1 + 3u)³ du = 1e-3 · (1 + 10/2 + 36/3 + 54/4 + 27/5)
+  // E = 1 + u, t = 0.1 (1 + 3 u): ∫ E t³ du = 1e-3 ∫ (1 + u)(1 + 3u)³ du = 1e-3 · (1 + 10/2 + 36/3
+  // + 54/4 + 27/5)
   ShellMaterial material{1, 0, 1, 0};
   material.young_field = along_u({1, 2});
   material.thickness_field = along_u({0.1, 0.4});
   const auto energy = ShellEnergy::create(plate, material);
   ASSERT_TRUE(energy) << energy.error().message();
-  // z = c x²/2 with x = 2 u, as cubic functions of u have it: small, so that the curvature is c to c² x².
+  // z = c x²/2 with x = 2 u, as cubic functions of u have it: small, so that the curvature is c to
+  // c² x².
   const KnotVector& k = plate.knots(0);
   const double c = 1e-6;
   Points x = plate.control_points();
@@ -100,7 +105,8 @@ TEST(ShellField, MustBePositiveOnTheDomainOfTheShape) {
   ShellMaterial material{3, 0, 1, 0};
   material.thickness_field = along_u({0.1, 0, 0.2});
   EXPECT_EQ(validated(material).error().where, "thickness: coefficient (1, 0)");
-  material.thickness_field = *sampled_field<2>({Interval{0, 2}, Interval{0, 1}}, {2, 2}, {1, 1, 1, 1});
+  material.thickness_field =
+      *sampled_field<2>({Interval{0, 2}, Interval{0, 1}}, {2, 2}, {1, 1, 1, 1});
   EXPECT_EQ(ShellEnergy::create(plate, material).error().where, "thickness");
 }
 

@@ -15,13 +15,15 @@ using testing::random_points;
 
 const Material general = {{1, 0.3, 0.5}, {1e-1, 2e-1, 5e-2}};
 
-Stiffness<2> stiffness_of(const Surface& s, const Material& material, StiffnessOptions options = {}) {
+Stiffness<2> stiffness_of(const Surface& s, const Material& material,
+                          StiffnessOptions options = {}) {
   auto made = Stiffness<2>::create(s, stretch_and_bend(material), options);
   if (!made) ADD_FAILURE() << made.error().message();
   return std::move(*made);
 }
 
-/// Surfaces of every kind: knots of all families in u against one of the same degree in v, polynomial and rational.
+/// Surfaces of every kind: knots of all families in u against one of the same degree in v,
+/// polynomial and rational.
 std::vector<Surface> surfaces() {
   std::vector<Surface> result;
   for (int p : {1, 2, 3, 5}) {
@@ -30,7 +32,8 @@ std::vector<Surface> surfaces() {
       result.push_back(testing::relief(family.knots, testing::uniform_clamped(p, 3), 7));
     }
   }
-  result.push_back(testing::relief(testing::uniform_clamped(2, 4), testing::uniform_unclamped(3, 3), 8, 0.1, 10));
+  result.push_back(testing::relief(testing::uniform_clamped(2, 4), testing::uniform_unclamped(3, 3),
+                                   8, 0.1, 10));
   result.push_back(testing::cylinder());
   result.push_back(testing::sphere());
   return result;
@@ -39,9 +42,10 @@ std::vector<Surface> surfaces() {
 TEST(Stiffness, HasTheCheckValuesOfThePublishedComparison) {
   // Open uniform knots on [0,1], p = 3, 128 x 128, all six terms.
   const auto knots = *KnotVector::clamped_uniform(3, 128);
-  for (GramianMethod method : {GramianMethod::gauss, GramianMethod::analytic, default_gramian_method}) {
-    const auto k =
-        Stiffness<2>::create({knots, knots}, stretch_and_bend({{1, 0.3, 0.5}, {1e-3, 2e-3, 5e-4}}), {.method = method});
+  for (GramianMethod method :
+       {GramianMethod::gauss, GramianMethod::analytic, default_gramian_method}) {
+    const auto k = Stiffness<2>::create(
+        {knots, knots}, stretch_and_bend({{1, 0.3, 0.5}, {1e-3, 2e-3, 5e-4}}), {.method = method});
     ASSERT_TRUE(k);
     const SparseMatrix matrix = k->assemble();
     EXPECT_EQ(matrix.nonZeros(), 781456);
@@ -56,7 +60,8 @@ TEST(Stiffness, AppliedIsAssembledTimesVector) {
     const Points x = random_points(s.size(), 3), assembled = matrix * x, applied = k.apply(x);
     const Points absolute = matrix.cwiseAbs() * x.cwiseAbs();
     EXPECT_LE(((assembled - applied).array().abs() - 1e-14 * absolute.array()).maxCoeff(), 0);
-    EXPECT_NEAR(k.energy(x), x.cwiseProduct(assembled).sum(), 1e-13 * x.cwiseAbs().cwiseProduct(absolute).sum());
+    EXPECT_NEAR(k.energy(x), x.cwiseProduct(assembled).sum(),
+                1e-13 * x.cwiseAbs().cwiseProduct(absolute).sum());
   }
 }
 
@@ -81,8 +86,8 @@ TEST(Stiffness, RefreshWritesNothingBehindTheValues) {
       kept.data().reserve(more);
       std::fill_n(kept.valuePtr() + values, more, 5);
       k->refresh(kept);
-      EXPECT_TRUE(
-          std::all_of(kept.valuePtr() + values, kept.valuePtr() + values + more, [](double v) { return v == 5; }));
+      EXPECT_TRUE(std::all_of(kept.valuePtr() + values, kept.valuePtr() + values + more,
+                              [](double v) { return v == 5; }));
       EXPECT_EQ((kept - k->assemble()).norm(), 0);
     };
     check(Stiffness<1>::create({line}, mass_energy<1>()));
@@ -96,106 +101,8 @@ TEST(Stiffness, SymmetricProductsGatherRows) {
   for (const Surface& s : surfaces()) {
     const SparseMatrix k = stiffness_of(s, general).assemble();
     const Points x = random_points(s.size(), 3), absolute = k.cwiseAbs() * x.cwiseAbs();
-    EXPECT_LE(((k * x - symmetric_product(k, x)).array().abs() - 1e-14 * absolute.array()).maxCoeff(), 0);
-  }
-}
-
-TEST(TensorKernels, GiveTheSameBitsByEveryInstructionSet) {
-  constexpr std::ptrdiff_t length = 77, count = 5, spare = detail::TensorKernels::spare, most = 7;
-  const Eigen::VectorXd x = Eigen::VectorXd::Random(most * (count + 1) * (length + 3)),
-                        f = Eigen::VectorXd::Random(count * length);
-  const auto& reference = detail::tensor_kernels(InstructionSet::vector128);
-  for (const InstructionSet set : available_instruction_sets()) {
-    const auto& kernels = detail::tensor_kernels(set);
-    for (std::ptrdiff_t lines = 1; lines <= most; ++lines) {
-      constexpr std::ptrdiff_t apart = length + 2;
-      Eigen::VectorXd expected = Eigen::VectorXd::Zero(most * apart), y = expected;
-      reference.combine(x.data(), length, f.data(), lines, count, length, expected.data(), apart);
-      kernels.combine(x.data(), length, f.data(), lines, count, length, y.data(), apart);
-      EXPECT_EQ(y, expected) << name(set) << lines;
-      double sum = 0, more = expected[(lines - 1) * apart + 70];
-      for (std::ptrdiff_t k = 0; k < count; ++k) sum += f[k * lines + lines - 1] * x[k * length + 70];
-      EXPECT_EQ(more, sum);
-      EXPECT_EQ(expected[lines * apart - 1], 0);  // nothing between lines
-    }
-    for (const std::ptrdiff_t run : {1, 3, 7, 11, 15, 41}) {
-      for (const std::ptrdiff_t kinds : {1, 3, 5, 7}) {
-        const std::ptrdiff_t columns = 4, rows = 3, values = rows * columns * run;
-        Eigen::VectorXd runs = Eigen::VectorXd::Zero(values + spare), written = runs;
-        reference.write_runs(x.data(), 45, 7, rows, f.data(), kinds, columns, run, runs.data());
-        kernels.write_runs(x.data(), 45, 7, rows, f.data(), kinds, columns, run, written.data());
-        EXPECT_EQ(written.head(values), runs.head(values)) << name(set) << run << kinds;
-        for (std::ptrdiff_t row = 0; row < rows; ++row) {
-          for (std::ptrdiff_t c = 0; c < run; ++c) {
-            double sum = 0;
-            for (std::ptrdiff_t g = 0; g < kinds; ++g) sum += f[3 * kinds + g] * x[g * 45 + 7 * row + c];
-            EXPECT_EQ(runs[(columns * row + 3) * run + c], sum);
-          }
-        }
-      }
-    }
-  }
-}
-
-TEST(TensorKernels, ApplyBandsToLinesInSegments) {
-  using Lines = std::vector<double, CacheLineAllocator<double>>;
-  constexpr std::ptrdiff_t kinds = 2, lines = 3, most = 60;
-  const Eigen::VectorXd x = Eigen::VectorXd::Random(kinds * lines * 3 * most),
-                        f = Eigen::VectorXd::Random(kinds * most * 11),
-                        before = Eigen::VectorXd::Random(lines * most * 3);
-  for (const InstructionSet set : available_instruction_sets()) {
-    const auto& kernels = detail::tensor_kernels(set);
-    const std::ptrdiff_t lanes = kernels.lanes;
-    for (const std::ptrdiff_t size : {1, 5, 8, 16, 23, 32, 60}) {
-      for (const std::ptrdiff_t p : {0, 1, 2, 3, 5}) {
-        const std::ptrdiff_t points = (size + lanes - 1) / lanes, line = 3 * points * lanes,
-                             padded = line + 6 * p * lanes;
-        // Entry (i, i + k − p) of matrix g; number (l, i, c) of kind g.
-        const auto entry = [&](std::ptrdiff_t g, std::ptrdiff_t i, std::ptrdiff_t k) {
-          return i + k < p || i + k - p >= size ? 0.0 : f[(g * most + i) * 11 + k];
-        };
-        const auto number = [&](std::ptrdiff_t g, std::ptrdiff_t l) { return x.data() + (g * lines + l) * 3 * most; };
-        Lines padded_x(static_cast<std::size_t>(kinds * lines * padded), -1), y(static_cast<std::size_t>(lines * line));
-        Lines whole(static_cast<std::size_t>(line)), back(whole), bands[kinds];
-        const double* all[kinds];
-        for (std::ptrdiff_t g = 0; g < kinds; ++g) {
-          for (std::ptrdiff_t l = 0; l < lines; ++l) {
-            std::ranges::fill(std::copy_n(number(g, l), 3 * size, whole.begin()), whole.end(), 0);
-            double* to = padded_x.data() + (g * lines + l) * padded + 3 * p * lanes;
-            kernels.to_segments(whole.data(), 3 * points, to);
-            kernels.from_segments(to, 3 * points, back.data());
-            EXPECT_EQ(whole, back);
-            kernels.surround(to, points, p);
-          }
-          bands[g].resize(static_cast<std::size_t>((2 * p + 1) * points * lanes));
-          all[g] = bands[g].data();
-          for (std::ptrdiff_t i = 0; i < size; ++i) {
-            double* to = bands[g].data() + i % points * (2 * p + 1) * lanes + i / points;
-            for (std::ptrdiff_t k = 0; k <= 2 * p; ++k) to[k * lanes] = entry(g, i, k);
-          }
-        }
-        for (std::ptrdiff_t l = 0; l < lines; ++l) {
-          std::ranges::fill(std::copy_n(before.data() + l * 3 * size, 3 * size, whole.begin()), whole.end(), 0);
-          kernels.to_segments(whole.data(), 3 * points, y.data() + l * line);
-        }
-        for (const bool from_zero : {false, true}) {
-          kernels.add_bands(all, kinds, p, points, padded_x.data() + 3 * p * lanes, lines * padded, padded, lines,
-                            from_zero, y.data(), line);
-          for (std::ptrdiff_t l = 0; l < lines; ++l) {
-            kernels.from_segments(y.data() + l * line, 3 * points, back.data());
-            for (std::ptrdiff_t m = 0; m < 3 * size; ++m) {
-              double sum = from_zero ? 0 : before[l * 3 * size + m];
-              for (std::ptrdiff_t g = 0; g < kinds; ++g) {
-                for (std::ptrdiff_t k = 0; k <= 2 * p; ++k) {
-                  if (const double e = entry(g, m / 3, k); e != 0) sum += e * number(g, l)[m + 3 * (k - p)];
-                }
-              }
-              EXPECT_EQ(back[static_cast<std::size_t>(m)], sum) << name(set) << size << p << m;
-            }
-          }
-        }
-      }
-    }
+    EXPECT_LE(
+        ((k * x - symmetric_product(k, x)).array().abs() - 1e-14 * absolute.array()).maxCoeff(), 0);
   }
 }
 
@@ -207,10 +114,12 @@ TEST(Stiffness, IsSymmetricToTheLastBit) {
 }
 
 TEST(Stiffness, PatternIsTheWholeTensorBand) {
-  const Surface s = testing::relief(testing::uniform_clamped(2, 5), testing::uniform_clamped(3, 4), 1);
+  const Surface s =
+      testing::relief(testing::uniform_clamped(2, 5), testing::uniform_clamped(3, 4), 1);
   const auto [m, n] = s.net();
   EXPECT_EQ(stiffness_of(s, general).assemble().nonZeros(), (5 * m - 6) * (7 * n - 12));
-  EXPECT_EQ(stiffness_of(s, {{1, 0, 1}, {0, 0, 0}}).assemble().nonZeros(), (5 * m - 6) * (7 * n - 12));
+  EXPECT_EQ(stiffness_of(s, {{1, 0, 1}, {0, 0, 0}}).assemble().nonZeros(),
+            (5 * m - 6) * (7 * n - 12));
 }
 
 TEST(Stiffness, IsPositiveSemidefinite) {
@@ -227,8 +136,9 @@ TEST(Stiffness, StretchAnnihilatesConstants) {
     const SparseMatrix k = stiffness_of(s, general).assemble();
     const Points constant = Points::Constant(s.size(), 3, 7.5);
     const Points bound = k.cwiseAbs() * constant;
-    // The entries of a rational stiffness come from Gauss points, at every one of which the derivatives of the basis
-    // sum to zero as well; 1e-12 leaves room for the cancellation in the quotient rule.
+    // The entries of a rational stiffness come from Gauss points, at every one of which the
+    // derivatives of the basis sum to zero as well; 1e-12 leaves room for the cancellation in the
+    // quotient rule.
     EXPECT_LE((k * constant).cwiseAbs().maxCoeff(), 1e-12 * bound.maxCoeff());
   }
 }
@@ -246,7 +156,8 @@ TEST(Stiffness, BendAnnihilatesAffineMapsOfTheParameters) {
           x.row(i * v.count() + j) << gu, gv, 1 + 2 * gu - 3 * gv;
         }
       }
-      const auto k = Stiffness<2>::create({family.knots, v}, stretch_and_bend({{0, 0, 0}, {1, 1, 1}}));
+      const auto k =
+          Stiffness<2>::create({family.knots, v}, stretch_and_bend({{0, 0, 0}, {1, 1, 1}}));
       ASSERT_TRUE(k);
       const SparseMatrix matrix = k->assemble();
       const Points bound = matrix.cwiseAbs() * x.cwiseAbs();
@@ -259,7 +170,8 @@ TEST(Stiffness, WithoutMixedBendAnnihilatesTheProductOfParametersToo) {
   const KnotVector u = testing::uniform_clamped(3, 5), v = testing::uniform_clamped(2, 4);
   Points x(u.count() * v.count(), 3);
   for (int i = 0; i < u.count(); ++i) {
-    for (int j = 0; j < v.count(); ++j) x.row(i * v.count() + j).setConstant(u.greville(i) * v.greville(j));
+    for (int j = 0; j < v.count(); ++j)
+      x.row(i * v.count() + j).setConstant(u.greville(i) * v.greville(j));
   }
   const auto without = Stiffness<2>::create({u, v}, stretch_and_bend({{0, 0, 0}, {1, 0, 1}}));
   const auto with = Stiffness<2>::create({u, v}, stretch_and_bend({{0, 0, 0}, {1, 1, 1}}));
@@ -269,10 +181,13 @@ TEST(Stiffness, WithoutMixedBendAnnihilatesTheProductOfParametersToo) {
 }
 
 TEST(Stiffness, EnergyOfAPolynomialIsItsIntegral) {
-  // S = (u², uv, v²) on [0,2] x [0,3], exact in degree 2: |S_u|² = 4u² + v², |S_v|² = u² + 4v², S_u·S_v = uv,
-  // |S_uu|² = 4, |S_uv|² = 1, |S_vv|² = 4.
-  const KnotVector u = testing::clamped_knots(2, {0, 0.5, 2}), v = testing::clamped_knots(2, {0, 1, 3}, {3, 2, 3});
-  const auto square = [](const KnotVector& k, int i) { return k[i + 1] * k[i + 2]; };  // blossom of t²
+  // S = (u², uv, v²) on [0,2] x [0,3], exact in degree 2: |S_u|² = 4u² + v², |S_v|² = u² + 4v²,
+  // S_u·S_v = uv, |S_uu|² = 4, |S_uv|² = 1, |S_vv|² = 4.
+  const KnotVector u = testing::clamped_knots(2, {0, 0.5, 2}),
+                   v = testing::clamped_knots(2, {0, 1, 3}, {3, 2, 3});
+  const auto square = [](const KnotVector& k, int i) {
+    return k[i + 1] * k[i + 2];
+  };  // blossom of t²
   Points x(u.count() * v.count(), 3);
   for (int i = 0; i < u.count(); ++i) {
     for (int j = 0; j < v.count(); ++j) {
@@ -282,27 +197,31 @@ TEST(Stiffness, EnergyOfAPolynomialIsItsIntegral) {
   const double su = 8.0 / 3 * 3, sv = 27.0 / 3 * 2;  // ∫∫u², ∫∫v²
   const double uv = 2 * 4.5, one = 6;
   const Material m = {{1, 0.5, 2}, {3, 4, 5}};
-  const double expected = m.alpha[0] * (4 * su + sv) + 2 * m.alpha[1] * uv + m.alpha[2] * (su + 4 * sv) +
-                          m.beta[0] * 4 * one + 2 * m.beta[1] * one + m.beta[2] * 4 * one;
-  for (GramianMethod method : {GramianMethod::gauss, GramianMethod::analytic, default_gramian_method}) {
+  const double expected = m.alpha[0] * (4 * su + sv) + 2 * m.alpha[1] * uv +
+                          m.alpha[2] * (su + 4 * sv) + m.beta[0] * 4 * one + 2 * m.beta[1] * one +
+                          m.beta[2] * 4 * one;
+  for (GramianMethod method :
+       {GramianMethod::gauss, GramianMethod::analytic, default_gramian_method}) {
     const auto k = Stiffness<2>::create({u, v}, stretch_and_bend(m), {.method = method});
     EXPECT_NEAR(k->energy(x), expected, 1e-12 * expected);
   }
 }
 
 TEST(Stiffness, OfARationalSurfaceWithEqualWeightsIsThePolynomialOne) {
-  const Surface plain =
-      testing::relief(testing::uniform_clamped(3, 4), testing::clamped_knots(2, {0, 1, 4}, {3, 2, 3}), 5);
-  const Surface weighted = testing::make_surface(plain.knots(0), plain.knots(1), plain.control_points(),
-                                                 std::vector<double>(static_cast<std::size_t>(plain.size()), 0.25));
-  const SparseMatrix a = stiffness_of(plain, general).assemble(), b = stiffness_of(weighted, general).assemble();
+  const Surface plain = testing::relief(testing::uniform_clamped(3, 4),
+                                        testing::clamped_knots(2, {0, 1, 4}, {3, 2, 3}), 5);
+  const Surface weighted =
+      testing::make_surface(plain.knots(0), plain.knots(1), plain.control_points(),
+                            std::vector<double>(static_cast<std::size_t>(plain.size()), 0.25));
+  const SparseMatrix a = stiffness_of(plain, general).assemble(),
+                     b = stiffness_of(weighted, general).assemble();
   EXPECT_EQ(a.nonZeros(), b.nonZeros());
   EXPECT_LE((a - b).norm(), 1e-13 * a.norm());
 }
 
 TEST(Stiffness, OfACylinderIsTheIntegralOverTheCylinder) {
-  // The quarter arc with weights (1, √½, 1) on [0,1]: the energies of the exact rational curve by an independent
-  // composite Simpson rule on the known point function.
+  // The quarter arc with weights (1, √½, 1) on [0,1]: the energies of the exact rational curve by
+  // an independent composite Simpson rule on the known point function.
   const Surface s = testing::cylinder(2);
   const auto k = stiffness_of(s, {{1, 0, 0}, {0, 0, 0}});
   double reference = 0;
@@ -314,20 +233,26 @@ TEST(Stiffness, OfACylinderIsTheIntegralOverTheCylinder) {
     const double x = c * c + 2 * r * c * t, dx = -2 * c + 2 * r * (1 - 2 * t);
     const double y = 2 * r * c * t + t * t, dy = 2 * r * (1 - 2 * t) + 2 * t;
     const double sx = (dx * w - x * dw) / (w * w), sy = (dy * w - y * dw) / (w * w);
-    reference += (q == 0 || q == steps ? 1 : q % 2 == 1 ? 4 : 2) * (sx * sx + sy * sy) / (3.0 * steps);
+    reference += (q == 0 || q == steps ? 1
+                  : q % 2 == 1         ? 4
+                                       : 2) *
+                 (sx * sx + sy * sy) / (3.0 * steps);
   }
   EXPECT_NEAR(k.energy(s.control_points()), 4 * reference, 1e-8 * reference);
 }
 
 TEST(Stiffness, NeverIgnoresWeights) {
-  const Surface s = testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 4, 0.1, 1e3);
+  const Surface s =
+      testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 4, 0.1, 1e3);
   const Surface plain = testing::make_surface(s.knots(0), s.knots(1), s.control_points());
-  const SparseMatrix a = stiffness_of(s, general).assemble(), b = stiffness_of(plain, general).assemble();
+  const SparseMatrix a = stiffness_of(s, general).assemble(),
+                     b = stiffness_of(plain, general).assemble();
   EXPECT_GT((a - b).norm(), 0.1 * b.norm());
 }
 
 TEST(Stiffness, TakesWeightsFromAMillionthToAMillion) {
-  const Surface s = testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 4, 0.1, 1e6);
+  const Surface s =
+      testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 4, 0.1, 1e6);
   const auto k = stiffness_of(s, general);
   EXPECT_TRUE(std::isfinite(k.energy(s.control_points())));
   EXPECT_GT(k.energy(s.control_points()), 0);
@@ -337,8 +262,9 @@ TEST(Stiffness, RefusesADenominatorThatIsNotPositive) {
   Surface s = testing::sheet(testing::uniform_clamped(2, 1), testing::uniform_clamped(2, 1));
   std::vector<double> weights(9, 1.0);
   weights[4] = -10;
-  const auto k = Stiffness<2>::create(testing::make_surface(s.knots(0), s.knots(1), s.control_points(), weights),
-                                      stretch_and_bend({}));
+  const auto k = Stiffness<2>::create(
+      testing::make_surface(s.knots(0), s.knots(1), s.control_points(), weights),
+      stretch_and_bend({}));
   ASSERT_FALSE(k);
   EXPECT_EQ(k.error().kind, ErrorKind::numerical);
 }
@@ -354,13 +280,15 @@ TEST(Stiffness, MassOfTheConstantOneIsTheAreaOfTheDomain) {
 }
 
 TEST(Stiffness, OfCurvesAndVolumesIsTheSameCode) {
-  // ∫ |C'|² of C = (t, t, t) on [0, 4], and ∫ |V_uvw|-free stretch of V = (u, v, w) on a box 2 x 1 x 3.
+  // ∫ |C'|² of C = (t, t, t) on [0, 4], and ∫ |V_uvw|-free stretch of V = (u, v, w) on a box 2 x 1
+  // x 3.
   const KnotVector t = testing::uniform_clamped(3, 4);
   Points line(t.count(), 3);
   for (int i = 0; i < t.count(); ++i) line.row(i).setConstant(t.greville(i));
   EXPECT_NEAR(Stiffness<1>::create({t}, {{1, {1}, {1}}})->energy(line), 12, 1e-12);
 
-  const std::array<KnotVector, 3> box = {testing::uniform_clamped(1, 2), testing::uniform_clamped(2, 1),
+  const std::array<KnotVector, 3> box = {testing::uniform_clamped(1, 2),
+                                         testing::uniform_clamped(2, 1),
                                          testing::uniform_clamped(3, 3)};
   Points v(box[0].count() * box[1].count() * box[2].count(), 3);
   int row = 0;
@@ -370,7 +298,8 @@ TEST(Stiffness, OfCurvesAndVolumesIsTheSameCode) {
         v.row(row++) << box[0].greville(i), box[1].greville(j), box[2].greville(k);
     }
   }
-  const Energy<3> stretch = {{1, {1, 0, 0}, {1, 0, 0}}, {1, {0, 1, 0}, {0, 1, 0}}, {1, {0, 0, 1}, {0, 0, 1}}};
+  const Energy<3> stretch = {
+      {1, {1, 0, 0}, {1, 0, 0}}, {1, {0, 1, 0}, {0, 1, 0}}, {1, {0, 0, 1}, {0, 0, 1}}};
   const auto k = Stiffness<3>::create(box, stretch);
   EXPECT_NEAR(k->energy(v), 18, 1e-12);
   EXPECT_LE((k->assemble() * v - k->apply(v)).cwiseAbs().maxCoeff(), 1e-13);

@@ -31,16 +31,20 @@ void expect_same_bits(const Stiffness<D>& k) {
     SCOPED_TRACE(threads);
     const SparseMatrix again = with_threads(threads, [&] { return k.assemble(); });
     ASSERT_EQ(again.nonZeros(), assembled.nonZeros());
-    EXPECT_TRUE(std::equal(again.outerIndexPtr(), again.outerIndexPtr() + again.cols() + 1, assembled.outerIndexPtr()));
-    EXPECT_TRUE(std::equal(again.innerIndexPtr(), again.innerIndexPtr() + again.nonZeros(), assembled.innerIndexPtr()));
-    EXPECT_TRUE(std::equal(again.valuePtr(), again.valuePtr() + again.nonZeros(), assembled.valuePtr()));
+    EXPECT_TRUE(std::equal(again.outerIndexPtr(), again.outerIndexPtr() + again.cols() + 1,
+                           assembled.outerIndexPtr()));
+    EXPECT_TRUE(std::equal(again.innerIndexPtr(), again.innerIndexPtr() + again.nonZeros(),
+                           assembled.innerIndexPtr()));
+    EXPECT_TRUE(
+        std::equal(again.valuePtr(), again.valuePtr() + again.nonZeros(), assembled.valuePtr()));
     SparseMatrix kept = assembled;
     kept.coeffs().setConstant(7);
     with_threads(threads, [&] {
       k.refresh(kept);
       return 0;
     });
-    EXPECT_TRUE(std::equal(kept.valuePtr(), kept.valuePtr() + kept.nonZeros(), assembled.valuePtr()));
+    EXPECT_TRUE(
+        std::equal(kept.valuePtr(), kept.valuePtr() + kept.nonZeros(), assembled.valuePtr()));
     EXPECT_EQ(with_threads(threads, [&] { return k.apply(x); }), applied);
   }
 }
@@ -54,11 +58,13 @@ TEST(ThreadsOfStiffness, DoNotChangeBitsOfSurfaces) {
 }
 
 TEST(ThreadsOfStiffness, DoNotChangeBitsOfVolumes) {
-  expect_same_bits<3>(*Stiffness<3>::create(sides<3>(2, {40, 24, 22}), stretch_and_bend<3>(MaterialOf<3>{})));
+  expect_same_bits<3>(
+      *Stiffness<3>::create(sides<3>(2, {40, 24, 22}), stretch_and_bend<3>(MaterialOf<3>{})));
 }
 
 TEST(ThreadsOfStiffness, DoNotChangeBitsOfSmallNets) {
-  expect_same_bits<2>(*Stiffness<2>::create(sides<2>(3, {4, 5}), stretch_and_bend<2>({{1, 0, 1}, {1, 1, 1}})));
+  expect_same_bits<2>(
+      *Stiffness<2>::create(sides<2>(3, {4, 5}), stretch_and_bend<2>({{1, 0, 1}, {1, 1, 1}})));
 }
 
 /// The second derivatives of a shell, too.
@@ -71,16 +77,21 @@ void expect_same_hessian(const Surface& rest) {
   EXPECT_GT(expected.norm(), 0);
   for (const int threads : testing::thread_counts) {
     const SparseMatrix found = with_threads(threads, [&] { return shell->hessian(x, stress); });
-    EXPECT_TRUE(std::equal(found.valuePtr(), found.valuePtr() + found.nonZeros(), expected.valuePtr())) << threads;
+    EXPECT_TRUE(
+        std::equal(found.valuePtr(), found.valuePtr() + found.nonZeros(), expected.valuePtr()))
+        << threads;
   }
 }
 
 TEST(ThreadsOfShells, DoNotChangeBits) {
   for (const int p : {2, 3, 4}) {
-    expect_same_hessian(testing::relief(testing::uniform_clamped(p, 15), testing::uniform_clamped(p, 14), 7));
+    expect_same_hessian(
+        testing::relief(testing::uniform_clamped(p, 15), testing::uniform_clamped(p, 14), 7));
   }
-  expect_same_hessian(testing::relief(testing::uniform_clamped(3, 9), testing::uniform_clamped(2, 13), 8, 0.1, 3));
-  expect_same_hessian(testing::relief(testing::uniform_clamped(3, 40), testing::uniform_clamped(2, 1), 9));
+  expect_same_hessian(
+      testing::relief(testing::uniform_clamped(3, 9), testing::uniform_clamped(2, 13), 8, 0.1, 3));
+  expect_same_hessian(
+      testing::relief(testing::uniform_clamped(3, 40), testing::uniform_clamped(2, 1), 9));
 }
 
 }  // namespace

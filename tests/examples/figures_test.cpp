@@ -27,8 +27,10 @@ std::vector<Command> script(const std::string& name) {
 
 using After = std::function<void(const Command&, const SessionState&)>;
 
-/// Runs commands in a document without a file, or in one of the directory; `after` sees the state after each.
-Session run(const std::vector<Command>& commands, const std::string& file = {}, const After& after = {}) {
+/// Runs commands in a document without a file, or in one of the directory; `after` sees the state
+/// after each.
+Session run(const std::vector<Command>& commands, const std::string& file = {},
+            const After& after = {}) {
   auto document = file.empty() ? Document::fresh("sheet") : Document::open(directory + file);
   if (!document) ADD_FAILURE() << document.error().message();
   Session session(std::move(*document));
@@ -61,7 +63,8 @@ Points grid(const Surface& shape, int count) {
   for (std::size_t d = 0; d < 2; ++d) {
     const Interval domain = shape.knots()[d].domain();
     for (int k = 0; k < count; ++k) {
-      parameters[d].push_back(std::min(domain.lower + domain.length() * k / (count - 1), domain.upper));
+      parameters[d].push_back(
+          std::min(domain.lower + domain.length() * k / (count - 1), domain.upper));
     }
   }
   return evaluate_grid<2>(shape, {std::span<const double>(parameters[0]), parameters[1]})->points();
@@ -83,7 +86,8 @@ void expect_border_in_place(const SessionState& state) {
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < n; ++j) {
       if (i > 0 && j > 0 && i < m - 1 && j < n - 1) continue;
-      EXPECT_EQ(s.current->control_points().row(i * n + j), s.opened->control_points().row(i * n + j));
+      EXPECT_EQ(s.current->control_points().row(i * n + j),
+                s.opened->control_points().row(i * n + j));
     }
   }
 }
@@ -111,8 +115,8 @@ TEST(Figure6_9, TheSheetTakesTheShapeOfARing) {
   const SessionState& state = session.state();
   expect_descent(state);
   expect_border_in_place(state);
-  // The ring of radius 2.5 ends 0.8 above the sheet of side 10: it is reached, the middle drawn up into the hole, so
-  // that the ring leaves a groove.
+  // The ring of radius 2.5 ends 0.8 above the sheet of side 10: it is reached, the middle drawn up
+  // into the hole, so that the ring leaves a groove.
   for (double angle : {0.0, 0.8, 2.0, 4.0}) {
     const auto height = [&](double r) {
       return at(state, 0.5 + 0.1 * r * std::cos(angle), 0.5 + 0.1 * r * std::sin(angle)).z();
@@ -125,37 +129,42 @@ TEST(Figure6_9, TheSheetTakesTheShapeOfARing) {
 
 TEST(Figure6_10, InternalForcesFlattenAndShrinkTheSheetToAPoint) {
   std::vector<double> size, thickness;
-  const Session session = run(script("figure_6_10.json"), {}, [&](const Command& command, const SessionState& state) {
-    if (!fields_of<StepCommand>(command) && !fields_of<RestCommand>(command)) return;
-    const Points points = grid(*state.surfaces[0].current, 41);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(points.rowwise() - points.colwise().mean());
-    size.push_back(bounding_box(*state.surfaces[0].current).diagonal());
-    thickness.push_back(svd.singularValues()[2] / svd.singularValues()[0]);  // 0 in any plane
-  });
+  const Session session =
+      run(script("figure_6_10.json"), {}, [&](const Command& command, const SessionState& state) {
+        if (!fields_of<StepCommand>(command) && !fields_of<RestCommand>(command)) return;
+        const Points points = grid(*state.surfaces[0].current, 41);
+        const Eigen::JacobiSVD<Eigen::MatrixXd> svd(points.rowwise() - points.colwise().mean());
+        size.push_back(bounding_box(*state.surfaces[0].current).diagonal());
+        thickness.push_back(svd.singularValues()[2] / svd.singularValues()[0]);  // 0 in any plane
+      });
   ASSERT_EQ(size.size(), 5u);  // before, after one, two, three and all steps
   EXPECT_GT(thickness.front(), 0.05);
   for (std::size_t k = 1; k < size.size(); ++k) {
     EXPECT_LT(size[k], size[k - 1]);
     EXPECT_LT(thickness[k], thickness[k - 1]);
   }
-  // Along a side of 1 the slowest way to shrink, cos πu, loses π²/(λ + π²) of itself in a step, others more.
+  // Along a side of 1 the slowest way to shrink, cos πu, loses π²/(λ + π²) of itself in a step,
+  // others more.
   const double rate = 10 / (10 + M_PI * M_PI);
   EXPECT_LT(size.back(), 2 * std::pow(rate, 20) * size.front());
   EXPECT_LT(thickness.back(), 1e-5);
 }
 
-/// Largest distance and angle between two patches along a shared edge: u = 1 of one on u = 0 of the other.
+/// Largest distance and angle between two patches along a shared edge: u = 1 of one on u = 0 of the
+/// other.
 std::array<double, 2> seam(const SessionState& state, int a, int b, bool along_u, bool smallest) {
   double gap = smallest ? 1e300 : 0, angle = 0;
   const auto jet = [&](int k, double s, double t) {
     Parameters<2> parameters(1, 2);
     const Surface& shape = *state.surfaces[static_cast<std::size_t>(k)].current;
     const Interval u = shape.knots(0).domain(), v = shape.knots(1).domain();
-    parameters << std::min(u.lower + s * u.length(), u.upper), std::min(v.lower + t * v.length(), v.upper);
+    parameters << std::min(u.lower + s * u.length(), u.upper),
+        std::min(v.lower + t * v.length(), v.upper);
     return *evaluate<2>(shape, parameters, 1);
   };
   for (double t = 0; t <= 1; t += 0.0625) {
-    const auto first = along_u ? jet(a, t, 1) : jet(a, 1, t), second = along_u ? jet(b, t, 0) : jet(b, 0, t);
+    const auto first = along_u ? jet(a, t, 1) : jet(a, 1, t),
+               second = along_u ? jet(b, t, 0) : jet(b, 0, t);
     const double distance = (first.points() - second.points()).norm();
     gap = smallest ? std::min(gap, distance) : std::max(gap, distance);
     const auto normal = [](const Evaluation<2>& e) {
@@ -169,7 +178,8 @@ std::array<double, 2> seam(const SessionState& state, int a, int b, bool along_u
 
 TEST(Figure6_11, PatchesComeApartAtTheirSeams) {
   const Session session = run(script("figure_6_11.json"), "patches.step");
-  for (auto [a, b, along_u] : {std::tuple{0, 2, false}, {1, 3, false}, {0, 1, true}, {2, 3, true}}) {
+  for (auto [a, b, along_u] :
+       {std::tuple{0, 2, false}, {1, 3, false}, {0, 1, true}, {2, 3, true}}) {
     EXPECT_GT(seam(session.state(), a, b, along_u, true)[0], 1);  // of patches 5 wide
   }
 }
@@ -179,8 +189,10 @@ TEST(Figure6_11, CoupledPatchesShrinkAsOne) {
   const SessionState& state = session.state();
   EXPECT_GT(state.steps.back().largest_displacement, 1);
   ASSERT_EQ(state.seam_reports.size(), 4u);
-  for (const SeamReport& report : state.seam_reports) EXPECT_EQ(report.continuity, SeamContinuity::g1);
-  for (auto [a, b, along_u] : {std::tuple{0, 2, false}, {1, 3, false}, {0, 1, true}, {2, 3, true}}) {
+  for (const SeamReport& report : state.seam_reports)
+    EXPECT_EQ(report.continuity, SeamContinuity::g1);
+  for (auto [a, b, along_u] :
+       {std::tuple{0, 2, false}, {1, 3, false}, {0, 1, true}, {2, 3, true}}) {
     const auto [gap, angle] = seam(state, a, b, along_u, false);
     EXPECT_LT(gap, 1e-12 * 10);
     EXPECT_LT(angle, 1e-6);
@@ -192,7 +204,8 @@ TEST(Figure6_12, SidesBetweenFourHeldCornersBecomePinched) {
   const SessionState& state = session.state();
   expect_descent(state);
   for (double s : {0.0, 1.0}) {
-    for (double t : {0.0, 1.0}) EXPECT_LT((at(state, s, t) - Point(10 * s, 10 * t, 0)).norm(), 1e-10 * 10);
+    for (double t : {0.0, 1.0})
+      EXPECT_LT((at(state, s, t) - Point(10 * s, 10 * t, 0)).norm(), 1e-10 * 10);
   }
   const double depth = at(state, 0.5, 0).y();
   EXPECT_GT(depth, 2);  // of 10
@@ -212,7 +225,8 @@ TEST(Figure6_13, TheBumpGoesTowardsTheConcavity) {
   const SessionState& state = above.state();
   expect_descent(state);
   expect_border_in_place(state);
-  // The bowl's rim is at 0.1, its hollow above: the sheet has risen into it, and is highest in the middle of it.
+  // The bowl's rim is at 0.1, its hollow above: the sheet has risen into it, and is highest in the
+  // middle of it.
   EXPECT_GT(at(state, 0.5, 0.5).z(), 0.9);
   EXPECT_GT(at(state, 0.5, 0.5).z(), at(state, 0.5, 0.55).z());
   EXPECT_LT(at(state, 0.5, 0.9).z(), 0.1);  // outside of the bowl it stays below the rim
@@ -225,21 +239,23 @@ TEST(Figure6_13, TheBumpGoesTowardsTheConcavity) {
     }
   }
   const Session below = run(commands);
-  for (double s : {0.1, 0.3, 0.5}) EXPECT_NEAR(at(below.state(), s, 0.4).z(), -at(state, s, 0.4).z(), 1e-9);
+  for (double s : {0.1, 0.3, 0.5})
+    EXPECT_NEAR(at(below.state(), s, 0.4).z(), -at(state, s, 0.4).z(), 1e-9);
 }
 
 TEST(Figure6_14, TheDentIsAsDeepAsTheBallIsPressed) {
   constexpr double radius = 1.5;
   double depth = 0;
-  const Session session = run(script("figure_6_14.json"), {}, [&](const Command& command, const SessionState& state) {
-    if (!fields_of<StepCommand>(command)) return;
-    depth += 0.5;
-    EXPECT_LE(state.steps.back().gap, rigid_gap);
-    // The gap is kept at Gauss points at most a sixth of the radius apart; between four of them the ball's cap is at
-    // most (r/6)² / 2 / (2r) = r/144 high.
-    EXPECT_NEAR(at(state, 0.5, 0.5).z(), -depth, radius / 144) << depth;
-    EXPECT_NEAR(grid(*state.surfaces[0].current, 101).col(2).minCoeff(), -depth, radius / 144);
-  });
+  const Session session =
+      run(script("figure_6_14.json"), {}, [&](const Command& command, const SessionState& state) {
+        if (!fields_of<StepCommand>(command)) return;
+        depth += 0.5;
+        EXPECT_LE(state.steps.back().gap, rigid_gap);
+        // The gap is kept at Gauss points at most a sixth of the radius apart; between four of them
+        // the ball's cap is at most (r/6)² / 2 / (2r) = r/144 high.
+        EXPECT_NEAR(at(state, 0.5, 0.5).z(), -depth, radius / 144) << depth;
+        EXPECT_NEAR(grid(*state.surfaces[0].current, 101).col(2).minCoeff(), -depth, radius / 144);
+      });
   EXPECT_EQ(depth, 1.5);
   expect_border_in_place(session.state());
 }
@@ -269,7 +285,8 @@ TEST(Figure6_15, TheSheetFallsDrapesOverTheBallAndComesToRest) {
   }
   EXPECT_GT(nearest, radius * (1 - 1e-3));
   EXPECT_GT(touching, 401 * 401 / 100);  // it lies on a cap of the ball, not on a point
-  // It hangs: the middle on the ball, corners far below the ball's middle, and no point of it higher than the middle.
+  // It hangs: the middle on the ball, corners far below the ball's middle, and no point of it
+  // higher than the middle.
   EXPECT_NEAR(at(state, 0.5, 0.5).z(), -0.5, 1e-3 * radius);
   EXPECT_LT(at(state, 0, 0).z(), -5);
   EXPECT_LT(at(state, 0.5, 0).z(), -4);
@@ -279,15 +296,18 @@ TEST(Figure6_15, TheSheetFallsDrapesOverTheBallAndComesToRest) {
   for (const StepRecord& step : state.steps) peak = std::max(peak, step.kinetic);
   EXPECT_LT(state.steps.back().kinetic, 1e-6 * peak);
   EXPECT_LT(state.steps.back().residual, 1e-4);
-  // Nothing but rounding, let through by what a step takes as converged (1e-11), breaks the symmetries of the square.
+  // Nothing but rounding, let through by what a step takes as converged (1e-11), breaks the
+  // symmetries of the square.
   const Points& p = state.surfaces[0].current->control_points();
   const auto [m, n] = state.surfaces[0].current->net();
   double asymmetry = 0;
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < n; ++j) {
-      const auto a = p.row(i * n + j), mirrored = p.row((m - 1 - i) * n + j), swapped = p.row(j * n + i);
-      asymmetry = std::max({asymmetry, std::abs(a[0] + mirrored[0] - 10), std::abs(a[1] - mirrored[1]),
-                            std::abs(a[2] - mirrored[2]), std::abs(a[0] - swapped[1]), std::abs(a[2] - swapped[2])});
+      const auto a = p.row(i * n + j), mirrored = p.row((m - 1 - i) * n + j),
+                 swapped = p.row(j * n + i);
+      asymmetry = std::max({asymmetry, std::abs(a[0] + mirrored[0] - 10),
+                            std::abs(a[1] - mirrored[1]), std::abs(a[2] - mirrored[2]),
+                            std::abs(a[0] - swapped[1]), std::abs(a[2] - swapped[2])});
     }
   }
   EXPECT_LT(asymmetry, 1e-8 * 10);

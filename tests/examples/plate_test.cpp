@@ -9,14 +9,15 @@ namespace {
 
 constexpr int count = 10;
 
-// In double precision the small eigenvalues of K x = ω² M x carry the rounding of the largest, about 16 · 12 / h⁴ for
-// cubics: 64 ulp of it, which halves from ω² to ω.
+// In double precision the small eigenvalues of K x = ω² M x carry the rounding of the largest,
+// about 16 · 12 / h⁴ for cubics: 64 ulp of it, which halves from ω² to ω.
 double rounding(int spans, double frequency) {
   return 64 * 1.1e-16 * 200 * std::pow(spans, 4) / (frequency * frequency);
 }
 
 TEST(PlateFrequencies, LieBetweenThePlateAndTheClosedFormOfASmallerSpace) {
-  // Rayleigh and Ritz: a subspace of all deflections has higher frequencies, a subspace of that higher ones yet.
+  // Rayleigh and Ritz: a subspace of all deflections has higher frequencies, a subspace of that
+  // higher ones yet.
   const auto exact = exact_plate_frequencies(count);
   for (int spans : {8, 16, 24}) {
     const auto found = plate_frequencies(3, spans, count);
@@ -31,10 +32,12 @@ TEST(PlateFrequencies, LieBetweenThePlateAndTheClosedFormOfASmallerSpace) {
 }
 
 TEST(PlateFrequencies, TheBoundIsNarrowAndOfFourthOrder) {
-  // (a⁸ + b⁸) h⁴ / (1440 (a² + b²)²), a = mπ, b = nπ, is its leading term (docs/plate.md); at (1, 1): π⁴ h⁴ / 2880.
+  // (a⁸ + b⁸) h⁴ / (1440 (a² + b²)²), a = mπ, b = nπ, is its leading term (docs/plate.md); at (1,
+  // 1): π⁴ h⁴ / 2880.
   const double pi4 = std::pow(M_PI, 4);
   for (int spans : {16, 32, 64}) {
-    const double relative = bounding_plate_frequencies(spans, 1)[0] / exact_plate_frequencies(1)[0] - 1;
+    const double relative =
+        bounding_plate_frequencies(spans, 1)[0] / exact_plate_frequencies(1)[0] - 1;
     EXPECT_NEAR(relative / (pi4 / 2880 / std::pow(spans, 4)), 1, 10.0 / (spans * spans));
   }
   const auto exact = exact_plate_frequencies(count), bound = bounding_plate_frequencies(24, count);

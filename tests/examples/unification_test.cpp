@@ -15,11 +15,13 @@ TEST(Unification, DifferencesOfTheContourAreAChainOfSpringsToTheLastBit) {
   // Distances of powers of two make every entry a dyadic number: equal means equal.
   for (int n : {5, 16, 64}) {
     const double h = 1.0 / 64, alpha = 3, beta = 0.25;
-    EXPECT_EQ(h * differenced_contour(n, alpha, beta, h), spring_ring(n, alpha / h, beta / (h * h * h)));
+    EXPECT_EQ(h * differenced_contour(n, alpha, beta, h),
+              spring_ring(n, alpha / h, beta / (h * h * h)));
     EXPECT_EQ(differenced_contour(n, 5, 2, 1), spring_ring(n, 5, 2));  // thesis Eq. 3.47 has h = 1
   }
   const double h = 1.0 / 37;  // and any other distance to rounding
-  const Eigen::MatrixXd a = h * differenced_contour(37, 0.3, 0.7, h), b = spring_ring(37, 0.3 / h, 0.7 / (h * h * h));
+  const Eigen::MatrixXd a = h * differenced_contour(37, 0.3, 0.7, h),
+                        b = spring_ring(37, 0.3 / h, 0.7 / (h * h * h));
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 16 * 1.2e-16 * b.cwiseAbs().maxCoeff());
 }
 
@@ -36,7 +38,8 @@ TEST(Unification, ASheetOfSpringsIsTheExactModelOfDegreeOneWithLumpedMass) {
   // α (G11 ⊗ hI + hI ⊗ G11) on the masses inside.
   constexpr int n = 9, inner = n - 2;
   const double h = 1.0 / (n - 1);
-  const Eigen::MatrixXd g = gramian(*KnotVector::clamped_uniform(1, n), 1, 1)->dense().block(1, 1, inner, inner);
+  const Eigen::MatrixXd g =
+      gramian(*KnotVector::clamped_uniform(1, n), 1, 1)->dense().block(1, 1, inner, inner);
   Eigen::MatrixXd lumped = Eigen::MatrixXd::Zero(inner * inner, inner * inner);
   for (int i = 0; i < inner; ++i) {
     for (int j = 0; j < inner; ++j) {
@@ -51,7 +54,8 @@ TEST(Unification, ASheetOfSpringsIsTheExactModelOfDegreeOneWithLumpedMass) {
 
 TEST(Unification, HingedSpringsSwingAsTheirClosedFormSays) {
   constexpr int n = 12;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(spring_sheet(n, 1, 0.5)));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      Eigen::MatrixXd(spring_sheet(n, 1, 0.5)));
   const double l = 4 - 4 * std::cos(M_PI / (n - 1));
   EXPECT_NEAR(solver.eigenvalues()[0], l + 0.5 * l * l, 1e-13);
 }

@@ -39,9 +39,9 @@ double error_of(const Case& k, StepTimesImpulse reading) {
   for (int i = 0; i < k.knots.count(); ++i) {
     for (int j = std::max(0, i - k.knots.degree()); j <= i; ++j) {
       largest = std::max(largest, std::abs(exact(i, j)));
-      error = std::max(
-          error,
-          std::abs(varying_by_impulses(k.knots, i, j, k.coefficient_knots, k.coefficients, reading) - exact(i, j)));
+      error = std::max(error, std::abs(varying_by_impulses(k.knots, i, j, k.coefficient_knots,
+                                                           k.coefficients, reading) -
+                                       exact(i, j)));
     }
   }
   return error / largest;
@@ -52,7 +52,8 @@ TEST(VaryingByImpulses, IsTheTripleGramianWithTheMeanOfTheLimits) {
   for (const auto& [degree, bound] : {std::pair{1, 1e-13}, {2, 1e-10}, {3, 1e-8}}) {
     for (const bool multiple : {false, true}) {
       for (int k = 0; k < 10; ++k) {
-        EXPECT_LT(error_of(random_case(degree, random, multiple), StepTimesImpulse::mean), bound) << degree;
+        EXPECT_LT(error_of(random_case(degree, random, multiple), StepTimesImpulse::mean), bound)
+            << degree;
       }
     }
   }
@@ -62,7 +63,8 @@ TEST(VaryingByImpulses, IsWrongWithOneOfTheLimits) {
   std::mt19937 random(6);
   for (const int degree : {1, 2, 3}) {
     for (int k = 0; k < 5; ++k) {
-      EXPECT_GT(error_of(random_case(degree, random, false), StepTimesImpulse::after), 0.1) << degree;
+      EXPECT_GT(error_of(random_case(degree, random, false), StepTimesImpulse::after), 0.1)
+          << degree;
     }
   }
 }

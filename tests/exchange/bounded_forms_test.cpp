@@ -23,9 +23,11 @@ struct BoundedForm {
   std::function<int(StepBuilder&)> make;
 };
 
-int rectangle(StepBuilder& b, int basis, double u1, double u2, double v1, double v2, const char* senses = ".T.,.T.") {
-  return b.entity(fmt::format("RECTANGULAR_TRIMMED_SURFACE('',#{},{},{},{},{},{})", basis, StepBuilder::real(u1),
-                              StepBuilder::real(u2), StepBuilder::real(v1), StepBuilder::real(v2), senses));
+int rectangle(StepBuilder& b, int basis, double u1, double u2, double v1, double v2,
+              const char* senses = ".T.,.T.") {
+  return b.entity(fmt::format("RECTANGULAR_TRIMMED_SURFACE('',#{},{},{},{},{},{})", basis,
+                              StepBuilder::real(u1), StepBuilder::real(u2), StepBuilder::real(v1),
+                              StepBuilder::real(v2), senses));
 }
 
 /// A rectangle of parameters as four PCURVEs, or a limited line each.
@@ -34,26 +36,30 @@ int bounded_by_pcurves(StepBuilder& b, int basis, double u1, double u2, double v
   std::vector<int> segments;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto &p = corner[k], &q = corner[(k + 1) % 4];
-    const int from =
-        b.entity(fmt::format("CARTESIAN_POINT('',({},{}))", StepBuilder::real(p[0]), StepBuilder::real(p[1])));
-    const int way =
-        b.entity(fmt::format("DIRECTION('',({},{}))", StepBuilder::real(q[0] - p[0]), StepBuilder::real(q[1] - p[1])));
+    const int from = b.entity(fmt::format("CARTESIAN_POINT('',({},{}))", StepBuilder::real(p[0]),
+                                          StepBuilder::real(p[1])));
+    const int way = b.entity(fmt::format("DIRECTION('',({},{}))", StepBuilder::real(q[0] - p[0]),
+                                         StepBuilder::real(q[1] - p[1])));
     const int vector = b.entity(fmt::format("VECTOR('',#{},2.)", way));
     const int line = b.entity(fmt::format("LINE('',#{},#{})", from, vector));
     const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
-    const int limited =
-        b.entity(fmt::format("TRIMMED_CURVE('',#{},(PARAMETER_VALUE(0.)),(PARAMETER_VALUE({})),.T.,.PARAMETER.)", line,
-                             StepBuilder::real(length / 2)));
-    const int flat = b.entity(
-        fmt::format("DEFINITIONAL_REPRESENTATION('',(#{}),#{})", limited, b.entity("REPRESENTATION_CONTEXT('','')")));
+    const int limited = b.entity(fmt::format(
+        "TRIMMED_CURVE('',#{},(PARAMETER_VALUE(0.)),(PARAMETER_VALUE({})),.T.,.PARAMETER.)", line,
+        StepBuilder::real(length / 2)));
+    const int flat = b.entity(fmt::format("DEFINITIONAL_REPRESENTATION('',(#{}),#{})", limited,
+                                          b.entity("REPRESENTATION_CONTEXT('','')")));
     const int pcurve = b.entity(fmt::format("PCURVE('',#{},#{})", basis, flat));
-    segments.push_back(b.entity(fmt::format("COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#{})", pcurve)));
+    segments.push_back(
+        b.entity(fmt::format("COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#{})", pcurve)));
   }
-  const int outer = b.entity(fmt::format("OUTER_BOUNDARY_CURVE('',({}),.F.)", StepBuilder::list_of(segments)));
+  const int outer =
+      b.entity(fmt::format("OUTER_BOUNDARY_CURVE('',({}),.F.)", StepBuilder::list_of(segments)));
   return b.entity(fmt::format("CURVE_BOUNDED_SURFACE('',#{},(#{}),.F.)", basis, outer));
 }
 
-int cylinder(StepBuilder& b) { return b.entity(fmt::format("CYLINDRICAL_SURFACE('',#{},1.5)", b.frame())); }
+int cylinder(StepBuilder& b) {
+  return b.entity(fmt::format("CYLINDRICAL_SURFACE('',#{},1.5)", b.frame()));
+}
 int line(StepBuilder& b) {
   const int vector = b.entity(fmt::format("VECTOR('',#{},0.5)", b.direction(0, 0, 1)));
   return b.entity(fmt::format("LINE('',#{},#{})", b.point(2, 0, 0), vector));
@@ -71,33 +77,40 @@ const std::vector<BoundedForm>& forms() {
        }},
       {"quarter_cylinder", 1.5 * pi / 2 * 4,
        [](StepBuilder& b) { return rectangle(b, cylinder(b), 1, 1 + pi / 2, -1, 3); }},
-      {"over_the_seam", 1.5 * 2, [](StepBuilder& b) { return rectangle(b, cylinder(b), 2 * pi - 1, 1, 0, 1); }},
-      {"whole_cylinder", 1.5 * 2 * pi * 2, [](StepBuilder& b) { return rectangle(b, cylinder(b), 0, 2 * pi, 0, 2); }},
+      {"over_the_seam", 1.5 * 2,
+       [](StepBuilder& b) { return rectangle(b, cylinder(b), 2 * pi - 1, 1, 0, 1); }},
+      {"whole_cylinder", 1.5 * 2 * pi * 2,
+       [](StepBuilder& b) { return rectangle(b, cylinder(b), 0, 2 * pi, 0, 2); }},
       {"cap", 2 * pi * 4 * 0.5,
        [](StepBuilder& b) {
-         return rectangle(b, b.entity(fmt::format("SPHERICAL_SURFACE('',#{},2.)", b.frame())), 0, 2 * pi, pi / 6,
-                          pi / 2);
+         return rectangle(b, b.entity(fmt::format("SPHERICAL_SURFACE('',#{},2.)", b.frame())), 0,
+                          2 * pi, pi / 6, pi / 2);
        }},
       {"torus_part", 0.5 * 1.5 * (3 * 1.5 + 0.5 * 2 * std::sin(0.75)),
        [](StepBuilder& b) {
-         return rectangle(b, b.entity(fmt::format("TOROIDAL_SURFACE('',#{},3.,0.5)", b.frame())), 1, 2.5, -0.75, 0.75);
+         return rectangle(b, b.entity(fmt::format("TOROIDAL_SURFACE('',#{},3.,0.5)", b.frame())), 1,
+                          2.5, -0.75, 0.75);
        }},
       {"cone", 0.5 * 2 * (1 + 3) * 2 * std::sqrt(2.0),
        [](StepBuilder& b) {
          return rectangle(b,
-                          b.entity(fmt::format("CONICAL_SURFACE('',#{},1.,{})", b.frame(), StepBuilder::real(pi / 4))),
+                          b.entity(fmt::format("CONICAL_SURFACE('',#{},1.,{})", b.frame(),
+                                               StepBuilder::real(pi / 4))),
                           0.5, 2.5, 0, 2);
        }},
       {"revolution", 2 * 2 * 0.75,
        [](StepBuilder& b) {
          const int axis = b.entity(fmt::format("AXIS1_PLACEMENT('',#{},$)", b.point(0, 0, 0)));
-         return rectangle(b, b.entity(fmt::format("SURFACE_OF_REVOLUTION('',#{},#{})", line(b), axis)), 0, 2, 0.5, 2);
+         return rectangle(b,
+                          b.entity(fmt::format("SURFACE_OF_REVOLUTION('',#{},#{})", line(b), axis)),
+                          0, 2, 0.5, 2);
        }},
       {"extrusion", 2 * 1.5,
        [](StepBuilder& b) {
          const int vector = b.entity(fmt::format("VECTOR('',#{},3.)", b.direction(0, 1, 0)));
-         return rectangle(b, b.entity(fmt::format("SURFACE_OF_LINEAR_EXTRUSION('',#{},#{})", line(b), vector)), 0, 4, 0,
-                          0.5);
+         return rectangle(
+             b, b.entity(fmt::format("SURFACE_OF_LINEAR_EXTRUSION('',#{},#{})", line(b), vector)),
+             0, 4, 0, 0.5);
        }},
       {"plane_by_pcurves", 6,
        [](StepBuilder& b) {
@@ -153,17 +166,20 @@ INSTANTIATE_TEST_SUITE_P(Forms, BoundedForms, ::testing::ValuesIn(forms()),
 
 TEST(BoundedForm, AnglesHaveTheUnitOfTheFile) {
   int made = 0;
-  const BoundedForm quarter{"", 1.5 * pi / 2 * 2,
-                            [](StepBuilder& b) { return rectangle(b, cylinder(b), 30, 120, 0, 2); }};
+  const BoundedForm quarter{"", 1.5 * pi / 2 * 2, [](StepBuilder& b) {
+                              return rectangle(b, cylinder(b), 30, 120, 0, 2);
+                            }};
   std::string text = file_of(quarter, made);
   const std::string radians = "(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))";
   const auto at = text.find(radians);
   ASSERT_NE(at, std::string::npos);
-  text.replace(at, radians.size(), "(CONVERSION_BASED_UNIT('DEGREE',#9001)NAMED_UNIT(#9003)PLANE_ANGLE_UNIT())");
-  text.insert(text.find("DATA;\r\n") + 7,
-              "#9001=PLANE_ANGLE_MEASURE_WITH_UNIT(PLANE_ANGLE_MEASURE(1.7453292519943295E-2),#9002);\r\n"
-              "#9002=" +
-                  radians + ";\r\n#9003=DIMENSIONAL_EXPONENTS(0.,0.,0.,0.,0.,0.,0.);\r\n");
+  text.replace(at, radians.size(),
+               "(CONVERSION_BASED_UNIT('DEGREE',#9001)NAMED_UNIT(#9003)PLANE_ANGLE_UNIT())");
+  text.insert(
+      text.find("DATA;\r\n") + 7,
+      "#9001=PLANE_ANGLE_MEASURE_WITH_UNIT(PLANE_ANGLE_MEASURE(1.7453292519943295E-2),#9002);\r\n"
+      "#9002=" +
+          radians + ";\r\n#9003=DIMENSIONAL_EXPONENTS(0.,0.,0.,0.,0.,0.,0.);\r\n");
   expect_area(*testing::open_or_die(text, "form.step"), quarter.area);
 }
 
@@ -172,9 +188,12 @@ TEST(BoundedForm, WhatCannotBeBoundedIsNamed) {
     int made = 0;
     const auto source = testing::open_or_die(file_of({"", 0, make}, made), "form.step");
     const auto mesh = model_faces(*source->model(), 1e-4);
-    return mesh && mesh->skipped.size() == 1 ? mesh->skipped[0].reason.message() : std::string("drawn");
+    return mesh && mesh->skipped.size() == 1 ? mesh->skipped[0].reason.message()
+                                             : std::string("drawn");
   };
-  EXPECT_NE(reason([](StepBuilder& b) { return rectangle(b, cylinder(b), 0, 1, 2, 2); }).find("enclose nothing"),
+  EXPECT_NE(reason([](StepBuilder& b) {
+              return rectangle(b, cylinder(b), 0, 1, 2, 2);
+            }).find("enclose nothing"),
             std::string::npos);
   EXPECT_NE(reason([](StepBuilder& b) {
               return b.entity(fmt::format("CURVE_BOUNDED_SURFACE('',#{},(),.T.)", cylinder(b)));

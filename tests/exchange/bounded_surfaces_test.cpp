@@ -49,7 +49,8 @@ TEST_P(BoundedSurfaces, AreFacesWithASharedEdge) {
     EXPECT_EQ(model.spline_under(model.faces[k])->id, sheets_.surfaces[k]);
     EXPECT_TRUE(model.surfaces[k].trimmed);
     EXPECT_EQ(model.surfaces[k].faces, 1);
-    for (const brep::Bound& bound : model.faces[k].bounds) EXPECT_FALSE(bound.wrong) << bound.wrong->message();
+    for (const brep::Bound& bound : model.faces[k].bounds)
+      EXPECT_FALSE(bound.wrong) << bound.wrong->message();
   }
   ASSERT_TRUE(model.assembly);
   ASSERT_EQ(model.assembly->parts.size(), 1U);
@@ -72,7 +73,8 @@ double roof_area(double from, double to) {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       const double x = from + (i + 0.5) * dx, y = (j + 0.5) * dy;
-      area += std::sqrt(1 + std::pow(0.1 * (4 - 2 * x), 2) + std::pow(0.15 * (2 - 2 * y), 2)) * dx * dy;
+      area +=
+          std::sqrt(1 + std::pow(0.1 * (4 - 2 * x), 2) + std::pow(0.15 * (2 - 2 * y), 2)) * dx * dy;
     }
   }
   return area;
@@ -84,7 +86,8 @@ TEST_P(BoundedSurfaces, AreMeshedAsTheyAreBounded) {
   EXPECT_TRUE(mesh->skipped.empty()) << mesh->skipped[0].reason.message();
   ASSERT_EQ(mesh->faces.size(), 2U);
   if (std::get<0>(GetParam()) == Bounding::holes) {
-    for (const FaceMesh& face : mesh->faces) EXPECT_LT(testing::area_of(face), 4 * sheets_.scale * sheets_.scale);
+    for (const FaceMesh& face : mesh->faces)
+      EXPECT_LT(testing::area_of(face), 4 * sheets_.scale * sheets_.scale);
   } else {
     const double scale = sheets_.scale * sheets_.scale;
     EXPECT_NEAR(testing::area_of(mesh->faces[0]), scale * roof_area(0, 2), 1e-3 * scale);
@@ -93,9 +96,11 @@ TEST_P(BoundedSurfaces, AreMeshedAsTheyAreBounded) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, BoundedSurfaces,
-                         ::testing::Combine(::testing::ValuesIn(all_boundings), ::testing::Values("m", "mm")),
+                         ::testing::Combine(::testing::ValuesIn(all_boundings),
+                                            ::testing::Values("m", "mm")),
                          [](const auto& instance) {
-                           return name_of(std::get<0>(instance.param)) + "_" + std::get<1>(instance.param);
+                           return name_of(std::get<0>(instance.param)) + "_" +
+                                  std::get<1>(instance.param);
                          });
 
 }  // namespace

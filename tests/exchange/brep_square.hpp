@@ -4,7 +4,8 @@
 
 namespace knead::testing {
 
-/// A bilinear face over the unit square, put 10 along x, with its triangles; its wire lists the edges out of order.
+/// A bilinear face over the unit square, put 10 along x, with its triangles; its wire lists the
+/// edges out of order.
 inline const std::string brep_square =
     "DBRep_DrawableShape\n\nCASCADE Topology V1, (c) Matra-Datavision\nLocations 1\n1\n"
     "1 0 0 10\n0 1 0 0\n0 0 1 0\n"

@@ -57,8 +57,9 @@ std::string error_of(const std::string& bytes, std::size_t most = max_file_size)
 
 /// As other programs write it: with a name, a date, an extra field and the checksum of the header.
 std::string gzip_by_another() {
-  const std::string header = std::string("\x1F\x8B\x08\x1E\x11\x22\x33\x44\x02\x03", 10) + std::string("\x02\0ab", 4) +
-                             std::string("part.step\0", 10) + std::string("a comment\0", 10) + "zz";
+  const std::string header = std::string("\x1F\x8B\x08\x1E\x11\x22\x33\x44\x02\x03", 10) +
+                             std::string("\x02\0ab", 4) + std::string("part.step\0", 10) +
+                             std::string("a comment\0", 10) + "zz";
   const std::string own = *compress(a_model(), Compression::gzip, "");
   return header + own.substr(10);
 }
@@ -86,7 +87,8 @@ TEST_P(Compressed, IsOpenedByItsContentUnderAnyName) {
     EXPECT_EQ(source->format(), "STEP");
     EXPECT_EQ(source->name(), name);
     ASSERT_EQ(source->surfaces().size(), 1U);
-    EXPECT_NE(source->remarks().front().find("compressed as " + std::string(name_of(GetParam()))), std::string::npos);
+    EXPECT_NE(source->remarks().front().find("compressed as " + std::string(name_of(GetParam()))),
+              std::string::npos);
   }
 }
 
@@ -101,7 +103,8 @@ TEST_P(Compressed, AnUnchangedFileKeepsItsBytesAndAChangedOneIsCompressedAgain) 
   const auto saved = source->save(std::array{moved});
   ASSERT_TRUE(saved);
   EXPECT_EQ(compression_of(*saved), GetParam());
-  EXPECT_EQ(uncompress(*saved), *plain->save(std::array{moved})) << "what is in it is what the plain file becomes";
+  EXPECT_EQ(uncompress(*saved), *plain->save(std::array{moved}))
+      << "what is in it is what the plain file becomes";
 }
 
 TEST_P(Compressed, IsDamagedWhereAnyPartOfItIsMissingOrAByteOfItsDataIsAnother) {
@@ -170,7 +173,8 @@ TEST(Gzip, ABombIsRefusedByWhatItStatesAndOneThatLiesAsSoonAsItGoesOn) {
 TEST(Zip, TheEntryKeepsItsNameItsDateAndItsAttributes) {
   std::string packed = *compress(a_model(), Compression::zip, "part \xC3\xA4.stp");
   const std::size_t directory = packed.find("PK\x01\x02");
-  for (const std::size_t head : {std::size_t{6}, directory + 8}) packed.replace(head + 4, 4, "\x21\x43\x65\x57");
+  for (const std::size_t head : {std::size_t{6}, directory + 8})
+    packed.replace(head + 4, 4, "\x21\x43\x65\x57");
   packed.replace(directory + 38, 4, std::string("\0\0\xA4\x81", 4));
   const auto changed = compress_like("changed", packed);
   ASSERT_TRUE(changed);
@@ -183,22 +187,23 @@ TEST(Zip, TheEntryKeepsItsNameItsDateAndItsAttributes) {
 }
 
 /// An archive of stored entries, without data descriptors.
-std::string stored(const std::vector<std::pair<std::string, std::string>>& entries, unsigned flags = 0,
-                   unsigned method = 0) {
+std::string stored(const std::vector<std::pair<std::string, std::string>>& entries,
+                   unsigned flags = 0, unsigned method = 0) {
   std::string text, directory;
   for (const auto& [name, bytes] : entries) {
     const auto crc = crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
-    const std::string common = little_endian(20, 2) + little_endian(flags, 2) + little_endian(method, 2) +
-                               little_endian(0, 4) + little_endian(crc, 4) + little_endian(bytes.size(), 4) +
-                               little_endian(bytes.size(), 4) + little_endian(name.size(), 2) + little_endian(0, 2);
-    directory +=
-        "PK\x01\x02" + little_endian(20, 2) + common + little_endian(0, 10) + little_endian(text.size(), 4) + name;
+    const std::string common =
+        little_endian(20, 2) + little_endian(flags, 2) + little_endian(method, 2) +
+        little_endian(0, 4) + little_endian(crc, 4) + little_endian(bytes.size(), 4) +
+        little_endian(bytes.size(), 4) + little_endian(name.size(), 2) + little_endian(0, 2);
+    directory += "PK\x01\x02" + little_endian(20, 2) + common + little_endian(0, 10) +
+                 little_endian(text.size(), 4) + name;
     text += "PK\x03\x04" + common + name + bytes;
   }
   const std::size_t begin = text.size();
   return text + directory + "PK\x05\x06" + little_endian(0, 4) + little_endian(entries.size(), 2) +
-         little_endian(entries.size(), 2) + little_endian(directory.size(), 4) + little_endian(begin, 4) +
-         little_endian(9, 2) + "a comment";
+         little_endian(entries.size(), 2) + little_endian(directory.size(), 4) +
+         little_endian(begin, 4) + little_endian(9, 2) + "a comment";
 }
 
 TEST(Zip, AStoredEntryIsReadAndStaysStored) {
@@ -212,7 +217,8 @@ TEST(Zip, AStoredEntryIsReadAndStaysStored) {
 }
 
 TEST(Zip, SeveralEntriesNoneEncryptedOnesAndOtherMethodsAreRefusedByName) {
-  EXPECT_NE(error_of(stored({{"a.stp", a_model()}, {"b.stp", a_model()}})).find("holds 2 files"), std::string::npos);
+  EXPECT_NE(error_of(stored({{"a.stp", a_model()}, {"b.stp", a_model()}})).find("holds 2 files"),
+            std::string::npos);
   EXPECT_NE(error_of(stored({{"a.stp", a_model()}}, 1)).find("encrypted"), std::string::npos);
   EXPECT_NE(error_of(stored({{"a.stp", a_model()}}, 0, 12)).find("method 12"), std::string::npos);
   std::string large = stored({{"a.stp", a_model()}});

@@ -23,7 +23,8 @@ class Corpus : public testing::FileTest {};
 // Points of a surface moved: all, or one, or one row, each by its own vector.
 Points moved(const Surface& surface, const std::string& pattern) {
   Points points = surface.control_points();
-  const double size = 1e-3 * std::max(1e-6, (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm());
+  const double size =
+      1e-3 * std::max(1e-6, (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm());
   for (Eigen::Index k = 0; k < points.rows(); ++k) {
     const bool moves = pattern == "all" || (pattern == "one" && k == points.rows() / 2) ||
                        (pattern == "row" && k / surface.net()[1] == surface.net()[0] - 1);
@@ -40,21 +41,24 @@ std::string skeleton(const Part21File& file, const Part21Instance& instance) {
   std::uint32_t at = instance.bytes.begin;
   for (auto k = instance.first; k < instance.last; ++k) {
     const auto kind = file.value(k).kind;
-    if (kind != Part21Kind::real && kind != Part21Kind::integer && kind != Part21Kind::reference) continue;
+    if (kind != Part21Kind::real && kind != Part21Kind::integer && kind != Part21Kind::reference)
+      continue;
     text += file.text(ByteRange{at, file.range(k).begin});
     at = file.range(k).end;
   }
   return text + std::string(file.text(ByteRange{at, instance.bytes.end}));
 }
 
-// Everything in `after` that differs from `before`, held against what may differ: numbers and references in records of
-// edited surfaces (anything where they were refined), numbers in points that only these use.
+// Everything in `after` that differs from `before`, held against what may differ: numbers and
+// references in records of edited surfaces (anything where they were refined), numbers in points
+// that only these use.
 void expect_only_surfaces_differ(const step::File& before, const std::string& after,
                                  const std::set<std::string>& edited, bool refined = false) {
   const auto a = *Part21File::parse(before.bytes(), "before");
   const auto b = *Part21File::parse(after, "after");
   std::set<std::uint64_t> surfaces;
-  std::map<std::uint64_t, std::uint32_t> own;  // control points of edited surfaces, and how often these use them
+  std::map<std::uint64_t, std::uint32_t>
+      own;  // control points of edited surfaces, and how often these use them
   for (const auto& id : edited) {
     const auto name = std::stoull(id.substr(1));
     surfaces.insert(name);
@@ -69,7 +73,8 @@ void expect_only_surfaces_differ(const step::File& before, const std::string& af
   for (const auto& record : a.instances()) {
     ASSERT_LT(next, b.instances().size());
     const auto* other = &b.instances()[next++];
-    EXPECT_EQ(a.text(ByteRange{end_a, record.bytes.begin}), b.text(ByteRange{end_b, other->bytes.begin}))
+    EXPECT_EQ(a.text(ByteRange{end_a, record.bytes.begin}),
+              b.text(ByteRange{end_b, other->bytes.begin}))
         << "before #" << record.id;
     ASSERT_EQ(record.id, other->id);
     end_a = record.bytes.end;
@@ -83,11 +88,13 @@ void expect_only_surfaces_differ(const step::File& before, const std::string& af
       }
     }
     // New records stand behind the surface they belong to.
-    while (surfaces.contains(record.id) && next < b.instances().size() && b.instances()[next].id > a.largest_id()) {
+    while (surfaces.contains(record.id) && next < b.instances().size() &&
+           b.instances()[next].id > a.largest_id()) {
       const auto& added = b.instances()[next++];
       EXPECT_EQ(b.keyword(added.first), "CARTESIAN_POINT");
       EXPECT_GE(added.uses, 1U);
-      EXPECT_TRUE(b.text(ByteRange{end_b, added.bytes.begin}).find_first_not_of("\r\n") == std::string_view::npos);
+      EXPECT_TRUE(b.text(ByteRange{end_b, added.bytes.begin}).find_first_not_of("\r\n") ==
+                  std::string_view::npos);
       end_b = added.bytes.end;
     }
   }
@@ -95,7 +102,8 @@ void expect_only_surfaces_differ(const step::File& before, const std::string& af
   EXPECT_EQ(a.bytes().substr(end_a), b.bytes().substr(end_b));
 }
 
-void edit_and_compare(const step::File& file, const std::vector<std::size_t>& which, const std::string& pattern) {
+void edit_and_compare(const step::File& file, const std::vector<std::size_t>& which,
+                      const std::string& pattern) {
   std::vector<step::Edit> edits;
   std::set<std::string> ids;
   for (const auto k : which) {
@@ -131,7 +139,8 @@ TEST_P(Corpus, WithoutEditsComesBackByteForByte) {
   EXPECT_EQ(file->bytes(), *bytes);
   EXPECT_EQ(file->with_control_points({}), *bytes);
   std::vector<step::Edit> same;
-  for (const auto& surface : file->surfaces()) same.push_back({surface.id, surface.surface.control_points()});
+  for (const auto& surface : file->surfaces())
+    same.push_back({surface.id, surface.surface.control_points()});
   EXPECT_EQ(file->with_control_points(same), *bytes);
 }
 
@@ -180,7 +189,8 @@ TEST_P(Corpus, AllSurfacesRefinedReadBackExactly) {
     const auto& now = again->surfaces()[k];
     EXPECT_EQ(now.id, old.id);
     EXPECT_EQ(now.surface.knots(), refined[k].surface.knots()) << old.id;
-    EXPECT_TRUE(same_bits(now.surface.control_points(), refined[k].surface.control_points())) << old.id;
+    EXPECT_TRUE(same_bits(now.surface.control_points(), refined[k].surface.control_points()))
+        << old.id;
     EXPECT_TRUE(std::ranges::equal(now.surface.weights(), refined[k].surface.weights())) << old.id;
     EXPECT_EQ(now.name, old.name);
     EXPECT_EQ(now.unit, old.unit);
@@ -189,7 +199,8 @@ TEST_P(Corpus, AllSurfacesRefinedReadBackExactly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Step, Corpus, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Step, Corpus, ::testing::ValuesIn(testing::step_files()),
+                         testing::file_test_name);
 
 TEST(ForeignFiles, AreAllListed) {
   const std::filesystem::path folder = testing::foreign_cad("");
@@ -202,7 +213,8 @@ TEST(ForeignFiles, AreAllListed) {
   list(testing::foreign_text);
   list(testing::foreign_rhino);
   std::set<std::string> there;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) there.insert(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    there.insert(entry.path().filename().string());
   EXPECT_EQ(there, listed) << "tests/support/foreign_files.hpp lists them";
 }
 

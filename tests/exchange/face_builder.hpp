@@ -38,7 +38,8 @@ class FaceBuilder {
   }
   int line(int from, int to, std::array<double, 3> at, std::array<double, 3> way) {
     const int p = point(at[0], at[1], at[2]);
-    const int vector = entity("VECTOR('',#" + std::to_string(direction(way[0], way[1], way[2])) + ",1.)");
+    const int vector =
+        entity("VECTOR('',#" + std::to_string(direction(way[0], way[1], way[2])) + ",1.)");
     return edge(from, to, "LINE('',#" + std::to_string(p) + ",#" + std::to_string(vector) + ")");
   }
   int edge(int from, int to, const std::string& curve, bool same_sense = true) {
@@ -55,7 +56,8 @@ class FaceBuilder {
   int bound(const std::vector<int>& edges, bool orientation = true) {
     std::string list;
     for (const int e : edges) {
-      const int oriented = entity("ORIENTED_EDGE('',*,*,#" + std::to_string(std::abs(e)) + (e > 0 ? ",.T.)" : ",.F.)"));
+      const int oriented = entity("ORIENTED_EDGE('',*,*,#" + std::to_string(std::abs(e)) +
+                                  (e > 0 ? ",.T.)" : ",.F.)"));
       list += (list.empty() ? "#" : ",#") + std::to_string(oriented);
     }
     const int loop = entity("EDGE_LOOP('',(" + list + "))");
@@ -67,7 +69,8 @@ class FaceBuilder {
   }
   int polygon_bound(const std::vector<std::array<double, 3>>& corners) {
     std::string list;
-    for (const auto& c : corners) list += (list.empty() ? "#" : ",#") + std::to_string(point(c[0], c[1], c[2]));
+    for (const auto& c : corners)
+      list += (list.empty() ? "#" : ",#") + std::to_string(point(c[0], c[1], c[2]));
     const int loop = entity("POLY_LOOP('',(" + list + "))");
     return entity("FACE_OUTER_BOUND('',#" + std::to_string(loop) + ",.T.)");
   }
@@ -93,6 +96,8 @@ class FaceBuilder {
 inline const std::string square = unit_square_points() + bilinear_patch();
 
 /// The faces on it.
-inline step::File on_square(const FaceBuilder& builder) { return parse_or_die(step_text(square + builder.text())); }
+inline step::File on_square(const FaceBuilder& builder) {
+  return parse_or_die(step_text(square + builder.text()));
+}
 
 }  // namespace knead::testing

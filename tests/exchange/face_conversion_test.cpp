@@ -22,7 +22,8 @@ constexpr double pi = std::numbers::pi;
 /// Of rounding: every control point is a few products and sums of numbers of that size.
 constexpr double exact = 1e-14;
 
-/// The distance of a point from the analytic surface, and the gradient of what is zero on it, towards its normal.
+/// The distance of a point from the analytic surface, and the gradient of what is zero on it,
+/// towards its normal.
 struct Analytic {
   std::function<double(const Point&)> distance;
   std::function<Point(const Point&)> normal;
@@ -44,7 +45,8 @@ void expect_exact(const Surface& surface, const Analytic& truth, double size) {
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; j <= n; ++j) {
       Parameters<2> at(1, 2);
-      at << (i == n ? u.upper : u.lower + u.length() * i / n), (j == n ? v.upper : v.lower + v.length() * j / n);
+      at << (i == n ? u.upper : u.lower + u.length() * i / n),
+          (j == n ? v.upper : v.lower + v.length() * j / n);
       const auto jet = evaluate<2>(surface, at, 1);
       ASSERT_TRUE(jet) << jet.error().message();
       const Point p = jet->at({0, 0}).row(0);
@@ -80,21 +82,25 @@ Analytic cylinder(double radius) {
 
 std::string at_origin(FaceBuilder& b) { return "#" + std::to_string(b.frame()); }
 
-/// A sector of a surface of revolution between two angles and two heights, bounded by arcs and straight lines.
-int sector(FaceBuilder& b, int surface, double r0, double z0, double r1, double z1, double from, double to) {
+/// A sector of a surface of revolution between two angles and two heights, bounded by arcs and
+/// straight lines.
+int sector(FaceBuilder& b, int surface, double r0, double z0, double r1, double z1, double from,
+           double to) {
   const auto at = [](double r, double z, double angle) {
     return std::array<double, 3>{r * std::cos(angle), r * std::sin(angle), z};
   };
   const auto vertex = [&](const auto& p) { return b.vertex(p[0], p[1], p[2]); };
   const auto arc = [&](double r, double z, int a, int c) {
-    return b.edge(a, c, "CIRCLE('',#" + std::to_string(b.frame(0, 0, z)) + "," + FaceBuilder::real(r) + ")");
+    return b.edge(
+        a, c, "CIRCLE('',#" + std::to_string(b.frame(0, 0, z)) + "," + FaceBuilder::real(r) + ")");
   };
   const auto line = [&](int a, int c, const auto& p, const auto& q) {
     return b.line(a, c, p, {q[0] - p[0], q[1] - p[1], q[2] - p[2]});
   };
   const auto p = at(r0, z0, from), q = at(r0, z0, to), r = at(r1, z1, to), s = at(r1, z1, from);
   const int a = vertex(p), c = vertex(q), d = vertex(r), e = vertex(s);
-  const int lower = arc(r0, z0, a, c), right = line(c, d, q, r), upper = arc(r1, z1, e, d), left = line(e, a, s, p);
+  const int lower = arc(r0, z0, a, c), right = line(c, d, q, r), upper = arc(r1, z1, e, d),
+            left = line(e, a, s, p);
   return b.face(surface, {b.bound({lower, right, -upper, left})});
 }
 
@@ -102,7 +108,8 @@ int sector(FaceBuilder& b, int surface, double r0, double z0, double r1, double 
 int tube(FaceBuilder& b, int surface, double r0, double z0, double r1, double z1) {
   const int a = b.vertex(r0, 0, z0), c = b.vertex(r1, 0, z1);
   const auto circle = [&](double r, double z, int v) {
-    return b.edge(v, v, "CIRCLE('',#" + std::to_string(b.frame(0, 0, z)) + "," + FaceBuilder::real(r) + ")");
+    return b.edge(
+        v, v, "CIRCLE('',#" + std::to_string(b.frame(0, 0, z)) + "," + FaceBuilder::real(r) + ")");
   };
   const int lower = circle(r0, z0, a), upper = circle(r1, z1, c);
   const int seam = b.line(a, c, {r0, 0, z0}, {r1 - r0, 0, z1 - z0});
@@ -113,8 +120,10 @@ TEST(ExactSpline, OfAPlaneIsTheRectangleOfEdgesThatAreParallelToOneAnother) {
   // Turned by 0.3 against the axes of the plane's placement.
   FaceBuilder b;
   const double c = std::cos(0.3), s = std::sin(0.3);
-  const std::array<std::array<double, 3>, 4> corner = {
-      {{1, 2, 5}, {1 + 4 * c, 2 + 4 * s, 5}, {1 + 4 * c - 3 * s, 2 + 4 * s + 3 * c, 5}, {1 - 3 * s, 2 + 3 * c, 5}}};
+  const std::array<std::array<double, 3>, 4> corner = {{{1, 2, 5},
+                                                        {1 + 4 * c, 2 + 4 * s, 5},
+                                                        {1 + 4 * c - 3 * s, 2 + 4 * s + 3 * c, 5},
+                                                        {1 - 3 * s, 2 + 3 * c, 5}}};
   std::array<int, 4> v{}, e{};
   for (std::size_t k = 0; k < 4; ++k) v[k] = b.vertex(corner[k][0], corner[k][1], corner[k][2]);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -129,9 +138,12 @@ TEST(ExactSpline, OfAPlaneIsTheRectangleOfEdgesThatAreParallelToOneAnother) {
   EXPECT_FALSE(made.rational());
   for (const auto& p : corner) {
     const Point point(p[0], p[1], p[2]);
-    EXPECT_LE((made.control_points().rowwise() - point.transpose()).rowwise().norm().minCoeff(), exact * 10);
+    EXPECT_LE((made.control_points().rowwise() - point.transpose()).rowwise().norm().minCoeff(),
+              exact * 10);
   }
-  expect_exact(made, {[](const Point& p) { return p.z() - 5; }, [](const Point&) { return Point(Point::UnitZ()); }},
+  expect_exact(made,
+               {[](const Point& p) { return p.z() - 5; },
+                [](const Point&) { return Point(Point::UnitZ()); }},
                10);
   expect_covers(file, plane);
   const std::string id = "#" + std::to_string(plane);
@@ -181,33 +193,38 @@ TEST(ExactSpline, OfAWholeCylinderIsClosedBitForBitAtItsSeam) {
 
 TEST(ExactSpline, OfAConeEndsAtItsApex) {
   FaceBuilder b;
-  const int surface = b.entity("CONICAL_SURFACE(''," + at_origin(b) + ",2.," + FaceBuilder::real(pi / 6) + ")");
+  const int surface =
+      b.entity("CONICAL_SURFACE(''," + at_origin(b) + ",2.," + FaceBuilder::real(pi / 6) + ")");
   const double t = std::tan(pi / 6), apex = -2 / t;
   tube(b, surface, 2 - 0.5 * t, -0.5, 2 + 3 * t, 3);
-  const int tip = b.entity("CONICAL_SURFACE(''," + at_origin(b) + ",2.," + FaceBuilder::real(pi / 6) + ")");
+  const int tip =
+      b.entity("CONICAL_SURFACE(''," + at_origin(b) + ",2.," + FaceBuilder::real(pi / 6) + ")");
   const int v = b.vertex(2, 0, 0);
   const int rim = b.edge(v, v, "CIRCLE(''," + at_origin(b) + ",2.)");
   b.face(tip, {b.bound({-rim}), b.vertex_bound(0, 0, apex)});
   const File file = b.file();
-  const Analytic truth = {
-      [=](const Point& p) { return (std::hypot(p.x(), p.y()) - (2 + p.z() * t)) * std::cos(pi / 6); },
-      [=](const Point& p) {
-        const double r = std::hypot(p.x(), p.y());
-        return Point(p.x() / r, p.y() / r, -t).normalized();
-      }};
+  const Analytic truth = {[=](const Point& p) {
+                            return (std::hypot(p.x(), p.y()) - (2 + p.z() * t)) * std::cos(pi / 6);
+                          },
+                          [=](const Point& p) {
+                            const double r = std::hypot(p.x(), p.y());
+                            return Point(p.x() / r, p.y() / r, -t).normalized();
+                          }};
   expect_exact(converted(file, surface), truth, 8);
   expect_covers(file, surface);
   const Surface to_apex = converted(file, tip);
   expect_exact(to_apex, truth, 8);
   for (Eigen::Index k = 0; k < to_apex.size(); k += 2) {
-    EXPECT_EQ(to_apex.control_points().row(k), to_apex.control_points().row(0)) << "one point at the apex";
+    EXPECT_EQ(to_apex.control_points().row(k), to_apex.control_points().row(0))
+        << "one point at the apex";
   }
   EXPECT_NEAR(to_apex.control_points()(0, 2), apex, exact * 8);
 }
 
 TEST(ExactSpline, OfAWholeSphereHasItsPoles) {
   FaceBuilder b;
-  const int surface = b.entity("SPHERICAL_SURFACE('',#" + std::to_string(b.frame(1, 2, 3)) + ",2.)");
+  const int surface =
+      b.entity("SPHERICAL_SURFACE('',#" + std::to_string(b.frame(1, 2, 3)) + ",2.)");
   b.face(surface, {b.vertex_bound(1, 2, 5)});
   const Surface made = converted(b.file(), surface);
   EXPECT_EQ(made.net(), (std::array{9, 5}));
@@ -227,12 +244,17 @@ TEST(ExactSpline, OfACapOfASphereReachesOnePole) {
   const Surface made = converted(file, surface);
   EXPECT_NEAR(made.knots(1).domain().lower, std::asin(z / 2), 1e-12);
   EXPECT_EQ(made.knots(1).domain().upper, pi / 2);
-  expect_exact(made, {[](const Point& p) { return p.norm() - 2; }, [](const Point& p) { return p.normalized(); }}, 2);
+  expect_exact(
+      made,
+      {[](const Point& p) { return p.norm() - 2; }, [](const Point& p) { return p.normalized(); }},
+      2);
   expect_covers(file, surface);
 }
 
 Analytic torus(double major, double minor) {
-  const auto from_ring = [=](const Point& p) { return Point(p - major * Point(p.x(), p.y(), 0).normalized()); };
+  const auto from_ring = [=](const Point& p) {
+    return Point(p - major * Point(p.x(), p.y(), 0).normalized());
+  };
   return {[=](const Point& p) { return from_ring(p).norm() - minor; },
           [=](const Point& p) { return from_ring(p).normalized(); }};
 }
@@ -245,7 +267,8 @@ TEST(ExactSpline, OfATorusIsWholeOrAPart) {
   const int v = b.vertex(6.5, 0, 0);
   const int ring = b.edge(v, v, "CIRCLE(''," + at_origin(b) + ",6.5)");
   const int frame = b.entity("AXIS2_PLACEMENT_3D('',#" + std::to_string(b.point(5, 0, 0)) + ",#" +
-                             std::to_string(b.direction(0, -1, 0)) + ",#" + std::to_string(b.direction(1, 0, 0)) + ")");
+                             std::to_string(b.direction(0, -1, 0)) + ",#" +
+                             std::to_string(b.direction(1, 0, 0)) + ")");
   const int tube_edge = b.edge(v, v, "CIRCLE('',#" + std::to_string(frame) + ",1.5)");
   b.face(whole, {b.bound({ring, tube_edge, -ring, -tube_edge})});
   const File file = b.file();
@@ -261,10 +284,11 @@ TEST(ExactSpline, OfAnExtrusionSweepsItsCurve) {
   const int direction = b.direction(0, 0, 1);
   const int vector = b.entity("VECTOR('',#" + std::to_string(direction) + ",3.)");
   const int ellipse = b.entity("ELLIPSE(''," + at_origin(b) + ",4.,2.)");
-  const int surface =
-      b.entity("SURFACE_OF_LINEAR_EXTRUSION('',#" + std::to_string(ellipse) + ",#" + std::to_string(vector) + ")");
+  const int surface = b.entity("SURFACE_OF_LINEAR_EXTRUSION('',#" + std::to_string(ellipse) + ",#" +
+                               std::to_string(vector) + ")");
   // From angle 0 to a right angle, heights 1 to 2.
-  const int a = b.vertex(4, 0, 1), c = b.vertex(0, 2, 1), d = b.vertex(0, 2, 2), e = b.vertex(4, 0, 2);
+  const int a = b.vertex(4, 0, 1), c = b.vertex(0, 2, 1), d = b.vertex(0, 2, 2),
+            e = b.vertex(4, 0, 2);
   const auto arc = [&](int from, int to, double z) {
     return b.edge(from, to, "ELLIPSE('',#" + std::to_string(b.frame(0, 0, z)) + ",4.,2.)");
   };
@@ -273,7 +297,8 @@ TEST(ExactSpline, OfAnExtrusionSweepsItsCurve) {
   const File file = b.file();
   const Surface made = converted(file, surface);
   EXPECT_EQ(made.net(), (std::array{3, 2}));
-  const Point lower = made.control_points().colwise().minCoeff(), upper = made.control_points().colwise().maxCoeff();
+  const Point lower = made.control_points().colwise().minCoeff(),
+              upper = made.control_points().colwise().maxCoeff();
   EXPECT_NEAR(lower.z(), 1, exact * 4);
   EXPECT_NEAR(upper.z(), 2, exact * 4);
   expect_exact(made,
@@ -287,10 +312,13 @@ TEST(ExactSpline, OfARevolutionTurnsItsCurve) {
   // A line askew to the axis sweeps the hyperboloid x² + y² = 1 + z².
   FaceBuilder b;
   const int vector = b.entity("VECTOR('',#" + std::to_string(b.direction(0, 1, 1)) + ",1.)");
-  const int line = b.entity("LINE('',#" + std::to_string(b.point(1, 0, 0)) + ",#" + std::to_string(vector) + ")");
+  const int line = b.entity("LINE('',#" + std::to_string(b.point(1, 0, 0)) + ",#" +
+                            std::to_string(vector) + ")");
   const int axis = b.entity("AXIS1_PLACEMENT('',#" + std::to_string(b.point(0, 0, 0)) + ",$)");
-  const int surface = b.entity("SURFACE_OF_REVOLUTION('',#" + std::to_string(line) + ",#" + std::to_string(axis) + ")");
-  b.face(surface, {b.bound({b.circle(std::sqrt(2.0), 1)}), b.bound({-b.circle(std::sqrt(5.0), 2)})});
+  const int surface = b.entity("SURFACE_OF_REVOLUTION('',#" + std::to_string(line) + ",#" +
+                               std::to_string(axis) + ")");
+  b.face(surface,
+         {b.bound({b.circle(std::sqrt(2.0), 1)}), b.bound({-b.circle(std::sqrt(5.0), 2)})});
   const File file = b.file();
   const Surface made = converted(file, surface);
   EXPECT_EQ(made.net(), (std::array{9, 2}));
@@ -316,7 +344,8 @@ TEST(ExactSpline, OfSeveralFacesOnOneCylinderCoversThemAll) {
   const Surface whole = converted(halves.file(), both);
   EXPECT_NEAR(whole.knots(0).domain().length(), 2 * pi, 1e-12);
   EXPECT_EQ(whole.control_points().topRows(2), whole.control_points().bottomRows(2));
-  EXPECT_NEAR(std::remainder(whole.knots(0).domain().lower - 0.7, pi), 0, 1e-9) << "the seam is at an edge";
+  EXPECT_NEAR(std::remainder(whole.knots(0).domain().lower - 0.7, pi), 0, 1e-9)
+      << "the seam is at an edge";
 }
 
 TEST(ExactSpline, WhatCannotBeConvertedIsSaid) {
@@ -335,65 +364,6 @@ TEST(ExactSpline, WhatCannotBeConvertedIsSaid) {
   ASSERT_EQ(other_surfaces(other.model()).size(), 1U);
   EXPECT_EQ(other_surfaces(other.model())[0].form, "OFFSET_SURFACE");
   EXPECT_FALSE(exact_spline(other.model(), other_surfaces(other.model())[0].id));
-}
-
-TEST(WithSplines, TheRecordKeepsItsNameAndAllElseItsBytes) {
-  const testing::TwoSheets sheets = testing::two_sheets(false, true);
-  const File file = parse_or_die(sheets.text);
-  ASSERT_EQ(other_surfaces(file.model()).size(), 1U);
-  EXPECT_EQ(other_surfaces(file.model())[0].id, "#20");
-  EXPECT_EQ(other_surfaces(file.model())[0].form, "PLANE");
-  const std::string by_face = testing::TwoSheets::name(sheets.faces[1]);
-  const auto after = with_splines(file, {&by_face, 1});
-  ASSERT_TRUE(after) << after.error().message();
-  EXPECT_TRUE(other_surfaces(after->model()).empty());
-  const std::string &before = file.bytes(), &now = after->bytes();
-  const std::size_t at = before.find("PLANE(");
-  EXPECT_EQ(now.substr(0, at), before.substr(0, at));
-  const std::string rest = before.substr(before.find(";\n", at) + 1);
-  EXPECT_EQ(now.substr(now.size() - rest.size()), rest);
-  ASSERT_EQ(after->surfaces().size(), 2U);
-  EXPECT_EQ(after->model().find_surface("#20")->faces, 1);
-  const auto edge = SharedEdge::create(after->model(), testing::TwoSheets::name(sheets.edge));
-  ASSERT_TRUE(edge) << edge.error().message();
-  EXPECT_LE(edge->gap(), exact * 2);
-  EXPECT_LE(edge->angle(), 1e-9);
-}
-
-TEST(WithSplines, ParameterCurvesOnTheSurfaceAreDropped) {
-  // The edge of both faces has a PCURVE on each, and another surface trims the plane.
-  testing::TwoSheets sheets = testing::two_sheets(false, true);
-  std::string text = sheets.text;
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-  };
-  const auto curve_of = [&](int edge) {
-    const std::string record = text.substr(text.find("#" + std::to_string(edge) + "=EDGE_CURVE("));
-    const std::size_t last = record.find(",.T.);");
-    const std::size_t begin = record.rfind(',', last - 1) + 1;
-    return record.substr(begin, last - begin);
-  };
-  const std::string shared = curve_of(sheets.edge);
-  replace("," + shared + ",.T.);", ",#50,.T.);");
-  replace("ENDSEC;\nEND-ISO", "#50=INTERSECTION_CURVE(''," + shared +
-                                  ",(#51,#52),.PCURVE_S2.);\n#51=PCURVE('',#10,#60);\n#52=PCURVE('',#20,#60);\n"
-                                  "#60=DEFINITIONAL_REPRESENTATION('',(),#61);\n#61=REPRESENTATION_CONTEXT('','');\n"
-                                  "#62=OFFSET_SURFACE('',#20,0.1,.F.);\nENDSEC;\nEND-ISO");
-  const File file = parse_or_die(text);
-  const std::string id = "#20";
-  const auto after = with_splines(file, {&id, 1});
-  ASSERT_TRUE(after) << after.error().message();
-  const std::string& now = after->bytes();
-  EXPECT_NE(now.find("#50=SURFACE_CURVE(''," + shared + ",(#51),.CURVE_3D.);"), std::string::npos) << now;
-  const std::size_t copy = now.find("=PLANE(");
-  ASSERT_NE(copy, std::string::npos);
-  const std::size_t begin = now.rfind('#', copy);
-  const std::string old = now.substr(begin, copy - begin);
-  EXPECT_NE(now.find("#52=PCURVE(''," + old + ",#60);"), std::string::npos) << now;
-  EXPECT_NE(now.find("#62=OFFSET_SURFACE(''," + old + ",0.1,.F.);"), std::string::npos) << now;
-  EXPECT_NE(now.find("#20=B_SPLINE_SURFACE_WITH_KNOTS("), std::string::npos);
 }
 
 }  // namespace

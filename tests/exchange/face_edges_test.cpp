@@ -17,7 +17,8 @@ using testing::on_square;
 using testing::square;
 
 TEST(FaceEdges, ASurfaceWithoutAFaceIsWholeWithinItsSides) {
-  const auto region = visible_region(testing::parse_or_die(testing::step_text(square)).model(), "#10");
+  const auto region =
+      visible_region(testing::parse_or_die(testing::step_text(square)).model(), "#10");
   ASSERT_TRUE(region);
   EXPECT_TRUE(region->faces.empty());
   std::vector<std::string> sides;
@@ -35,7 +36,8 @@ TEST(FaceEdges, ASurfaceWithoutAFaceIsWholeWithinItsSides) {
 }
 
 TEST(FaceEdges, AnUnknownSurfaceIsNamed) {
-  const auto region = visible_region(testing::parse_or_die(testing::step_text(square)).model(), "#11");
+  const auto region =
+      visible_region(testing::parse_or_die(testing::step_text(square)).model(), "#11");
   ASSERT_FALSE(region);
   EXPECT_EQ(region.error().where, "#11");
 }
@@ -56,7 +58,8 @@ TEST(FaceEdges, ACircleIsFollowedInParametersAndKeepsItsName) {
   for (std::size_t k = 0; k + 1 < edge.course.size(); ++k) {
     EXPECT_NEAR((edge.course[k] - Eigen::Vector2d(0.5, 0.5)).norm(), 0.4, 1e-9);
     // The middles of the chords too, to the deviation that is stated.
-    EXPECT_NEAR((0.5 * (edge.course[k] + edge.course[k + 1]) - Eigen::Vector2d(0.5, 0.5)).norm(), 0.4, edge.deviation);
+    EXPECT_NEAR((0.5 * (edge.course[k] + edge.course[k + 1]) - Eigen::Vector2d(0.5, 0.5)).norm(),
+                0.4, edge.deviation);
   }
   EXPECT_LE(edge.deviation, 1e-3);
   EXPECT_TRUE(region->contains({0.5, 0.5}));
@@ -65,11 +68,12 @@ TEST(FaceEdges, ACircleIsFollowedInParametersAndKeepsItsName) {
 
 TEST(FaceEdges, FacesThatMeetAtAnEdgeAreItsNeighbours) {
   FaceBuilder b;
-  const int a = b.vertex(0.5, 0, 0), c = b.vertex(0.5, 1, 0), left = b.vertex(0, 0, 0), top = b.vertex(0, 1, 0);
+  const int a = b.vertex(0.5, 0, 0), c = b.vertex(0.5, 1, 0), left = b.vertex(0, 0, 0),
+            top = b.vertex(0, 1, 0);
   const int shared = b.line(a, c, {0.5, 0, 0}, {0, 1, 0});
-  const int first =
-      b.face(10, {b.bound({b.line(left, a, {0, 0, 0}, {1, 0, 0}), shared, b.line(c, top, {0.5, 1, 0}, {-1, 0, 0}),
-                           b.line(top, left, {0, 1, 0}, {0, -1, 0})})});
+  const int first = b.face(10, {b.bound({b.line(left, a, {0, 0, 0}, {1, 0, 0}), shared,
+                                         b.line(c, top, {0.5, 1, 0}, {-1, 0, 0}),
+                                         b.line(top, left, {0, 1, 0}, {0, -1, 0})})});
   const int plane = b.entity("PLANE('',#" + std::to_string(b.frame()) + ")");
   const int other = b.face(plane, {b.bound({-shared})});
   const auto region = visible_region(on_square(b).model(), "#10");
@@ -77,7 +81,8 @@ TEST(FaceEdges, FacesThatMeetAtAnEdgeAreItsNeighbours) {
   ASSERT_EQ(region->edges.size(), 4U);
   for (const TrimEdge& edge : region->edges) {
     if (edge.id == "#" + std::to_string(shared)) {
-      EXPECT_EQ(edge.neighbours, (std::vector<std::string>{"#" + std::to_string(first), "#" + std::to_string(other)}));
+      EXPECT_EQ(edge.neighbours, (std::vector<std::string>{"#" + std::to_string(first),
+                                                           "#" + std::to_string(other)}));
     } else {
       EXPECT_EQ(edge.neighbours, std::vector<std::string>{"#" + std::to_string(first)});
     }
@@ -92,9 +97,11 @@ TEST(FaceEdges, AStraightEdgeIsDividedWhereItsParametersAreCurved) {
       testing::bilinear_patch();
   FaceBuilder b;
   const int p = b.vertex(0.2, 0.1, 0), q = b.vertex(1.2, 1.4, 0), r = b.vertex(0.2, 0.8, 0);
-  b.face(10, {b.bound({b.line(p, q, {0.2, 0.1, 0}, {1, 1.3, 0}), b.line(q, r, {1.2, 1.4, 0}, {-1, -0.6, 0}),
+  b.face(10, {b.bound({b.line(p, q, {0.2, 0.1, 0}, {1, 1.3, 0}),
+                       b.line(q, r, {1.2, 1.4, 0}, {-1, -0.6, 0}),
                        b.line(r, p, {0.2, 0.8, 0}, {0, -1, 0})})});
-  const auto region = visible_region(testing::parse_or_die(testing::step_text(skewed + b.text())).model(), "#10");
+  const auto region =
+      visible_region(testing::parse_or_die(testing::step_text(skewed + b.text())).model(), "#10");
   ASSERT_TRUE(region) << region.error().message();
   for (const TrimEdge& edge : region->edges) {
     EXPECT_GT(edge.course.size(), 2U) << edge.id;
@@ -107,17 +114,21 @@ TEST(FaceEdges, AStraightEdgeIsDividedWhereItsParametersAreCurved) {
   }
 }
 
-/// Three patches on the unit square: on #10 is a square face, on #30 one with the same edges and, in a shell, a round
-/// one with a hole, on #50 none. One edge of the squares bounds a face on a plane too.
+/// Three patches on the unit square: on #10 is a square face, on #30 one with the same edges and,
+/// in a shell, a round one with a hole, on #50 none. One edge of the squares bounds a face on a
+/// plane too.
 step::File several_surfaces() {
   FaceBuilder b;
-  const int a = b.vertex(1, 0, 0), c = b.vertex(1, 1, 0), d = b.vertex(0, 0, 0), e = b.vertex(0, 1, 0);
+  const int a = b.vertex(1, 0, 0), c = b.vertex(1, 1, 0), d = b.vertex(0, 0, 0),
+            e = b.vertex(0, 1, 0);
   const int shared = b.line(a, c, {1, 0, 0}, {0, 1, 0});
-  const std::vector<int> around = {b.line(d, a, {0, 0, 0}, {1, 0, 0}), shared, b.line(c, e, {1, 1, 0}, {-1, 0, 0}),
+  const std::vector<int> around = {b.line(d, a, {0, 0, 0}, {1, 0, 0}), shared,
+                                   b.line(c, e, {1, 1, 0}, {-1, 0, 0}),
                                    b.line(e, d, {0, 1, 0}, {0, -1, 0})};
   b.face(10, {b.bound(around)});
   b.face(b.entity("PLANE('',#" + std::to_string(b.frame()) + ")"), {b.bound({-shared})});
-  const int round = b.face(30, {b.bound({b.circle(0.4, 0, 0.5, 0.5)}), b.bound({-b.circle(0.1, 0, 0.6, 0.5)})});
+  const int round =
+      b.face(30, {b.bound({b.circle(0.4, 0, 0.5, 0.5)}), b.bound({-b.circle(0.1, 0, 0.6, 0.5)})});
   b.face(30, {b.bound(around)});
   b.entity("OPEN_SHELL('',(#" + std::to_string(round) + "))");
   std::string text = square;
@@ -162,7 +173,8 @@ TEST(VisibleRegions, FacesAroundAnEdgeAreNeighboursOfAllSurfacesThere) {
       if (edge.neighbours.size() != 3) continue;
       seen.push_back(id + " " + edge.id);
       EXPECT_EQ(edge.supports.size(), 3U);
-      for (const std::string support : {"#10 B_SPLINE_SURFACE_WITH_KNOTS", "#30 B_SPLINE_SURFACE_WITH_KNOTS"}) {
+      for (const std::string support :
+           {"#10 B_SPLINE_SURFACE_WITH_KNOTS", "#30 B_SPLINE_SURFACE_WITH_KNOTS"}) {
         EXPECT_EQ(std::ranges::count(edge.supports, support), 1) << support;
       }
     }
@@ -178,7 +190,9 @@ TEST(VisibleRegions, AnUnknownSurfaceIsNamed) {
 }
 
 TEST(VisibleRegions, OutliveTheFileTheyWereMadeFrom) {
-  const auto regions = [] { return std::make_unique<const VisibleRegions>(several_surfaces().shared_model()); }();
+  const auto regions = [] {
+    return std::make_unique<const VisibleRegions>(several_surfaces().shared_model());
+  }();
   const auto region = regions->of("#30");
   ASSERT_TRUE(region) << region.error().message();
   EXPECT_EQ(*region, *visible_region(several_surfaces().model(), "#30"));

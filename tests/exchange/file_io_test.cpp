@@ -52,7 +52,8 @@ class FileIo : public ::testing::Test {
  protected:
   FileIo() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = fs::temp_directory_path() / ("knead-file-io-" + std::to_string(getpid()) + "-" + test->name());
+    directory_ = fs::temp_directory_path() /
+                 ("knead-file-io-" + std::to_string(getpid()) + "-" + test->name());
     fs::remove_all(directory_);
     fs::create_directories(directory_);
   }
@@ -63,7 +64,8 @@ class FileIo : public ::testing::Test {
     fs::remove_all(directory_, ignored);
   }
   [[nodiscard]] std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
   }
   fs::path directory_;
 };
@@ -82,7 +84,8 @@ TEST_F(FileIo, TheFileThatIsReplacedKeepsItsPermissions) {
   ASSERT_TRUE(write_file_atomically(path, "1"));
   fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
   ASSERT_TRUE(write_file_atomically(path, "2"));
-  EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
+  EXPECT_EQ(fs::status(path).permissions(),
+            fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
 }
 
 TEST_F(FileIo, ALinkIsWrittenThrough) {
@@ -146,7 +149,8 @@ TEST_F(FileIo, WritersAtTheSameTimeDoNotTakeEachOtherForDead) {
   for (std::size_t k = 0; k < failed.size(); ++k) {
     writers.emplace_back([&, k] {
       for (int round = 0; round < 50; ++round) {
-        failed[k] += !write_file_atomically(directory_ / std::to_string(k), std::string(100000, 'a'));
+        failed[k] +=
+            !write_file_atomically(directory_ / std::to_string(k), std::string(100000, 'a'));
       }
     });
   }
@@ -161,7 +165,8 @@ TEST_F(FileIo, AProtectedFileIsNotReplaced) {
   fs::permissions(path, fs::perms::owner_read);
   for (const auto& done : {check_writable(path), write_file_atomically(path, "2")}) {
     ASSERT_FALSE(done);
-    EXPECT_NE(done.error().message().find("may not be written to"), std::string::npos) << done.error().message();
+    EXPECT_NE(done.error().message().find("may not be written to"), std::string::npos)
+        << done.error().message();
   }
   EXPECT_EQ(read_file(path), "1");
 }
@@ -190,13 +195,15 @@ TEST_F(FileIo, APipeIsReadAsSoonAsSomebodyWritesAndNotWaitedForForever) {
   const auto start = std::chrono::steady_clock::now();
   const auto nobody = read_file(pipe);
   ASSERT_FALSE(nobody);
-  EXPECT_NE(nobody.error().what.find("nothing writes"), std::string::npos) << nobody.error().message();
+  EXPECT_NE(nobody.error().what.find("nothing writes"), std::string::npos)
+      << nobody.error().message();
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
   const std::string bytes(300000, 'p');
   std::thread writer([&] {
     const int fd = ::open(pipe.c_str(), O_WRONLY);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    for (std::size_t at = 0; at < bytes.size();) at += static_cast<std::size_t>(::write(fd, &bytes[at], 30000));
+    for (std::size_t at = 0; at < bytes.size();)
+      at += static_cast<std::size_t>(::write(fd, &bytes[at], 30000));
     ::close(fd);
   });
   EXPECT_EQ(read_file(pipe), bytes);
@@ -209,7 +216,8 @@ TEST_F(FileIo, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
   EXPECT_FALSE(read_file(directory_ / "x", 1000));
   const auto endless = read_file("/dev/zero", 1 << 20);
   ASSERT_FALSE(endless);
-  EXPECT_NE(endless.error().what.find("more than 1 MiB"), std::string::npos) << endless.error().message();
+  EXPECT_NE(endless.error().what.find("more than 1 MiB"), std::string::npos)
+      << endless.error().message();
   fs::resize_file(directory_ / "x", std::uintmax_t{1} << 40);  // sparse
   EXPECT_FALSE(read_file(directory_ / "x"));
 }

@@ -62,8 +62,10 @@ TEST(ForeignFormat, AFileOfAnotherFormatIsRecognisedByItsContentAndTheErrorSaysW
 
 TEST(ForeignFormat, AStepFileThatMentionsOtherFormatsAndTextThatIsNothingAreNotTakenForThem) {
   const auto step = step::File::parse(
-      "/* solid: made of a glTF, CASCADE Topology V1 */ ISO-10303-21;HEADER;FILE_DESCRIPTION((''),'2;1');"
-      "FILE_NAME('','',(''),(''),'','','');FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));ENDSEC;DATA;ENDSEC;END-ISO-10303-21;",
+      "/* solid: made of a glTF, CASCADE Topology V1 */ "
+      "ISO-10303-21;HEADER;FILE_DESCRIPTION((''),'2;1');"
+      "FILE_NAME('','',(''),(''),'','','');FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));ENDSEC;DATA;ENDSEC;"
+      "END-ISO-10303-21;",
       "x.step");
   EXPECT_TRUE(step) << step.error().message();
   const auto text = step::File::parse("Dear all, the part is attached.\n", "x.step");

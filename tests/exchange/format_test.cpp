@@ -18,7 +18,8 @@ namespace {
 
 struct Triangles {
   std::vector<std::array<Point, 3>> corners;
-  std::vector<std::array<Point, 3>> normals;  // of corners; all three that of the facet where the format has one
+  std::vector<std::array<Point, 3>>
+      normals;  // of corners; all three that of the facet where the format has one
 };
 
 template <class T>
@@ -86,7 +87,8 @@ Triangles read_ply(const std::string& bytes) {
   std::size_t at = bytes.find("end_header\n") + 11;
   std::vector<Point> points, normals;
   for (std::size_t k = 0; k < vertices; ++k) {
-    const double x = take<double>(bytes, at), y = take<double>(bytes, at), z = take<double>(bytes, at);
+    const double x = take<double>(bytes, at), y = take<double>(bytes, at),
+                 z = take<double>(bytes, at);
     const float a = take<float>(bytes, at), b = take<float>(bytes, at), c = take<float>(bytes, at);
     points.emplace_back(x, y, z);
     normals.emplace_back(a, b, c);
@@ -134,18 +136,21 @@ TEST(MeshWriter, MeshesLieOnTheirSurfacesAndLookOutward) {
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const Point& p = mesh.corners[k][corner];
         const bool ball = p.norm() < 5;
-        const Point centre = ball ? Point(0, 0, 0) : Point(Point(p.x(), p.y(), 0).normalized() * 10);
+        const Point centre =
+            ball ? Point(0, 0, 0) : Point(Point(p.x(), p.y(), 0).normalized() * 10);
         EXPECT_NEAR((p - centre).norm(), ball ? 2 : 1, tolerance * 11);
         const Point& normal = mesh.normals[k][corner];
         EXPECT_NEAR(normal.norm(), 1, 1e-5);
-        // A facet's normal is the surface's up to half the angle between grid lines; a vertex' normal is
-        // printed to six digits, so that its length is 1 to 5e-7.
+        // A facet's normal is the surface's up to half the angle between grid lines; a vertex'
+        // normal is printed to six digits, so that its length is 1 to 5e-7.
         const bool facet = format == "stl", pole = std::hypot(p.x(), p.y()) < 1e-6;
         EXPECT_GT(normal.dot((p - centre).normalized()), facet ? 0.98 : pole ? 0.99 : 1 - 1e-6);
       }
     }
-    // The volumes of both, less what chords leave out: near (2π/40)²/6 for the ball, both ways round for the ring.
-    const double exact = 4 * std::numbers::pi / 3 * 8 + 2 * std::numbers::pi * std::numbers::pi * 10;
+    // The volumes of both, less what chords leave out: near (2π/40)²/6 for the ball, both ways
+    // round for the ring.
+    const double exact =
+        4 * std::numbers::pi / 3 * 8 + 2 * std::numbers::pi * std::numbers::pi * 10;
     EXPECT_LT(volume, exact);
     EXPECT_GT(volume, exact * (1 - 0.02));
   }
@@ -218,14 +223,16 @@ TEST(Format, ThatNothingRecognisesIsAnErrorWithTheFormats) {
   EXPECT_TRUE(source.error().remedy.starts_with(
       "open STEP (.step, .stp, .p21), IGES (.igs, .iges), Open CASCADE (.brep, .brp)"));
   // The ending names the reader that says what is wrong.
-  EXPECT_NE(open_source("solid ball", "ball.step").error().message().find("ball.step:1"), std::string::npos);
+  EXPECT_NE(open_source("solid ball", "ball.step").error().message().find("ball.step:1"),
+            std::string::npos);
 }
 
 TEST(Format, TableOfTheDocsIsThatOfTheList) {
   std::ifstream page(KNEAD_SOURCE_DIR "/docs/formats.md");
   const std::string text((std::istreambuf_iterator<char>(page)), {});
-  EXPECT_NE(text.find(format_table()), std::string::npos) << "docs/formats.md should have this table:\n"
-                                                          << format_table();
+  EXPECT_NE(text.find(format_table()), std::string::npos)
+      << "docs/formats.md should have this table:\n"
+      << format_table();
 }
 
 TEST(Format, JsonHasOneObjectPerFormat) {
@@ -238,8 +245,10 @@ TEST(Format, JsonHasOneObjectPerFormat) {
 }
 
 TEST(MeshWriter, StlHasNoTrianglesThatSinglePrecisionCollapses) {
-  // A ring as thin as a thousandth, of radius 1e6: points around the tube are one in single precision.
-  const std::vector<NamedSurface> far = {{"far", *revolve(*circle_quarters({1e6, 1e6}, 1e-3, -1, 2))}};
+  // A ring as thin as a thousandth, of radius 1e6: points around the tube are one in single
+  // precision.
+  const std::vector<NamedSurface> far = {
+      {"far", *revolve(*circle_quarters({1e6, 1e6}, 1e-3, -1, 2))}};
   const auto bytes = mesh_file(far, "stl", {.detail = 12});
   ASSERT_TRUE(bytes) << bytes.error().message();
   for (const auto& corners : read_stl(*bytes).corners) {
@@ -247,7 +256,8 @@ TEST(MeshWriter, StlHasNoTrianglesThatSinglePrecisionCollapses) {
     EXPECT_NE(corners[1], corners[2]);
     EXPECT_NE(corners[2], corners[0]);
   }
-  EXPECT_LT(read_stl(*bytes).corners.size(), read_obj(*mesh_file(far, "obj", {.detail = 12})).corners.size());
+  EXPECT_LT(read_stl(*bytes).corners.size(),
+            read_obj(*mesh_file(far, "obj", {.detail = 12})).corners.size());
 }
 
 TEST(MeshWriter, RefusesWhatItCannotWrite) {
@@ -255,7 +265,8 @@ TEST(MeshWriter, RefusesWhatItCannotWrite) {
   const auto surfaces = sphere_and_torus();
   for (const int detail : {0, -3, 2001})
     EXPECT_EQ(mesh_file(surfaces, "obj", {.detail = detail}).error().where, "detail");
-  const std::vector<NamedSurface> huge = {{"huge", *revolve(*circle_quarters({0, 0}, 1e39, -1, 2))}};
+  const std::vector<NamedSurface> huge = {
+      {"huge", *revolve(*circle_quarters({0, 0}, 1e39, -1, 2))}};
   EXPECT_NE(mesh_file(huge, "stl").error().message().find("too large for STL"), std::string::npos);
   EXPECT_TRUE(mesh_file(huge, "ply"));
 }

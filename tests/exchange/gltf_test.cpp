@@ -46,7 +46,8 @@ struct Container {
   [[nodiscard]] std::string bytes_of(int accessor, std::size_t element) const {
     const Json& a = document["accessors"][static_cast<std::size_t>(accessor)];
     const Json& view = document["bufferViews"][a["bufferView"].get<std::size_t>()];
-    const auto offset = view["byteOffset"].get<std::size_t>(), length = view["byteLength"].get<std::size_t>();
+    const auto offset = view["byteOffset"].get<std::size_t>(),
+               length = view["byteLength"].get<std::size_t>();
     EXPECT_EQ(offset % 4, 0U);
     EXPECT_EQ(a["count"].get<std::size_t>() * element, length);
     EXPECT_LE(offset + length, numbers.size());
@@ -70,7 +71,8 @@ struct Container {
     EXPECT_EQ(a["componentType"], 5125);
     const std::string bytes = bytes_of(accessor, 4);
     std::vector<std::uint32_t> result;
-    for (std::size_t at = 0; at < bytes.size(); at += 4) result.push_back(number_at<std::uint32_t>(bytes, at));
+    for (std::size_t at = 0; at < bytes.size(); at += 4)
+      result.push_back(number_at<std::uint32_t>(bytes, at));
     return result;
   }
 };
@@ -81,8 +83,8 @@ std::vector<NamedSurface> ball_and_ring() {
 }
 
 std::string file_of(const char* format, const std::string& unit) {
-  const auto bytes =
-      save_surfaces(ball_and_ring(), *find_format(format), {.detail = 24, .unit = unit, .title = "both"});
+  const auto bytes = save_surfaces(ball_and_ring(), *find_format(format),
+                                   {.detail = 24, .unit = unit, .title = "both"});
   EXPECT_TRUE(bytes) << bytes.error().message();
   return bytes.value_or("");
 }
@@ -163,16 +165,19 @@ TEST(Gltf, BoundsAreExactlyThoseOfTheNumbersInTheFile) {
 }
 
 TEST(Gltf, RootTurnsZUpIntoYUpAndUnitsIntoMetres) {
-  for (const auto& [unit, metres] : {std::pair("mm", 1e-3), std::pair("inch", 0.0254), std::pair("", 1.0)}) {
+  for (const auto& [unit, metres] :
+       {std::pair("mm", 1e-3), std::pair("inch", 0.0254), std::pair("", 1.0)}) {
     const Container file(file_of("gltf", unit));
-    const Json& root = file.document["nodes"][file.document["scenes"][0]["nodes"][0].get<std::size_t>()];
+    const Json& root =
+        file.document["nodes"][file.document["scenes"][0]["nodes"][0].get<std::size_t>()];
     EXPECT_EQ(root["name"], "both");
     ASSERT_EQ(root["children"].size(), 2U);
     for (const Json& child : root["children"]) {
       EXPECT_TRUE(file.document["nodes"][child.get<std::size_t>()].contains("mesh"));
     }
     const Json& r = root["rotation"];
-    const Eigen::Quaterniond turn(r[3].get<double>(), r[0].get<double>(), r[1].get<double>(), r[2].get<double>());
+    const Eigen::Quaterniond turn(r[3].get<double>(), r[0].get<double>(), r[1].get<double>(),
+                                  r[2].get<double>());
     EXPECT_LT((turn * Point::UnitZ() - Point::UnitY()).norm(), 1e-15);
     EXPECT_LT((turn * Point::UnitX() - Point::UnitX()).norm(), 1e-15);
     for (int d = 0; d < 3; ++d) EXPECT_EQ(root["scale"][static_cast<std::size_t>(d)], metres);

@@ -16,7 +16,8 @@ class IgesBuilder {
       "15H20240101.000000,1E-6,100.,,,11,0,15H20240101.000000;";
   char separator = ',', terminator = ';';
 
-  /// Returns its directory number. `parameters` without the type; `count`: as the directory states it.
+  /// Returns its directory number. `parameters` without the type; `count`: as the directory states
+  /// it.
   int add(int type, const std::string& parameters, int transform = 0, int form = 0, int count = 0,
           const std::string& comment = "") {
     std::string text = std::to_string(type) + separator + parameters + terminator + comment;
@@ -26,7 +27,8 @@ class IgesBuilder {
       std::size_t take = std::min<std::size_t>(text.size(), 64);
       if (take < text.size()) take = text.rfind(separator, take - 1) + 1;
       if (take == 0) take = 64;
-      lines_.push_back(fmt::format("{:<64}{:>8}P{:>7}", text.substr(0, take), number, lines_.size() + 1));
+      lines_.push_back(
+          fmt::format("{:<64}{:>8}P{:>7}", text.substr(0, take), number, lines_.size() + 1));
       text.erase(0, take);
       if (count == 0) ++entity.count;
     }
@@ -42,14 +44,14 @@ class IgesBuilder {
     }
     int records = 0;
     for (const Entity& e : entities_) {
-      result += fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}D{:>7}{}", e.type, e.first, 0, 0, 0, 0,
-                            e.transform, 0, "00000000", ++records, eol);
-      result += fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}D{:>7}{}", e.type, 0, 0, e.count, e.form, "",
-                            "", "PLATE", 0, ++records, eol);
+      result += fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}D{:>7}{}", e.type,
+                            e.first, 0, 0, 0, 0, e.transform, 0, "00000000", ++records, eol);
+      result += fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}D{:>7}{}", e.type, 0, 0,
+                            e.count, e.form, "", "", "PLATE", 0, ++records, eol);
     }
     for (const std::string& line : lines_) result += line + eol;
-    return result +
-           fmt::format("S{:>7}G{:>7}D{:>7}P{:>7}{:<40}T{:>7}{}", 1, globals, records, lines_.size(), "", 1, eol);
+    return result + fmt::format("S{:>7}G{:>7}D{:>7}P{:>7}{:<40}T{:>7}{}", 1, globals, records,
+                                lines_.size(), "", 1, eol);
   }
 
  private:
@@ -61,8 +63,8 @@ class IgesBuilder {
   std::vector<std::string> lines_;
 };
 
-/// The parameters of a bilinear plate [0, 4] × [0, 2], three control points in u and two in v; heights may be written
-/// as they like.
+/// The parameters of a bilinear plate [0, 4] × [0, 2], three control points in u and two in v;
+/// heights may be written as they like.
 inline std::string plate(const std::string& height = "0.") {
   std::string text = "2,1,1,1,0,0,1,0,0,0.,0.,0.5,1.,1.,0.,0.,1.,1.,1.,1.,1.,1.,1.,1.";
   for (int j = 0; j < 2; ++j) {
@@ -79,10 +81,11 @@ inline std::string shell() {
   const char* corners[] = {"0.,0.,0.", "4.,0.,0.", "4.,2.,0.", "0.,2.,0."};
   std::string edges = "4", loop = "4";
   std::vector<int> sides;
-  for (int k = 0; k < 4; ++k) sides.push_back(b.add(110, fmt::format("{},{}", corners[k], corners[(k + 1) % 4])));
+  for (int k = 0; k < 4; ++k)
+    sides.push_back(b.add(110, fmt::format("{},{}", corners[k], corners[(k + 1) % 4])));
   for (int k = 0; k < 4; ++k) {
-    edges +=
-        fmt::format(",{},{},{},{},{}", sides[static_cast<std::size_t>(k)], vertices, k + 1, vertices, (k + 1) % 4 + 1);
+    edges += fmt::format(",{},{},{},{},{}", sides[static_cast<std::size_t>(k)], vertices, k + 1,
+                         vertices, (k + 1) % 4 + 1);
   }
   const int list = b.add(504, edges, 0, 1);
   for (int k = 0; k < 4; ++k) loop += fmt::format(",0,{},{},1,0", list, k + 1);
@@ -91,9 +94,9 @@ inline std::string shell() {
   return b.text();
 }
 
-/// Two plates side by side, the second over x from 4 to 8: as a B-rep whose faces share an edge (504), or as trimmed
-/// surfaces (144) each of which has a curve of its own there, the second one turned. The second half is moved back by
-/// `apart`.
+/// Two plates side by side, the second over x from 4 to 8: as a B-rep whose faces share an edge
+/// (504), or as trimmed surfaces (144) each of which has a curve of its own there, the second one
+/// turned. The second half is moved back by `apart`.
 struct TwoPlates {
   std::string text;
   std::string left, right;  ///< surfaces
@@ -106,11 +109,13 @@ inline TwoPlates two_plates(bool shared, double apart = 0) {
   const int matrix = b.add(124, fmt::format("1.,0.,0.,{:.17g},0.,1.,0.,0.,0.,0.,1.,0.", 4 + apart));
   const int right = b.add(128, plate(), matrix);
   const auto corner = [&](int k, bool second) {
-    return fmt::format("{:.17g},{}.,0.", (k == 1 || k == 2 ? 4 : 0) + (second ? 4 + apart : 0), k > 1 ? 2 : 0);
+    return fmt::format("{:.17g},{}.,0.", (k == 1 || k == 2 ? 4 : 0) + (second ? 4 + apart : 0),
+                       k > 1 ? 2 : 0);
   };
   TwoPlates result{{}, fmt::format("#{}", left), fmt::format("#{}", right), {}, shared ? 1 : 2};
   if (shared) {
-    const int vertices = b.add(502, "6,0.,0.,0.,4.,0.,0.,4.,2.,0.,0.,2.,0.,8.,0.,0.,8.,2.,0.", 0, 1);
+    const int vertices =
+        b.add(502, "6,0.,0.,0.,4.,0.,0.,4.,2.,0.,0.,2.,0.,8.,0.,0.,8.,2.,0.", 0, 1);
     constexpr int ends[7][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {1, 4}, {4, 5}, {5, 2}};
     const char* places[] = {"0.,0.,0.", "4.,0.,0.", "4.,2.,0.", "0.,2.,0.", "8.,0.,0.", "8.,2.,0."};
     std::string edges = "7";
@@ -120,8 +125,10 @@ inline TwoPlates two_plates(bool shared, double apart = 0) {
       edges += fmt::format(",{},{},{},{},{}", curve, vertices, from + 1, vertices, to + 1);
     }
     const int list = b.add(504, edges, 0, 1);
-    const int first = b.add(508, fmt::format("4,0,{0},1,1,0,0,{0},2,1,0,0,{0},3,1,0,0,{0},4,1,0", list), 0, 1);
-    const int second = b.add(508, fmt::format("4,0,{0},5,1,0,0,{0},6,1,0,0,{0},7,1,0,0,{0},2,0,0", list), 0, 1);
+    const int first =
+        b.add(508, fmt::format("4,0,{0},1,1,0,0,{0},2,1,0,0,{0},3,1,0,0,{0},4,1,0", list), 0, 1);
+    const int second =
+        b.add(508, fmt::format("4,0,{0},5,1,0,0,{0},6,1,0,0,{0},7,1,0,0,{0},2,0,0", list), 0, 1);
     b.add(510, fmt::format("{},1,1,{}", left, first), 0, 1);
     b.add(510, fmt::format("{},1,1,{}", right, second), 0, 1);
   } else {
@@ -134,7 +141,8 @@ inline TwoPlates two_plates(bool shared, double apart = 0) {
       }
       const int loop = b.add(102, parts);
       const int surface = second ? right : left;
-      b.add(144, fmt::format("{},1,0,{}", surface, b.add(142, fmt::format("1,{},0,{},2", surface, loop))));
+      b.add(144, fmt::format("{},1,0,{}", surface,
+                             b.add(142, fmt::format("1,{},0,{},2", surface, loop))));
     }
   }
   result.text = b.text();

@@ -17,7 +17,9 @@ using testing::plate;
 using testing::two_plates;
 using testing::TwoPlates;
 
-std::shared_ptr<const Source> open(const std::string& bytes) { return testing::open_or_die(bytes, "plates.igs"); }
+std::shared_ptr<const Source> open(const std::string& bytes) {
+  return testing::open_or_die(bytes, "plates.igs");
+}
 
 /// Lifts what lies on x = 4 to these heights, from y = 0 to y = 2.
 std::vector<std::shared_ptr<const Surface>> lifted(const Source& source, double low, double high) {
@@ -77,8 +79,8 @@ TEST(IgesEdges, EdgesThatMoveAreWrittenWithEveryCurveAlongThem) {
         points.row(3 * i + 2) = p.row(2 * i + 1);
         if (points(3 * i, 0) == 4) points(3 * i + 1, 2) = 0.5;
       }
-      surfaces.push_back(
-          std::make_shared<const Surface>(*Surface::create({s.surface->knots(0), quadratic}, std::move(points))));
+      surfaces.push_back(std::make_shared<const Surface>(
+          *Surface::create({s.surface->knots(0), quadratic}, std::move(points))));
     }
     const std::vector<std::string> followed = {plates.edge};
     const auto bytes = source->save(surfaces, followed);
@@ -88,9 +90,12 @@ TEST(IgesEdges, EdgesThatMoveAreWrittenWithEveryCurveAlongThem) {
     ASSERT_TRUE(edge) << edge.error().message();
     EXPECT_EQ(edge->surfaces().size(), 2U) << "they still meet";
     EXPECT_LE(edge->gap(), 1e-6);
-    EXPECT_NEAR(edge->at(0.5 * (edge->samples().front().parameter + edge->samples().back().parameter)).point.z(), 0.25,
-                1e-6);
-    // Of the directory types change, of the parameters those of the surfaces and the curves along the edge.
+    EXPECT_NEAR(
+        edge->at(0.5 * (edge->samples().front().parameter + edge->samples().back().parameter))
+            .point.z(),
+        0.25, 1e-6);
+    // Of the directory types change, of the parameters those of the surfaces and the curves along
+    // the edge.
     const auto before = lines_of(plates.text, 'P'), after = lines_of(*bytes, 'P');
     std::size_t kept = 0, curves = 0;
     for (const std::string& line : before) kept += after.contains(line) ? 1 : 0;
@@ -98,9 +103,11 @@ TEST(IgesEdges, EdgesThatMoveAreWrittenWithEveryCurveAlongThem) {
     EXPECT_EQ(curves, static_cast<std::size_t>(plates.curves));
     EXPECT_EQ(lines_of(*bytes, 'D').size(), lines_of(plates.text, 'D').size());
     for (const std::string& line : before) {
-      const bool own = !line.starts_with("110,") && !line.starts_with("102,") && !line.starts_with("14") &&
-                       !line.starts_with("50") && !line.starts_with("124,");
-      const bool along = line.starts_with("110,4.,0.,0.,4.,2.,0.;") || line.starts_with("110,4,2.,0.,4,0.,0.;") ||
+      const bool own = !line.starts_with("110,") && !line.starts_with("102,") &&
+                       !line.starts_with("14") && !line.starts_with("50") &&
+                       !line.starts_with("124,");
+      const bool along = line.starts_with("110,4.,0.,0.,4.,2.,0.;") ||
+                         line.starts_with("110,4,2.,0.,4,0.,0.;") ||
                          line.starts_with("110,4,0.,0.,4,2.,0.;");
       EXPECT_TRUE(own || along || after.contains(line)) << line << " is lost";
     }
@@ -127,7 +134,8 @@ TEST(IgesEdges, WhatDoesNotMoveKeepsItsBytes) {
     const TwoPlates plates = two_plates(shared);
     const auto source = open(plates.text);
     std::vector<std::shared_ptr<const Surface>> surfaces;
-    for (const SourceSurface& s : source->surfaces()) surfaces.push_back(std::make_shared<const Surface>(*s.surface));
+    for (const SourceSurface& s : source->surfaces())
+      surfaces.push_back(std::make_shared<const Surface>(*s.surface));
     const std::vector<std::string> followed = {plates.edge};
     EXPECT_EQ(source->save(surfaces, followed), plates.text);
   }
@@ -138,13 +146,16 @@ TEST(IgesEdges, ACurveThatMakesASurfaceTooIsRefused) {
   const int surface = b.add(128, plate());
   std::vector<int> sides;
   const char* corners[] = {"0.,0.,0.", "4.,0.,0.", "4.,2.,0.", "0.,2.,0."};
-  for (int k = 0; k < 4; ++k) sides.push_back(b.add(110, fmt::format("{},{}", corners[k], corners[(k + 1) % 4])));
+  for (int k = 0; k < 4; ++k)
+    sides.push_back(b.add(110, fmt::format("{},{}", corners[k], corners[(k + 1) % 4])));
   const int loop = b.add(102, fmt::format("4,{},{},{},{}", sides[0], sides[1], sides[2], sides[3]));
-  b.add(144, fmt::format("{},1,0,{}", surface, b.add(142, fmt::format("1,{},0,{},2", surface, loop))));
+  b.add(144,
+        fmt::format("{},1,0,{}", surface, b.add(142, fmt::format("1,{},0,{},2", surface, loop))));
   const int tabulated = b.add(122, fmt::format("{},4.,0.,1.", sides[1]));
   const auto can = open(b.text())->can_move_edge(fmt::format("#{}", sides[1]));
   ASSERT_FALSE(can);
-  EXPECT_NE(can.error().message().find(fmt::format("D{}", tabulated)), std::string::npos) << can.error().message();
+  EXPECT_NE(can.error().message().find(fmt::format("D{}", tabulated)), std::string::npos)
+      << can.error().message();
   EXPECT_TRUE(open(b.text())->can_move_edge(fmt::format("#{}", sides[0])));
 }
 

@@ -21,8 +21,8 @@ using testing::open_or_die;
 const std::array<double, 2> breaks_u = {-1, 1};
 const std::array<double, 3> breaks_v = {0, 0.5, 2};
 
-/// A polynomial of degree 3 in each direction, and its derivatives by u and v at a point: what a patch that begins
-/// there has for coefficients.
+/// A polynomial of degree 3 in each direction, and its derivatives by u and v at a point: what a
+/// patch that begins there has for coefficients.
 double height(double u, double v) { return 1 + 2 * u - u * v * v + 0.5 * u * u * u * v * v * v; }
 
 /// Σ over powers of u and v, shifted to a corner.
@@ -108,7 +108,8 @@ TEST(IgesEntities, AChangedParametricSplineSurfaceBecomesABSplineInItsPlace) {
   ASSERT_EQ(again->surfaces().size(), 1U);
   EXPECT_EQ(again->surfaces()[0].id, "#5");
   EXPECT_EQ(again->surfaces()[0].surface->knots(), surfaces[0]->knots());
-  EXPECT_LE((again->surfaces()[0].surface->control_points() - points).cwiseAbs().maxCoeff(), 1e-13 * 40);
+  EXPECT_LE((again->surfaces()[0].surface->control_points() - points).cwiseAbs().maxCoeff(),
+            1e-13 * 40);
   const auto remarks = again->remarks();
   EXPECT_NE(std::ranges::find(remarks, "1 x 128 (B-spline surface)"), remarks.end());
 }
@@ -118,7 +119,8 @@ TEST(IgesEntities, PatchesThatDoNotMeetAreReported) {
   b.add(114, parametric(0.01));
   const auto source = open_or_die(b.text(), "a.igs");
   ASSERT_EQ(source->unreadable().size(), 1U);
-  EXPECT_NE(source->unreadable()[0].reason.message().find("its patches are 0.01 apart"), std::string::npos)
+  EXPECT_NE(source->unreadable()[0].reason.message().find("its patches are 0.01 apart"),
+            std::string::npos)
       << source->unreadable()[0].reason.message();
 }
 
@@ -137,11 +139,13 @@ void expect_placed_subfigures(IgesBuilder b) {
   const brep::Part* part = model->part_of(fmt::format("#{}", surface));
   ASSERT_NE(part, nullptr);
   std::vector<Point> places;
-  for (const brep::PartPlace& place : part->places) places.push_back(place.to_model * Point(1, 0, 0));
+  for (const brep::PartPlace& place : part->places)
+    places.push_back(place.to_model * Point(1, 0, 0));
   ASSERT_EQ(places.size(), 3U);
   for (const Point& wanted : {Point(102, 10, 0), Point(306, 0, 5), Point(2, 2, 3)}) {
-    EXPECT_TRUE(std::ranges::any_of(places, [&](const Point& p) { return (p - wanted).norm() < 1e-12; }))
-        << wanted.transpose();
+    EXPECT_TRUE(std::ranges::any_of(places, [&](const Point& p) {
+      return (p - wanted).norm() < 1e-12;
+    })) << wanted.transpose();
   }
   const brep::Part* rest = model->part_of(fmt::format("#{}", alone));
   ASSERT_NE(rest, nullptr);
@@ -193,8 +197,9 @@ TEST(IgesEntities, WhatIsNotReadIsCountedAndKept) {
   const std::string text = b.text();
   const auto source = open_or_die(text, "a.igs");
   const auto remarks = source->remarks();
-  for (const char* wanted : {"1 x 118 (ruled surface)", "1 x 140 (offset surface)", "1 x 308 (subfigure definition)",
-                             "1 x 408 (subfigure instance)", "1 x 314 (colour)", "1 x 406 (property)"}) {
+  for (const char* wanted :
+       {"1 x 118 (ruled surface)", "1 x 140 (offset surface)", "1 x 308 (subfigure definition)",
+        "1 x 408 (subfigure instance)", "1 x 314 (colour)", "1 x 406 (property)"}) {
     EXPECT_NE(std::ranges::find(remarks, wanted), remarks.end()) << wanted;
   }
   ASSERT_EQ(source->surfaces().size(), 2U) << "and the ruled one";
@@ -207,13 +212,16 @@ TEST(IgesEntities, WhatIsNotReadIsCountedAndKept) {
   ASSERT_TRUE(written) << written.error().message();
   const auto again = open_or_die(*written, "a.igs");
   EXPECT_EQ(again->remarks(), remarks);
-  EXPECT_NE(written->find("406,1,9HName;,;,;;"), std::string::npos) << "strings with separators in them";
+  EXPECT_NE(written->find("406,1,9HName;,;,;;"), std::string::npos)
+      << "strings with separators in them";
 }
 
 /// A parabola over 0 … 2 whose parameters count from 3 to 7, and a cubic with a knot inside.
-constexpr const char* parabola = "2,2,0,0,1,0,3.,3.,3.,7.,7.,7.,1.,1.,1.,0.,0.,0.,1.,0.,2.,2.,0.,0.,3.,7.,0.,0.,1.";
+constexpr const char* parabola =
+    "2,2,0,0,1,0,3.,3.,3.,7.,7.,7.,1.,1.,1.,0.,0.,0.,1.,0.,2.,2.,0.,0.,3.,7.,0.,0.,1.";
 constexpr const char* cubic =
-    "4,3,0,0,1,0,0.,0.,0.,0.,0.5,1.,1.,1.,1.,1.,1.,1.,1.,1.,0.,3.,0.,0.5,3.,1.,1.,3.,-1.,1.5,3.,0.5,2.,3.,0.,0.,1.,0.,"
+    "4,3,0,0,1,0,0.,0.,0.,0.,0.5,1.,1.,1.,1.,1.,1.,1.,1.,1.,0.,3.,0.,0.5,3.,1.,1.,3.,-1.,1.5,3.,0."
+    "5,2.,3.,0.,0.,1.,0.,"
     "0.,1.";
 
 Point on(const std::string& curve, double share) {
@@ -294,7 +302,8 @@ TEST(IgesEntities, AChangedRuledSurfaceBecomesABSplineInItsPlaceAndItsCurvesStay
   EXPECT_NE(written->find("a remark"), std::string::npos);
   const auto again = open_or_die(*written, "a.igs");
   ASSERT_EQ(again->surfaces().size(), 1U);
-  EXPECT_LE((again->surfaces()[0].surface->control_points() - points).cwiseAbs().maxCoeff(), 1e-13 * 40);
+  EXPECT_LE((again->surfaces()[0].surface->control_points() - points).cwiseAbs().maxCoeff(),
+            1e-13 * 40);
 }
 
 TEST(IgesEntities, WhatIsNoBSplineSurfaceIsSaidWithTheReason) {
@@ -324,7 +333,8 @@ TEST(IgesEntities, WhatIsNoBSplineSurfaceIsSaidWithTheReason) {
     b.add(118, fmt::format("{},{},0,0", first, second), 0, 1);
   });
   EXPECT_NE(weights.find("different weights"), std::string::npos) << weights;
-  const auto offset = reason([](IgesBuilder& b, int plate) { b.add(140, fmt::format("0.,0.,1.,0.5,{}", plate)); });
+  const auto offset =
+      reason([](IgesBuilder& b, int plate) { b.add(140, fmt::format("0.,0.,1.,0.5,{}", plate)); });
   EXPECT_NE(offset.find("offset surface"), std::string::npos) << offset;
   const auto nothing = reason([](IgesBuilder& b, int) { b.add(118, "0,99,0,0", 0, 1); });
   EXPECT_FALSE(nothing.empty());

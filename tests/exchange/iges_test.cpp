@@ -19,7 +19,9 @@ using testing::IgesBuilder;
 using testing::plate;
 using testing::shell;
 
-std::shared_ptr<const Source> open_or_die(const std::string& bytes) { return testing::open_or_die(bytes, "test.igs"); }
+std::shared_ptr<const Source> open_or_die(const std::string& bytes) {
+  return testing::open_or_die(bytes, "test.igs");
+}
 
 Error error_of(const std::string& bytes) {
   const auto source = open_source(bytes, "test.igs");
@@ -66,7 +68,8 @@ TEST(Iges, ASurfaceHasUSlow) {
   EXPECT_EQ(s.unit, "mm");
   EXPECT_FALSE(s.surface->rational());
   EXPECT_EQ(s.surface->net(), (std::array<int, 2>{3, 2}));
-  EXPECT_EQ(Point(s.surface->control_points().row(1).transpose()), Point(0, 2, 0)) << "the second along v";
+  EXPECT_EQ(Point(s.surface->control_points().row(1).transpose()), Point(0, 2, 0))
+      << "the second along v";
   EXPECT_EQ(Point(s.surface->control_points().row(2).transpose()), Point(2, 0, 0));
 }
 
@@ -88,7 +91,8 @@ TEST(Iges, WhatRealWritersDoIsRead) {
     EXPECT_EQ(source->surfaces()[0].unit, "cm");
     EXPECT_EQ(source->surfaces()[0].id, "#3");
     EXPECT_EQ(changed(*source, [](const Surface& s) { return s; }), text) << "nothing changes";
-    const std::string after = changed(*source, [](const Surface& s) { return lifted(s, 3, 1.0 / 3); });
+    const std::string after =
+        changed(*source, [](const Surface& s) { return lifted(s, 3, 1.0 / 3); });
     EXPECT_EQ(open_or_die(after)->surfaces()[0].surface->control_points()(3, 2), 1.0 / 3);
     EXPECT_NE(after.find("11Ha;b#c text d"), std::string::npos);
   }
@@ -104,7 +108,8 @@ TEST(Iges, OnlyTheRecordsOfAChangedSurfaceChange) {
   const auto before = lines_of(text),
              after = lines_of(changed(*source, [](const Surface&s) { return lifted(s, 0, 0); }));
   EXPECT_EQ(before, after);
-  const std::string grown = changed(*source, [](const Surface& s) { return lifted(s, 3, -1.0 / 3); });
+  const std::string grown =
+      changed(*source, [](const Surface& s) { return lifted(s, 3, -1.0 / 3); });
   EXPECT_NE(grown.find("-3.3333333333333331E-01"), std::string::npos) << grown;
   EXPECT_NE(grown.find("; of the plate"), std::string::npos) << grown;
   const auto lines = lines_of(grown);
@@ -118,7 +123,8 @@ TEST(Iges, OnlyTheRecordsOfAChangedSurfaceChange) {
   }
   EXPECT_EQ(directory, 6);
   EXPECT_EQ(lines.back().substr(24, 8), fmt::format("P{:>7}", parameters));
-  for (const std::string& line : {before[2], before[3]}) EXPECT_NE(std::ranges::find(lines, line), lines.end());
+  for (const std::string& line : {before[2], before[3]})
+    EXPECT_NE(std::ranges::find(lines, line), lines.end());
   EXPECT_NE(grown.find("110,0.,0.,0.,2.,0.,0.;"), std::string::npos);
   const auto again = open_or_die(grown);
   EXPECT_EQ(again->surfaces()[0].surface->control_points()(3, 2), -1.0 / 3);
@@ -154,7 +160,8 @@ TEST(Iges, MatricesAreAppliedAndTakenBack) {
   const int matrix = b.add(124, "0.,-1.,0.,10.,1.,0.,0.,20.,0.,0.,1.,30.");
   b.add(128, plate(), matrix);
   const auto source = open_or_die(b.text());
-  EXPECT_EQ(Point(source->surfaces()[0].surface->control_points().row(5).transpose()), Point(10 - 2, 20 + 4, 30));
+  EXPECT_EQ(Point(source->surfaces()[0].surface->control_points().row(5).transpose()),
+            Point(10 - 2, 20 + 4, 30));
   const std::string text = changed(*source, [](const Surface& s) { return lifted(s, 5, 31); });
   const auto again = open_or_die(text);
   EXPECT_NEAR(again->surfaces()[0].surface->control_points()(5, 2), 31, 1e-14);
@@ -167,7 +174,8 @@ TEST(Iges, TheMatrixOfAMatrixIsAppliedAfterIt) {
   const int turn = b.add(124, "0.,-1.,0.,0.,1.,0.,0.,0.,0.,0.,1.,0.", shift);
   b.add(128, plate(), turn);
   const auto source = open_or_die(b.text());
-  EXPECT_EQ(Point(source->surfaces()[0].surface->control_points().row(5).transpose()), Point(10 - 2, 20 + 4, 30));
+  EXPECT_EQ(Point(source->surfaces()[0].surface->control_points().row(5).transpose()),
+            Point(10 - 2, 20 + 4, 30));
 }
 
 /// The plate with a hole: 144 on 128, with both kinds of boundaries.
@@ -179,7 +187,8 @@ std::string trimmed(bool in_space) {
   const int hole = b.add(142, fmt::format("1,{},{},{},2", surface, flat, in_space ? arc : 0));
   std::vector<int> sides;
   const char* corners[] = {"0.,0.,0.", "4.,0.,0.", "4.,2.,0.", "0.,2.,0."};
-  for (int k = 0; k < 4; ++k) sides.push_back(b.add(110, fmt::format("{},{}", corners[k], corners[(k + 1) % 4])));
+  for (int k = 0; k < 4; ++k)
+    sides.push_back(b.add(110, fmt::format("{},{}", corners[k], corners[(k + 1) % 4])));
   const int loop = b.add(102, fmt::format("4,{},{},{},{}", sides[0], sides[1], sides[2], sides[3]));
   const int outer = b.add(142, fmt::format("1,{},0,{},2", surface, loop));
   b.add(144, fmt::format("{},1,1,{},{}", surface, outer, hole));
@@ -199,7 +208,10 @@ TEST(Iges, TrimmedSurfacesAreFaces) {
     double area = 0;
     for (const FaceMesh& mesh : model->faces) {
       for (const auto& t : mesh.triangles) {
-        area += (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]).norm() / 2;
+        area += (mesh.points[t[1]] - mesh.points[t[0]])
+                    .cross(mesh.points[t[2]] - mesh.points[t[0]])
+                    .norm() /
+                2;
       }
     }
     // In parameters the hole is as wide in both directions, so that it is an ellipse on the plate.
@@ -217,7 +229,8 @@ TEST(Iges, ABoundaryThatIsNotKnownIsSaid) {
   const auto trims = trim_loops(*source->model());
   ASSERT_TRUE(trims);
   ASSERT_EQ(trims->skipped.size(), 1U);
-  EXPECT_NE(trims->skipped[0].reason.message().find("type 112 (parametric spline curve)"), std::string::npos)
+  EXPECT_NE(trims->skipped[0].reason.message().find("type 112 (parametric spline curve)"),
+            std::string::npos)
       << trims->skipped[0].reason.message();
 }
 
@@ -237,9 +250,11 @@ TEST(Iges, SaysWhatIsWrong) {
   packed[72] = 'B';
   EXPECT_NE(error_of(packed).message().find("binary"), std::string::npos);
   EXPECT_NE(error_of(with("D      2", "       2")).message().find("column 73"), std::string::npos);
-  EXPECT_NE(error_of(with("     128       1", "     1x8       1")).message().find("not a number"), std::string::npos);
+  EXPECT_NE(error_of(with("     128       1", "     1x8       1")).message().find("not a number"),
+            std::string::npos);
 
-  const auto unreadable = [&](const std::string& from, const std::string& to, const std::string& what) {
+  const auto unreadable = [&](const std::string& from, const std::string& to,
+                              const std::string& what) {
     const auto source = open_or_die(with(from, to));
     ASSERT_EQ(source->unreadable().size(), 1U) << from;
     EXPECT_EQ(source->unreadable()[0].id, "#1");
@@ -359,12 +374,14 @@ TEST_P(IgesFile, ChangedAndRefinedSurfacesReadBack) {
   const auto again = open_source(*bytes, "test.igs");
   ASSERT_TRUE(again) << again.error().message();
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    EXPECT_TRUE(testing::same_bits((*again)->surfaces()[k].surface->control_points(), surfaces[k]->control_points()));
+    EXPECT_TRUE(testing::same_bits((*again)->surfaces()[k].surface->control_points(),
+                                   surfaces[k]->control_points()));
     EXPECT_EQ((*again)->surfaces()[k].surface->knots(), surfaces[k]->knots());
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, IgesFile, ::testing::ValuesIn(testing::iges_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, IgesFile, ::testing::ValuesIn(testing::iges_files()),
+                         testing::file_test_name);
 
 }  // namespace
 }  // namespace knead

@@ -24,7 +24,8 @@ std::string refusal_of(const std::string& text) {
 }
 
 TEST(JsonNet, RowsOfPointsAreASurfaceWithUniformKnots) {
-  const std::string text = "[\n [[0, 0, 0], [0, 1, 0.5]],\n [[1, 0, 1e-3], [1, 1, -2.5E0]],\n [[2,0,0],[2,1,0]]\n]\n";
+  const std::string text =
+      "[\n [[0, 0, 0], [0, 1, 0.5]],\n [[1, 0, 1e-3], [1, 1, -2.5E0]],\n [[2,0,0],[2,1,0]]\n]\n";
   const auto source = open_or_die(text, "a.json");
   ASSERT_EQ(source->surfaces().size(), 1U);
   const Surface& s = *source->surfaces()[0].surface;
@@ -77,7 +78,8 @@ TEST(JsonNet, FaultsAreNamedWithTheirLine) {
   has(R"({"net": [], "net": []})", "\"net\" is there twice");
   has(R"({"degree": [1, 1.5]})", "whole number");
   has(R"({"degree": [1, 1]})", "no field \"net\"");
-  has(R"({"net": [[[0,0,0],[0,1,0]],[[1,0,0],[1,1,0]]], "knots": [[0,0,1,1],[0,0,1,1]]})", "no field \"degree\"");
+  has(R"({"net": [[[0,0,0],[0,1,0]],[[1,0,0],[1,1,0]]], "knots": [[0,0,1,1],[0,0,1,1]]})",
+      "no field \"degree\"");
   has("[[[0,0,0],[0,1,0]],[[1,0,0],[1,1,0]]] x", "follows the net");
   has(std::string(100000, '['), "is not a number");
   EXPECT_FALSE(open_source("", "a.json"));
@@ -88,7 +90,8 @@ TEST(PlainNet, WithoutRowsIsAFileWhoseSurfaceCannotBeRead) {
   EXPECT_TRUE(source->surfaces().empty());
   ASSERT_EQ(source->unreadable().size(), 1U);
   EXPECT_EQ(source->unreadable()[0].reason.message(),
-            "a.ctrlpts:1: 4 control points, but how many make a row is not said; put an empty line after each row, or "
+            "a.ctrlpts:1: 4 control points, but how many make a row is not said; put an empty line "
+            "after each row, or "
             "each row in one line with semicolons");
 }
 

@@ -33,11 +33,14 @@ LeftOut entry(const std::vector<LeftOut>& list, const std::string& many) {
 std::vector<LeftOut> of_step(const std::string& data) {
   return left_out_of_list(*open_or_die(testing::step_text(data), "a.step"));
 }
-std::vector<LeftOut> of_iges(const IgesBuilder& b) { return left_out_of_list(*open_or_die(b.text(), "a.igs")); }
+std::vector<LeftOut> of_iges(const IgesBuilder& b) {
+  return left_out_of_list(*open_or_die(b.text(), "a.igs"));
+}
 
 /// A shape that holds these records, in millimetres.
 void shape(StepBuilder& b, const std::vector<int>& items) {
-  b.entity(fmt::format("SHAPE_REPRESENTATION('',({}),#{})", StepBuilder::list_of(items), b.context("mm")));
+  b.entity(fmt::format("SHAPE_REPRESENTATION('',({}),#{})", StepBuilder::list_of(items),
+                       b.context("mm")));
 }
 
 TEST(LeftOut, IsOneLineWithCountNamesReasonAndRemedy) {
@@ -61,11 +64,12 @@ TEST(LeftOut, NothingOfAFileWhoseFacesAreAllDrawn) {
 
 TEST(LeftOutOfStep, PointsCurvesAndSurfacesThatStandForThemselves) {
   StepBuilder b;
-  const int point = b.point(1, 2, 3), circle = b.entity(fmt::format("CIRCLE('',#{},1.)", b.frame()));
+  const int point = b.point(1, 2, 3),
+            circle = b.entity(fmt::format("CIRCLE('',#{},1.)", b.frame()));
   const int plane = b.plane({0, 0, 0}, {0, 0, 1}, {1, 0, 0});
   const int set = b.entity(fmt::format("GEOMETRIC_SET('',(#{},#{}))", point, circle));
-  const int line = b.entity(
-      fmt::format("LINE('',#{},#{})", point, b.entity(fmt::format("VECTOR('',#{},1.)", b.direction(1, 0, 0)))));
+  const int line = b.entity(fmt::format(
+      "LINE('',#{},#{})", point, b.entity(fmt::format("VECTOR('',#{},1.)", b.direction(1, 0, 0)))));
   shape(b, {set, plane, line, b.frame()});
   const auto list = of_step(b.text());
   EXPECT_EQ(entry(list, "points").ids, Ids{id(point)});
@@ -78,16 +82,17 @@ TEST(LeftOutOfStep, PointsCurvesAndSurfacesThatStandForThemselves) {
 TEST(LeftOutOfStep, PointsOfPropertiesAreNoneOfTheShape) {
   StepBuilder b;
   const int point = b.point(1, 2, 3);
-  const int centre = b.entity(fmt::format("SHAPE_REPRESENTATION('',(#{}),#{})", point, b.context("mm")));
+  const int centre =
+      b.entity(fmt::format("SHAPE_REPRESENTATION('',(#{}),#{})", point, b.context("mm")));
   b.entity(fmt::format("PROPERTY_DEFINITION_REPRESENTATION($,#{})", centre));
   EXPECT_TRUE(of_step(b.text()).empty());
 }
 
 TEST(LeftOutOfStep, CurvesThatCannotBeReadHaveTheirReason) {
-  const std::string data =
-      testing::unit_square_points() +
-      "#20=B_SPLINE_CURVE_WITH_KNOTS('',1,(#1,#2),.UNSPECIFIED.,.F.,.F.,(2,3),(0.,1.),.UNSPECIFIED.);\n"
-      "#21=GEOMETRIC_CURVE_SET('',(#20));\n";
+  const std::string data = testing::unit_square_points() +
+                           "#20=B_SPLINE_CURVE_WITH_KNOTS('',1,(#1,#2),.UNSPECIFIED.,.F.,.F.,(2,3),"
+                           "(0.,1.),.UNSPECIFIED.);\n"
+                           "#21=GEOMETRIC_CURVE_SET('',(#20));\n";
   const auto list = of_step(data);
   ASSERT_EQ(list.size(), 1U);
   EXPECT_EQ(list[0].many, "curves that cannot be read");
@@ -97,19 +102,25 @@ TEST(LeftOutOfStep, CurvesThatCannotBeReadHaveTheirReason) {
 
 TEST(LeftOutOfStep, SolidsWithoutFacesAnnotationsViewsAndLayers) {
   const auto list = of_step(
-      "#1=BLOCK('',$,1.,2.,3.);\n#2=RIGHT_CIRCULAR_CYLINDER('',$,1.,2.);\n#3=BOOLEAN_RESULT('',.UNION.,#1,#2);\n"
+      "#1=BLOCK('',$,1.,2.,3.);\n#2=RIGHT_CIRCULAR_CYLINDER('',$,1.,2.);\n#3=BOOLEAN_RESULT('',."
+      "UNION.,#1,#2);\n"
       "#4=CSG_SOLID('',#3);\n#5=EXTRUDED_AREA_SOLID('',$,$,1.);\n#6=DRAUGHTING_CALLOUT('',(#7));\n"
-      "#7=ANNOTATION_CURVE_OCCURRENCE('',(),#8);\n#8=GEOMETRIC_CURVE_SET('',(#9));\n#9=POLYLINE('',(#12,#13));\n"
-      "#10=(GEOMETRIC_TOLERANCE('','',$,$)GEOMETRIC_TOLERANCE_WITH_DATUM_REFERENCE(())POSITION_TOLERANCE());\n"
-      "#11=CAMERA_MODEL_D3('',$,$);\n#12=CARTESIAN_POINT('',(0.,0.,0.));\n#13=CARTESIAN_POINT('',(1.,0.,0.));\n"
-      "#14=PRESENTATION_LAYER_ASSIGNMENT('','',(#9));\n#15=VOLUME_3D_ELEMENT_REPRESENTATION('',(),$,$,$,$,$);\n"
+      "#7=ANNOTATION_CURVE_OCCURRENCE('',(),#8);\n#8=GEOMETRIC_CURVE_SET('',(#9));\n#9=POLYLINE('',"
+      "(#12,#13));\n"
+      "#10=(GEOMETRIC_TOLERANCE('','',$,$)GEOMETRIC_TOLERANCE_WITH_DATUM_REFERENCE(())POSITION_"
+      "TOLERANCE());\n"
+      "#11=CAMERA_MODEL_D3('',$,$);\n#12=CARTESIAN_POINT('',(0.,0.,0.));\n#13=CARTESIAN_POINT('',("
+      "1.,0.,0.));\n"
+      "#14=PRESENTATION_LAYER_ASSIGNMENT('','',(#9));\n#15=VOLUME_3D_ELEMENT_REPRESENTATION('',(),$"
+      ",$,$,$,$);\n"
       "#16=B_SPLINE_VOLUME_WITH_KNOTS('',1);\n#17=SHAPE_REPRESENTATION('',(#4,#5,#16,#18),$);\n"
       "#18=NEVER_HEARD_OF('');\n");
   EXPECT_EQ(entry(list, "records of solids made of primitives").ids, (Ids{"#1", "#2", "#3", "#4"}));
   EXPECT_FALSE(entry(list, "records of solids made of primitives").remedy.empty());
   EXPECT_EQ(entry(list, "swept solids").ids, Ids{"#5"});
   EXPECT_EQ(entry(list, "drawn annotations").count, 2U);
-  EXPECT_EQ(entry(list, "dimensions, tolerances and datums").count, 1U) << "a record of three parts";
+  EXPECT_EQ(entry(list, "dimensions, tolerances and datums").count, 1U)
+      << "a record of three parts";
   EXPECT_EQ(entry(list, "saved views").count, 1U);
   EXPECT_EQ(entry(list, "layers").count, 1U);
   EXPECT_EQ(entry(list, "records of finite elements").count, 1U);
@@ -127,7 +138,8 @@ TEST(LeftOutOfStep, EdgesWithoutFacesButNotSurfacesThatAreBoundedByThemselves) {
   corners << 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0;
   const KnotVector k = *KnotVector::clamped_uniform(1, 2);
   const int spline = b.surface(*Surface::create({k, k}, corners), "sheet");
-  const int cut = b.entity(fmt::format("RECTANGULAR_TRIMMED_SURFACE('',#{},0.,.5,0.,1.,.T.,.T.)", spline));
+  const int cut =
+      b.entity(fmt::format("RECTANGULAR_TRIMMED_SURFACE('',#{},0.,.5,0.,1.,.T.,.T.)", spline));
   shape(b, {cut});
   const auto list = of_step(b.text());
   EXPECT_EQ(entry(list, "free edges").ids, Ids{id(edge)});
@@ -141,12 +153,15 @@ TEST(LeftOutOfStep, FacesThatCannotBeDrawnAndSurfacesThatCannotBeRead) {
     const int there = b.line(p, q, {0, 0, 0}, {1, 0, 0});
     const int on = b.entity(fmt::format("ORIENTED_EDGE('',*,*,#{},.T.)", there));
     const int off = b.entity(fmt::format("ORIENTED_EDGE('',*,*,#{},.F.)", there));
-    return b.entity(fmt::format("FACE_BOUND('',#{},.T.)", b.entity(fmt::format("EDGE_LOOP('',(#{},#{}))", on, off))));
+    return b.entity(fmt::format("FACE_BOUND('',#{},.T.)",
+                                b.entity(fmt::format("EDGE_LOOP('',(#{},#{}))", on, off))));
   };
-  const int offset = b.entity(fmt::format("OFFSET_SURFACE('',#{},1.,.F.)", b.plane({0, 0, 0}, {0, 0, 1}, {1, 0, 0})));
+  const int offset = b.entity(
+      fmt::format("OFFSET_SURFACE('',#{},1.,.F.)", b.plane({0, 0, 0}, {0, 0, 1}, {1, 0, 0})));
   const int unknown = b.entity(fmt::format("ADVANCED_FACE('',(#{}),#{},.T.)", loop(), offset));
   const int bad = b.entity(
-      "B_SPLINE_SURFACE_WITH_KNOTS('',1,1,(),.UNSPECIFIED.,.F.,.F.,.F.,(2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)");
+      "B_SPLINE_SURFACE_WITH_KNOTS('',1,1,(),.UNSPECIFIED.,.F.,.F.,.F.,(2,2),(2,2),(0.,1.),(0.,1.),"
+      ".UNSPECIFIED.)");
   const int above = b.entity(fmt::format("ADVANCED_FACE('',(#{}),#{},.T.)", loop(), bad));
   const int nowhere = b.entity(fmt::format("ADVANCED_FACE('',(#{}),$,.T.)", loop()));
   const auto source = open_or_die(testing::step_text(b.text()), "a.step");
@@ -170,14 +185,16 @@ TEST(LeftOutOfStep, FacesWhoseEdgesLieOffTheirSurfaceAreNamedWhereFacesAreListed
   const int sheet = b.surface(*Surface::create({k, k}, corners), "sheet");
   const std::array<Point, 3> apart = {Point(0, 0, 5), Point(1, 0, 5), Point(0, 1, 5)};
   std::array<int, 3> vertices = {};
-  for (std::size_t i = 0; i < 3; ++i) vertices[i] = b.vertex(apart[i].x(), apart[i].y(), apart[i].z());
+  for (std::size_t i = 0; i < 3; ++i)
+    vertices[i] = b.vertex(apart[i].x(), apart[i].y(), apart[i].z());
   std::string uses;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const Point way = apart[j] - apart[i];
-    const int edge =
-        b.line(vertices[i], vertices[j], {apart[i].x(), apart[i].y(), apart[i].z()}, {way.x(), way.y(), way.z()});
-    uses += fmt::format("{}#{}", i > 0 ? "," : "", b.entity(fmt::format("ORIENTED_EDGE('',*,*,#{},.T.)", edge)));
+    const int edge = b.line(vertices[i], vertices[j], {apart[i].x(), apart[i].y(), apart[i].z()},
+                            {way.x(), way.y(), way.z()});
+    uses += fmt::format("{}#{}", i > 0 ? "," : "",
+                        b.entity(fmt::format("ORIENTED_EDGE('',*,*,#{},.T.)", edge)));
   }
   const int loop = b.entity(fmt::format("EDGE_LOOP('',({}))", uses));
   const int bound = b.entity(fmt::format("FACE_BOUND('',#{},.T.)", loop));
@@ -186,7 +203,8 @@ TEST(LeftOutOfStep, FacesWhoseEdgesLieOffTheirSurfaceAreNamedWhereFacesAreListed
   EXPECT_TRUE(left_out_of_list(*source).empty());
   const auto faces = left_out_of_faces(*source);
   EXPECT_EQ(entry(faces, "faces that cannot be drawn").ids, Ids{id(face)});
-  EXPECT_NE(entry(faces, "faces that cannot be drawn").reason.find("do not lie on its surface"), std::string::npos);
+  EXPECT_NE(entry(faces, "faces that cannot be drawn").reason.find("do not lie on its surface"),
+            std::string::npos);
 }
 
 TEST(LeftOutOfStep, PartsWithoutGeometry) {
@@ -219,11 +237,13 @@ TEST(LeftOutOfIges, EverythingThatIsNoPartOfAFace) {
   b.add(190, fmt::format("{},0,0", b.add(116, "0.,0.,0.,0")));
   const auto list = of_iges(b);
   EXPECT_EQ(entry(list, "points").ids, (Ids{id(point), "#9"})) << "not that of the plane";
-  EXPECT_EQ(entry(list, "curves that bound no face").ids, Ids{id(composite)}) << "not what it is made of";
+  EXPECT_EQ(entry(list, "curves that bound no face").ids, Ids{id(composite)})
+      << "not what it is made of";
   EXPECT_EQ(entry(list, "solids without faces").count, 2U);
   EXPECT_EQ(entry(list, "annotations").count, 2U);
-  for (const char* once : {"groups", "drawings and views", "colours", "entities of type 406 (property)",
-                           "entities of type 999", "surfaces without faces"})
+  for (const char* once :
+       {"groups", "drawings and views", "colours", "entities of type 406 (property)",
+        "entities of type 999", "surfaces without faces"})
     EXPECT_EQ(entry(list, once).count, 1U) << once;
   EXPECT_EQ(entry(list, "subfigure definitions").ids, Ids{id(definition)});
   EXPECT_EQ(list.size(), 11U);
@@ -269,8 +289,9 @@ TEST(LeftOutOfBrep, FurtherUsesOfFacesAndLooseEdges) {
 TEST(LeftOut, OfMeshesAndNewFilesIsTheSameAndMore) {
   StepBuilder b;
   const int p = b.point(0, 0, 0), q = b.point(1, 0, 0);
-  const int curve = b.entity(
-      fmt::format("B_SPLINE_CURVE_WITH_KNOTS('',1,(#{},#{}),.UNSPECIFIED.,.F.,.F.,(2,2),(0.,1.),.UNSPECIFIED.)", p, q));
+  const int curve = b.entity(fmt::format(
+      "B_SPLINE_CURVE_WITH_KNOTS('',1,(#{},#{}),.UNSPECIFIED.,.F.,.F.,(2,2),(0.,1.),.UNSPECIFIED.)",
+      p, q));
   shape(b, {b.entity(fmt::format("GEOMETRIC_SET('',(#{},#{}))", curve, b.point(1, 2, 3)))});
   const auto source = open_or_die(testing::step_text(b.text()), "a.step");
   ASSERT_EQ(source->curves().size(), 1U);
@@ -278,7 +299,8 @@ TEST(LeftOut, OfMeshesAndNewFilesIsTheSameAndMore) {
   const auto step = left_out_of_surfaces(*source, *find_format("step"));
   EXPECT_EQ(listed.size(), 1U);
   EXPECT_EQ(entry(meshed, "curves").ids, Ids{id(curve)});
-  for (const auto& list : {listed, meshed, step}) EXPECT_EQ(sentence(entry(list, "points")), sentence(listed[0]));
+  for (const auto& list : {listed, meshed, step})
+    EXPECT_EQ(sentence(entry(list, "points")), sentence(listed[0]));
   EXPECT_EQ(step.size(), 1U) << "STEP holds curves";
   EXPECT_EQ(entry(left_out_of_surfaces(*source, *find_format("stl")), "curves").count, 1U);
 }

@@ -23,7 +23,8 @@ Sparse example() {
 std::uint32_t number(const std::string& bytes, std::size_t at, int size) {
   std::uint32_t value = 0;
   for (int k = 0; k < size; ++k) {
-    value |= std::uint32_t{static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(k)])} << (8 * k);
+    value |= std::uint32_t{static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(k)])}
+             << (8 * k);
   }
   return value;
 }
@@ -35,7 +36,8 @@ std::map<std::string, std::string> entries_of(const std::string& zip) {
   std::size_t at = number(zip, end + 16, 4);
   for (std::uint32_t k = 0; k < number(zip, end + 10, 2); ++k) {
     EXPECT_EQ(zip.substr(at, 4), "PK\x01\x02");
-    const std::uint32_t size = number(zip, at + 24, 4), name = number(zip, at + 28, 2), local = number(zip, at + 42, 4);
+    const std::uint32_t size = number(zip, at + 24, 4), name = number(zip, at + 28, 2),
+                        local = number(zip, at + 42, 4);
     EXPECT_EQ(number(zip, at + 20, 4), size) << "stored";
     EXPECT_EQ(zip.substr(local, 4), "PK\x03\x04");
     EXPECT_EQ(zip.substr(local + 4, 26), zip.substr(at + 6, 26)) << "both headers agree";
@@ -64,9 +66,10 @@ std::string raw(std::initializer_list<T> values) {
 }
 
 TEST(MatrixMarket, HasEveryDigitAndOneTriangleOfASymmetricMatrix) {
-  EXPECT_EQ(matrix_market(example(), true),
-            "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 2\n2 1 -0.33333333333333331\n"
-            "3 3 1e-300\n");
+  EXPECT_EQ(
+      matrix_market(example(), true),
+      "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 2\n2 1 -0.33333333333333331\n"
+      "3 3 1e-300\n");
   EXPECT_EQ(matrix_market(Sparse(2, 5)), "%%MatrixMarket matrix coordinate real general\n2 5 0\n");
 }
 
@@ -79,7 +82,8 @@ TEST(Npz, IsAnArchiveOfTheArraysThatScipyNames) {
   EXPECT_EQ(data_of(entries["shape.npy"], "<i8", "(2,)"), raw<std::int64_t>({3, 3}));
   EXPECT_EQ(data_of(entries["indptr.npy"], "<i4", "(4,)"), raw<int>({0, 2, 3, 4}));
   EXPECT_EQ(data_of(entries["indices.npy"], "<i4", "(4,)"), raw<int>({0, 1, 0, 2}));
-  EXPECT_EQ(data_of(entries["data.npy"], "<f8", "(4,)"), raw<double>({2, -1.0 / 3, -1.0 / 3, 1e-300}));
+  EXPECT_EQ(data_of(entries["data.npy"], "<f8", "(4,)"),
+            raw<double>({2, -1.0 / 3, -1.0 / 3, 1e-300}));
   EXPECT_EQ(*zip, *npz(example())) << "the same matrix, the same bytes";
 }
 
@@ -87,7 +91,8 @@ TEST(Npy, ListsRowAfterRow) {
   Eigen::Matrix<double, 2, 3> values;
   values << 1, 2, 3, 4, 5, 6;
   EXPECT_EQ(data_of(npy(values), "<f8", "(2, 3)"), raw<double>({1, 2, 3, 4, 5, 6}));
-  EXPECT_EQ(data_of(npy(std::vector<std::int64_t>{7, 9}), "<i8", "(2,)"), raw<std::int64_t>({7, 9}));
+  EXPECT_EQ(data_of(npy(std::vector<std::int64_t>{7, 9}), "<i8", "(2,)"),
+            raw<std::int64_t>({7, 9}));
 }
 
 }  // namespace

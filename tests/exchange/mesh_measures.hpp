@@ -18,10 +18,13 @@ inline double area_of(const FaceMesh& mesh) {
 /// Of a closed mesh, by the divergence theorem.
 inline double volume_of(std::span<const FaceMesh> faces) {
   double volume = 0;
-  const Point origin = faces.empty() || faces.front().points.empty() ? Point::Zero() : faces.front().points.front();
+  const Point origin =
+      faces.empty() || faces.front().points.empty() ? Point::Zero() : faces.front().points.front();
   for (const FaceMesh& mesh : faces) {
     for (const auto& [a, b, c] : mesh.triangles) {
-      volume += (mesh.points[a] - origin).dot((mesh.points[b] - origin).cross(mesh.points[c] - origin)) / 6;
+      volume +=
+          (mesh.points[a] - origin).dot((mesh.points[b] - origin).cross(mesh.points[c] - origin)) /
+          6;
     }
   }
   return volume;

@@ -38,8 +38,10 @@ int add_can(FaceBuilder& b, double radius, double height) {
     return b.entity(entity + "('',#" + std::to_string(b.frame(0, 0, z)) + measure + ")");
   };
   const std::vector<int> faces = {
-      b.face(on("CYLINDRICAL_SURFACE", 0, "," + FaceBuilder::real(radius)), {b.bound({below}), b.bound({-above})}),
-      b.face(on("PLANE", 0, ""), {b.bound({-below})}, false), b.face(on("PLANE", height, ""), {b.bound({above})})};
+      b.face(on("CYLINDRICAL_SURFACE", 0, "," + FaceBuilder::real(radius)),
+             {b.bound({below}), b.bound({-above})}),
+      b.face(on("PLANE", 0, ""), {b.bound({-below})}, false),
+      b.face(on("PLANE", height, ""), {b.bound({above})})};
   return b.entity("CLOSED_SHELL('',(" + FaceBuilder::list_of(faces) + "))");
 }
 
@@ -64,9 +66,10 @@ TEST(ModelMesh, ShellsOfHollowsAreInsideOutWhereTheyAreSaidToBe) {
   const auto volume = [](char orientation, bool also_solid = false) {
     FaceBuilder b;
     const int outer = add_can(b, 10, 30), hollow = add_can(b, 5, 20);
-    const int oriented =
-        b.entity("ORIENTED_CLOSED_SHELL('',*,#" + std::to_string(hollow) + ",." + std::string(1, orientation) + ".)");
-    b.entity("BREP_WITH_VOIDS('',#" + std::to_string(outer) + ",(#" + std::to_string(oriented) + "))");
+    const int oriented = b.entity("ORIENTED_CLOSED_SHELL('',*,#" + std::to_string(hollow) + ",." +
+                                  std::string(1, orientation) + ".)");
+    b.entity("BREP_WITH_VOIDS('',#" + std::to_string(outer) + ",(#" + std::to_string(oriented) +
+             "))");
     if (also_solid) b.entity("MANIFOLD_SOLID_BREP('',#" + std::to_string(hollow) + ")");
     const FaceMeshes model = model_of(b.file(), 0.01);
     for (const FaceMesh& mesh : model.faces) {
@@ -78,7 +81,8 @@ TEST(ModelMesh, ShellsOfHollowsAreInsideOutWhereTheyAreSaidToBe) {
     EXPECT_EQ(open_sides(model.faces), 0U);
     return volume_of(model.faces);
   };
-  const double outer = 3000 * pi, hollow = 500 * pi, within = 0.01 * 1050 * pi;  // the tolerance times the area
+  const double outer = 3000 * pi, hollow = 500 * pi,
+               within = 0.01 * 1050 * pi;  // the tolerance times the area
   EXPECT_NEAR(volume('F'), outer - hollow, within);
   EXPECT_NEAR(volume('T'), outer + hollow, within);
   EXPECT_NEAR(volume('F', true), outer + hollow, within);  // what fills it: one mesh of both
@@ -112,14 +116,15 @@ TEST(ModelMesh, ASmallHoleMakesNoFinerMesh) {
 }
 
 TEST(ModelMesh, AnEdgeMayHaveFunctionsThatAreZeroEverywhere) {
-  // A cubic with the knot 0 six times: its first two functions have no support, and their control points no effect.
+  // A cubic with the knot 0 six times: its first two functions have no support, and their control
+  // points no effect.
   FaceBuilder b;
   const int from = b.vertex(0, 0, 0), to = b.vertex(3, 0, 0), far = b.point(50, 60, 70);
-  std::string points =
-      FaceBuilder::list_of({far, far, b.point(0, 0, 0), b.point(1, 1, 0), b.point(2, 1, 0), b.point(3, 0, 0)});
-  const int arch =
-      b.edge(from, to,
-             "B_SPLINE_CURVE_WITH_KNOTS('',3,(" + points + "),.UNSPECIFIED.,.F.,.F.,(4,2,4),(0.,0.,1.),.UNSPECIFIED.)");
+  std::string points = FaceBuilder::list_of(
+      {far, far, b.point(0, 0, 0), b.point(1, 1, 0), b.point(2, 1, 0), b.point(3, 0, 0)});
+  const int arch = b.edge(from, to,
+                          "B_SPLINE_CURVE_WITH_KNOTS('',3,(" + points +
+                              "),.UNSPECIFIED.,.F.,.F.,(4,2,4),(0.,0.,1.),.UNSPECIFIED.)");
   b.face(b.entity("PLANE('',#" + std::to_string(b.frame()) + ")"),
          {b.bound({-arch, b.line(from, to, {0, 0, 0}, {1, 0, 0})})});
   const FaceMeshes model = model_of(b.file(), 1e-4);
@@ -134,11 +139,12 @@ step::File half_ring(double inner) {
     double x, y, radius;  ///< of the arc to the next one; 0: a line; below 0: clockwise
   };
   const double angle = 2.2;
-  const std::array<Corner, 5> corners = {{{10, 0, 10},
-                                          {-10, 0, 0},
-                                          {-inner, 0, -inner},
-                                          {inner * std::cos(angle), inner * std::sin(angle), -inner},
-                                          {inner, 0, 0}}};
+  const std::array<Corner, 5> corners = {
+      {{10, 0, 10},
+       {-10, 0, 0},
+       {-inner, 0, -inner},
+       {inner * std::cos(angle), inner * std::sin(angle), -inner},
+       {inner, 0, 0}}};
   constexpr std::size_t n = corners.size();
   std::array<int, n> post;
   std::array<std::array<int, n>, 2> vertex, side;
@@ -162,15 +168,17 @@ step::File half_ring(double inner) {
       std::ranges::reverse(rim[end]);
       for (int& edge : rim[end]) edge = -edge;
     }
-    b.face(b.entity("PLANE('',#" + std::to_string(b.frame(0, 0, 5.0 * end)) + ")"), {b.bound(rim[end])}, end == 1);
+    b.face(b.entity("PLANE('',#" + std::to_string(b.frame(0, 0, 5.0 * end)) + ")"),
+           {b.bound(rim[end])}, end == 1);
   }
   const int front = b.entity("AXIS2_PLACEMENT_3D('',#" + std::to_string(b.point(0, 0, 0)) + ",#" +
-                             std::to_string(b.direction(0, -1, 0)) + ",#" + std::to_string(b.direction(1, 0, 0)) + ")");
+                             std::to_string(b.direction(0, -1, 0)) + ",#" +
+                             std::to_string(b.direction(1, 0, 0)) + ")");
   for (std::size_t k = 0; k < n; ++k) {
     const double radius = corners[k].radius;
     const int on = b.entity(radius == 0 ? "PLANE('',#" + std::to_string(front) + ")"
-                                        : "CYLINDRICAL_SURFACE('',#" + std::to_string(b.frame()) + "," +
-                                              FaceBuilder::real(std::abs(radius)) + ")");
+                                        : "CYLINDRICAL_SURFACE('',#" + std::to_string(b.frame()) +
+                                              "," + FaceBuilder::real(std::abs(radius)) + ")");
     b.face(on, {b.bound({side[0][k], post[(k + 1) % n], -side[1][k], -post[k]})}, radius >= 0);
   }
   return b.file();
@@ -197,9 +205,10 @@ TEST(ModelMesh, AnEdgeMayBeAPoint) {
   const int first = b.vertex(x, y, z), second = b.vertex(x, y, z), right = b.vertex(x + 3, y, z),
             above = b.vertex(x, y + 2, z);
   const std::vector<int> points(6, b.point(x, y, z));
-  const int none = b.edge(first, second,
-                          "B_SPLINE_CURVE_WITH_KNOTS('',5,(" + FaceBuilder::list_of(points) +
-                              "),.UNSPECIFIED.,.F.,.F.,(6,6),(1213.81,1213.813),.PIECEWISE_BEZIER_KNOTS.)");
+  const int none =
+      b.edge(first, second,
+             "B_SPLINE_CURVE_WITH_KNOTS('',5,(" + FaceBuilder::list_of(points) +
+                 "),.UNSPECIFIED.,.F.,.F.,(6,6),(1213.81,1213.813),.PIECEWISE_BEZIER_KNOTS.)");
   b.face(b.entity("PLANE('',#" + std::to_string(b.frame(0, 0, z)) + ")"),
          {b.bound({none, line(second, right, 0, 0, 1, 0), line(right, above, 3, 0, -3, 2),
                    line(above, first, 0, 2, 0, -1)})});
@@ -225,7 +234,8 @@ TEST(ModelMesh, ASurfaceMayBeNarrowerThanItsEdgesAreSearchedTo) {
     for (int k = 0; k < 6; ++k) row.push_back(b.point(x, k < 3 ? 0 : wide, z));
     net += (net.empty() ? "(" : ",(") + FaceBuilder::list_of(row) + ")";
   }
-  std::array<int, 4> vertex = {b.vertex(0, 0, 0), b.vertex(10, 0, 0), b.vertex(10, wide, 0), b.vertex(0, wide, 0)};
+  std::array<int, 4> vertex = {b.vertex(0, 0, 0), b.vertex(10, 0, 0), b.vertex(10, wide, 0),
+                               b.vertex(0, wide, 0)};
   const auto curved = [&](int from, int to, double y) {
     return b.edge(from, to,
                   "B_SPLINE_CURVE_WITH_KNOTS('',2,(" + FaceBuilder::list_of(side(y)) +
@@ -240,7 +250,8 @@ TEST(ModelMesh, ASurfaceMayBeNarrowerThanItsEdgesAreSearchedTo) {
   const FaceMeshes model = model_of(b.file(), 0.01);
   ASSERT_EQ(model.faces.size(), 1U);
   EXPECT_LT(model.faces[0].triangles.size(), 1000U);
-  const double length = std::sqrt(29) + 12.5 * std::asinh(0.4);  // ∫ √(100 + (4 − 8 t)²) dt from 0 to 1
+  // ∫ √(100 + (4 − 8 t)²) dt from 0 to 1.
+  const double length = std::sqrt(29) + 12.5 * std::asinh(0.4);
   EXPECT_NEAR(testing::area_of(model.faces[0]), wide * length, 0.01 * wide * length);
 }
 
@@ -264,8 +275,8 @@ TEST(ModelMesh, SpheresAndToriAreClosedWithoutEdges) {
   }
 }
 
-/// The largest distance of a mesh from the surface that it lies on, at 12 points of each triangle, or of
-/// every so many of the larger meshes.
+/// The largest distance of a mesh from the surface that it lies on, at 12 points of each triangle,
+/// or of every so many of the larger meshes.
 double off(const FaceMesh& mesh, const Surface& surface) {
   const auto search = ClosestPointSearch<2>::create(surface);
   double result = 0;
@@ -276,7 +287,8 @@ double off(const FaceMesh& mesh, const Surface& surface) {
     for (int i = 0; i <= 4; ++i) {
       for (int k = 0; k <= 4 - i; ++k) {
         if (i == 4 || k == 4) continue;
-        result = std::max(result, search->nearest(Point(i * a + k * b + (4 - i - k) * c) / 4).distance);
+        result =
+            std::max(result, search->nearest(Point(i * a + k * b + (4 - i - k) * c) / 4).distance);
       }
     }
   }
@@ -292,25 +304,29 @@ TEST_P(ModelMeshFile, TrianglesAreWithinTheToleranceOfTheirSurface) {
   for (const double share : {1e-3, 1e-4}) {
     Eigen::AlignedBox3d box;
     for (const auto& s : file->surfaces()) {
-      for (const auto& row : s.surface.control_points().rowwise()) box.extend(Point(row.transpose()));
+      for (const auto& row : s.surface.control_points().rowwise())
+        box.extend(Point(row.transpose()));
     }
     const double tolerance = share * box.diagonal().norm();
     const FaceMeshes model = model_of(*file, tolerance);
     const auto assembly = file->model().assembly;
     ASSERT_TRUE(assembly);
     int measured = 0;
-    std::map<std::string, std::size_t> place;  // the meshes of a face are in the order of the places of its part
+    std::map<std::string, std::size_t>
+        place;  // the meshes of a face are in the order of the places of its part
     for (FaceMesh mesh : model.faces) {
       const auto* entity = file->model().find_surface(mesh.surface);
       if (entity == nullptr || ++measured > (testing::long_run() ? 12 : 4)) continue;
-      const Eigen::Affine3d back = assembly->part_of(mesh.surface)->places[place[mesh.id]++].to_model.inverse();
+      const Eigen::Affine3d back =
+          assembly->part_of(mesh.surface)->places[place[mesh.id]++].to_model.inverse();
       for (Point& p : mesh.points) p = back * p;
       EXPECT_LE(off(mesh, entity->surface), tolerance) << mesh.id << " of " << model.faces.size();
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, ModelMeshFile, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, ModelMeshFile, ::testing::ValuesIn(testing::step_files()),
+                         testing::file_test_name);
 
 TEST(ModelMesh, SaysWhatIsWrong) {
   const auto file = can(10, 30);
@@ -320,8 +336,8 @@ TEST(ModelMesh, SaysWhatIsWrong) {
     EXPECT_EQ(model.error().kind, ErrorKind::usage);
     EXPECT_EQ(model.error().where, "tolerance");
   }
-  const auto empty =
-      model_faces(testing::parse_or_die(testing::step_text("#1=CARTESIAN_POINT('',(0.,0.,0.));\n")).model());
+  const auto empty = model_faces(
+      testing::parse_or_die(testing::step_text("#1=CARTESIAN_POINT('',(0.,0.,0.));\n")).model());
   ASSERT_FALSE(empty);
   EXPECT_EQ(empty.error().kind, ErrorKind::input);
   // A tolerance that follows from the model is not one that somebody gave.

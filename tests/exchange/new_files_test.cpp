@@ -45,7 +45,8 @@ std::vector<NamedSurface> box() {
   return result;
 }
 
-std::string saved(const std::vector<NamedSurface>& surfaces, const char* format, const SaveOptions& how) {
+std::string saved(const std::vector<NamedSurface>& surfaces, const char* format,
+                  const SaveOptions& how) {
   const auto bytes = save_surfaces(surfaces, *find_format(format), how);
   EXPECT_TRUE(bytes) << bytes.error().message();
   return bytes.value_or("");
@@ -90,7 +91,8 @@ TEST(NewFiles, ReadBackToTheSameBits) {
 TEST(NewFiles, TheSchemaIsTheOneAskedFor) {
   SaveOptions how;
   how.schema = "ap242";
-  EXPECT_NE(saved(box(), "step", how).find("FILE_SCHEMA(('AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF"),
+  EXPECT_NE(saved(box(), "step", how)
+                .find("FILE_SCHEMA(('AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF"),
             std::string::npos);
   how.schema = "ap209";
   const auto none = save_surfaces(box(), *find_format("step"), how);
@@ -111,7 +113,8 @@ TEST(NewFiles, SidesThatMeetShareTheirEdge) {
     if (std::string_view(format) != "step") continue;
     const auto count = [&](std::string_view word) {
       std::size_t found = 0;
-      for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+      for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        ++found;
       return found;
     };
     EXPECT_EQ(count("=VERTEX_POINT("), 8U);
@@ -128,7 +131,8 @@ TEST(NewFiles, APoleHasNoEdgeAndASeamHasOne) {
   const auto cone = std::ranges::find(all, std::string("cone"), &NamedSurface::name);
   const std::string text = saved({*cone}, "step", how);
   std::size_t edges = 0;
-  for (std::size_t at = text.find("=EDGE_CURVE("); at != std::string::npos; at = text.find("=EDGE_CURVE(", at + 1)) {
+  for (std::size_t at = text.find("=EDGE_CURVE("); at != std::string::npos;
+       at = text.find("=EDGE_CURVE(", at + 1)) {
     ++edges;
   }
   EXPECT_EQ(edges, 2U) << "the base and the seam";
@@ -150,7 +154,8 @@ TEST(NewFiles, HaveTheColoursOfTheirSurfaces) {
     }
   }
   const std::string iges = saved(surfaces, "iges", how);
-  EXPECT_NE(iges.find("314,1.0000000000000000E+02,5.0000000000000000E+01,"), std::string::npos) << iges;
+  EXPECT_NE(iges.find("314,1.0000000000000000E+02,5.0000000000000000E+01,"), std::string::npos)
+      << iges;
 }
 
 TEST(NewFiles, OfIgesHaveEightyColumnsAndRightCounts) {
@@ -168,8 +173,8 @@ TEST(NewFiles, OfIgesHaveEightyColumnsAndRightCounts) {
     EXPECT_EQ(std::stoi(line.substr(73)), ++counts[line[72]]) << line;
     last = line;
   }
-  EXPECT_EQ(last.substr(0, 32),
-            fmt::format("S{:>7}G{:>7}D{:>7}P{:>7}", counts['S'], counts['G'], counts['D'], counts['P']));
+  EXPECT_EQ(last.substr(0, 32), fmt::format("S{:>7}G{:>7}D{:>7}P{:>7}", counts['S'], counts['G'],
+                                            counts['D'], counts['P']));
   EXPECT_NE(text.find("38Ha name that is longer than a label, ?h"), std::string::npos) << text;
 }
 

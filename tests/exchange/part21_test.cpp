@@ -26,22 +26,25 @@ Error error_of(const std::string& bytes) {
 }
 
 TEST(Part21, RecordsAndParametersRememberTheirBytes) {
-  const auto file = read(step_text("#5 = THING ( 'a', (1, 2.5E+1 , #5), $,*, .T., \"0FF\", REAL_MEASURE(3.) ) ;\n"));
+  const auto file = read(
+      step_text("#5 = THING ( 'a', (1, 2.5E+1 , #5), $,*, .T., \"0FF\", REAL_MEASURE(3.) ) ;\n"));
   ASSERT_EQ(file.instances().size(), 1U);
   const auto& instance = file.instance(0);
-  EXPECT_EQ(file.text(instance.bytes), "#5 = THING ( 'a', (1, 2.5E+1 , #5), $,*, .T., \"0FF\", REAL_MEASURE(3.) ) ;");
-  EXPECT_EQ(file.text(instance.record), "THING ( 'a', (1, 2.5E+1 , #5), $,*, .T., \"0FF\", REAL_MEASURE(3.) )");
+  EXPECT_EQ(file.text(instance.bytes),
+            "#5 = THING ( 'a', (1, 2.5E+1 , #5), $,*, .T., \"0FF\", REAL_MEASURE(3.) ) ;");
+  EXPECT_EQ(file.text(instance.record),
+            "THING ( 'a', (1, 2.5E+1 , #5), $,*, .T., \"0FF\", REAL_MEASURE(3.) )");
   EXPECT_EQ(file.keyword(instance.first), "THING");
   const auto parameters = file.children(instance.first);
   std::vector<std::string> texts;
   for (const auto k : parameters) texts.emplace_back(file.text(k));
-  EXPECT_EQ(texts,
-            (std::vector<std::string>{"'a'", "(1, 2.5E+1 , #5)", "$", "*", ".T.", "\"0FF\"", "REAL_MEASURE(3.)"}));
+  EXPECT_EQ(texts, (std::vector<std::string>{"'a'", "(1, 2.5E+1 , #5)", "$", "*", ".T.", "\"0FF\"",
+                                             "REAL_MEASURE(3.)"}));
   std::vector<Part21Kind> kinds;
   for (const auto k : parameters) kinds.push_back(file.value(k).kind);
-  EXPECT_EQ(kinds,
-            (std::vector<Part21Kind>{Part21Kind::string, Part21Kind::list, Part21Kind::unset, Part21Kind::derived,
-                                     Part21Kind::enumeration, Part21Kind::binary, Part21Kind::typed}));
+  EXPECT_EQ(kinds, (std::vector<Part21Kind>{Part21Kind::string, Part21Kind::list, Part21Kind::unset,
+                                            Part21Kind::derived, Part21Kind::enumeration,
+                                            Part21Kind::binary, Part21Kind::typed}));
   const auto list = file.children(parameters[1]);
   ASSERT_EQ(list.size(), 3U);
   EXPECT_EQ(file.value(list[0]).kind, Part21Kind::integer);
@@ -51,11 +54,12 @@ TEST(Part21, RecordsAndParametersRememberTheirBytes) {
 }
 
 TEST(Part21, CommentsAndLineBreaksStandBetweenAnyTwoTokens) {
-  const auto spread =
-      read(step_text("#1\r\n/* ; ' */=\n/**/A/***/(\r'x;y'/*)*/,\\N\\(\n#1/*,*/\n)\\F\\)\n/* #2=B(); */;\n"));
+  const auto spread = read(step_text(
+      "#1\r\n/* ; ' */=\n/**/A/***/(\r'x;y'/*)*/,\\N\\(\n#1/*,*/\n)\\F\\)\n/* #2=B(); */;\n"));
   ASSERT_EQ(spread.instances().size(), 1U);
   EXPECT_EQ(spread.children(spread.instance(0).first).size(), 2U);
-  const auto tight = read("ISO-10303-21;HEADER;ENDSEC;DATA;#1=A('x;y',(#1));ENDSEC;END-ISO-10303-21;");
+  const auto tight =
+      read("ISO-10303-21;HEADER;ENDSEC;DATA;#1=A('x;y',(#1));ENDSEC;END-ISO-10303-21;");
   EXPECT_EQ(tight.instances().size(), 1U);
 }
 
@@ -64,13 +68,15 @@ TEST(Part21, ComplexInstancesHaveParts) {
   const auto& instance = file.instance(0);
   EXPECT_TRUE(instance.complex);
   std::vector<std::string> parts;
-  for (auto k = instance.first; k < instance.last; k = file.value(k).next) parts.emplace_back(file.keyword(k));
+  for (auto k = instance.first; k < instance.last; k = file.value(k).next)
+    parts.emplace_back(file.keyword(k));
   EXPECT_EQ(parts, (std::vector<std::string>{"A", "B", "C"}));
 }
 
 TEST(Part21, ScopesNestAndExport) {
-  const auto file = read(
-      step_text("#9=&SCOPE\n#1=A();\n#5=&SCOPE #2=B(#1); ENDSCOPE C(#2);\nENDSCOPE /#1,#5/\nD(#5);\n#10=E(#9,#1);\n"));
+  const auto file =
+      read(step_text("#9=&SCOPE\n#1=A();\n#5=&SCOPE #2=B(#1); ENDSCOPE C(#2);\nENDSCOPE "
+                     "/#1,#5/\nD(#5);\n#10=E(#9,#1);\n"));
   ASSERT_EQ(file.instances().size(), 5U);
   const auto owner = *file.find(9);
   const auto inner = *file.find(5);
@@ -84,8 +90,9 @@ TEST(Part21, ScopesNestAndExport) {
 }
 
 TEST(Part21, InstancesAreFoundByTheNamesOfTheirParts) {
-  const auto file = read(
-      step_text("#9=&SCOPE\n#1=B();\nENDSCOPE b(#1);\n#2=(A()B());\n#3=BB();\n#4=A(B(1));\n#5=(B()B());\n#6=C();\n"));
+  const auto file =
+      read(step_text("#9=&SCOPE\n#1=B();\nENDSCOPE "
+                     "b(#1);\n#2=(A()B());\n#3=BB();\n#4=A(B(1));\n#5=(B()B());\n#6=C();\n"));
   const auto ids = [&](std::initializer_list<std::string_view> names) {
     std::vector<std::uint64_t> result;
     for (const auto k : file.named(names)) result.push_back(file.instance(k).id);
@@ -143,8 +150,10 @@ TEST(Part21, NamesAloneFindTheSameRecords) {
 
 TEST(Part21, SectionsOfTheLaterEditions) {
   const auto file = read(
-      "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('S'));\nENDSEC;\nANCHOR;\n<here>=#1{tag:'v'};\n<there>=$;\nENDSEC;\n"
-      "REFERENCE;\n#7=<other.stp#x>;\n@8=<v>;\nENDSEC;\nDATA('one',('S'));\n#1=A(#7,@8,#PI);\nENDSEC;\nDATA;\n#2=B(#1);"
+      "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('S'));\nENDSEC;\nANCHOR;\n<here>=#1{tag:'v'};\n<there>="
+      "$;\nENDSEC;\n"
+      "REFERENCE;\n#7=<other.stp#x>;\n@8=<v>;\nENDSEC;\nDATA('one',('S'));\n#1=A(#7,@8,#PI);"
+      "\nENDSEC;\nDATA;\n#2=B(#1);"
       "\nENDSEC;\n"
       "END-ISO-10303-21;\nSIGNATURE;\nMIIB+/=='('\nENDSEC;\n");
   EXPECT_EQ(file.instances().size(), 2U);
@@ -215,7 +224,8 @@ TEST(Part21, ReferencesToNothingAreWarnings) {
   EXPECT_EQ(file.warnings()[0].line, 8);
   EXPECT_NE(file.warnings()[0].what.find("refers to #50"), std::string::npos);
   EXPECT_EQ(file.warnings()[1].line, 9);
-  // The corner is used elsewhere, so that the surface gets a new record: it must not take a missing name.
+  // The corner is used elsewhere, so that the surface gets a new record: it must not take a missing
+  // name.
   Points points = file.surfaces()[0].surface.control_points();
   points(3, 2) = 1;
   const step::Edit edit{"#10", points};
@@ -263,7 +273,8 @@ TEST(Part21, DeepNestingIsAnErrorAndNotACrash) {
 
 TEST(Part21, LinesAreCountedWhateverEndsThem) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
-    std::string text = "ISO-10303-21;" + end + "HEADER;" + end + "ENDSEC;" + end + "DATA;" + end + "#1=A(.T);" + end;
+    std::string text = "ISO-10303-21;" + end + "HEADER;" + end + "ENDSEC;" + end + "DATA;" + end +
+                       "#1=A(.T);" + end;
     EXPECT_EQ(error_of(text + "ENDSEC;END-ISO-10303-21;").line, 5);
   }
 }

@@ -14,7 +14,9 @@ using testing::same_bits;
 using testing::step_text;
 using testing::unit_square_points;
 
-Surface surface_of(const std::string& bytes) { return parse_or_die(bytes).model().find_surface("#10")->surface; }
+Surface surface_of(const std::string& bytes) {
+  return parse_or_die(bytes).model().find_surface("#10")->surface;
+}
 
 std::string replaced(const std::string& bytes, const Surface& surface) {
   const brep::Replacement replacement{"#10", surface};
@@ -35,7 +37,8 @@ Surface inserted(const std::string& bytes, std::vector<double> u, std::vector<do
 }
 
 // The text with each first occurrence of a pair's left replaced by its right.
-std::string edited(std::string text, const std::vector<std::pair<std::string, std::string>>& pairs) {
+std::string edited(std::string text,
+                   const std::vector<std::pair<std::string, std::string>>& pairs) {
   for (const auto& [from, to] : pairs) {
     const auto at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
@@ -44,17 +47,18 @@ std::string edited(std::string text, const std::vector<std::pair<std::string, st
   return text;
 }
 
-const std::string quarter = "2.5000000000000000E-01", half = "5.0000000000000000E-01", zero = "0.0000000000000000E+00",
-                  one = "1.0000000000000000E+00";
+const std::string quarter = "2.5000000000000000E-01", half = "5.0000000000000000E-01",
+                  zero = "0.0000000000000000E+00", one = "1.0000000000000000E+00";
 
 TEST(RefinedSurface, AnInsertedKnotChangesTheNetAndTheKnotsOfItsDirectionAlone) {
   const auto bytes = step_text(unit_square_points() + bilinear_patch());
   EXPECT_EQ(replaced(bytes, inserted(bytes, {0.25})),
             edited(bytes, {{"((#1,#2),(#3,#4))", "((#1,#2),\n(#11,#12),\n(#3,#4))"},
                            {"(2,2),(2,2),(0.,1.),(0.,1.)", "(2,1,2),(2,2),(0.,0.25,1.),(0.,1.)"},
-                           {".UNSPECIFIED.);\n", ".UNSPECIFIED.);\n#11=CARTESIAN_POINT('',(" + quarter + "," + zero +
-                                                     "," + zero + "));\n#12=CARTESIAN_POINT('',(" + quarter + "," +
-                                                     one + "," + zero + "));\n"}}));
+                           {".UNSPECIFIED.);\n", ".UNSPECIFIED.);\n#11=CARTESIAN_POINT('',(" +
+                                                     quarter + "," + zero + "," + zero +
+                                                     "));\n#12=CARTESIAN_POINT('',(" + quarter +
+                                                     "," + one + "," + zero + "));\n"}}));
 }
 
 TEST(RefinedSurface, TheSameSurfaceGivesTheSameBytesAndTheSameNetTheSameAsAnEditOfPoints) {
@@ -69,20 +73,24 @@ TEST(RefinedSurface, TheSameSurfaceGivesTheSameBytesAndTheSameNetTheSameAsAnEdit
 
 // Three rows of which the middle one is nobody else's.
 const std::string quadratic =
-    unit_square_points() + "#5= CARTESIAN_POINT ( 'mid' , (0.5,0.,1.));\n#6=CARTESIAN_POINT('',(0.5,1.,1.));\n" +
-    "#10=B_SPLINE_SURFACE_WITH_KNOTS('patch',2,1,((#1,#2),(#5,#6),(#3,#4)),.RULED_SURF.,.F.,.U.,.T.,(3,3),(2,2),"
+    unit_square_points() +
+    "#5= CARTESIAN_POINT ( 'mid' , (0.5,0.,1.));\n#6=CARTESIAN_POINT('',(0.5,1.,1.));\n" +
+    "#10=B_SPLINE_SURFACE_WITH_KNOTS('patch',2,1,((#1,#2),(#5,#6),(#3,#4)),.RULED_SURF.,.F.,.U.,.T."
+    ",(3,3),(2,2),"
     "(0.0E0,1.00),(0,1.),.PIECEWISE_BEZIER_KNOTS.);\n";
 
 TEST(RefinedSurface, RecordsNobodyNeedsTakeOverNewValues) {
   const auto bytes = step_text(quadratic);
-  EXPECT_EQ(replaced(bytes, inserted(bytes, {0.5})),
-            edited(bytes, {{"((#1,#2),(#5,#6),(#3,#4))", "((#1,#2),\n(#5,#6),\n(#11,#12),\n(#3,#4))"},
-                           {"(0.5,0.,1.)", "(" + quarter + ",0.," + half + ")"},
-                           {"(0.5,1.,1.)", "(" + quarter + ",1.," + half + ")"},
-                           {"(3,3),(2,2),(0.0E0,1.00)", "(3,1,3),(2,2),(0.0E0,0.5,1.00)"},
-                           {".PIECEWISE_BEZIER_KNOTS.);\n",
-                            ".UNSPECIFIED.);\n#11=CARTESIAN_POINT('',(7.5000000000000000E-01," + zero + "," + half +
-                                "));\n#12=CARTESIAN_POINT('',(7.5000000000000000E-01," + one + "," + half + "));\n"}}));
+  EXPECT_EQ(
+      replaced(bytes, inserted(bytes, {0.5})),
+      edited(bytes, {{"((#1,#2),(#5,#6),(#3,#4))", "((#1,#2),\n(#5,#6),\n(#11,#12),\n(#3,#4))"},
+                     {"(0.5,0.,1.)", "(" + quarter + ",0.," + half + ")"},
+                     {"(0.5,1.,1.)", "(" + quarter + ",1.," + half + ")"},
+                     {"(3,3),(2,2),(0.0E0,1.00)", "(3,1,3),(2,2),(0.0E0,0.5,1.00)"},
+                     {".PIECEWISE_BEZIER_KNOTS.);\n",
+                      ".UNSPECIFIED.);\n#11=CARTESIAN_POINT('',(7.5000000000000000E-01," + zero +
+                          "," + half + "));\n#12=CARTESIAN_POINT('',(7.5000000000000000E-01," +
+                          one + "," + half + "));\n"}}));
 }
 
 TEST(RefinedSurface, RecordsSomebodyElseNeedsStay) {
@@ -95,12 +103,15 @@ TEST(RefinedSurface, RecordsSomebodyElseNeedsStay) {
 
 TEST(RefinedSurface, ElevationAndBothDirectionsAtOnce) {
   const auto bytes = step_text(quadratic);
-  const auto higher = *elevate_degree(*elevate_degree(inserted(bytes, {0.5, 0.5}, {1.0 / 3}), 0), 1, 2);
+  const auto higher =
+      *elevate_degree(*elevate_degree(inserted(bytes, {0.5, 0.5}, {1.0 / 3}), 0), 1, 2);
   const auto result = replaced(bytes, higher);
   EXPECT_NE(result.find("('patch',3,3,((#1,"), std::string::npos);
-  EXPECT_NE(result.find(",.RULED_SURF.,.F.,.U.,.T.,(4,3,4),(4,3,4),(0.0E0,0.5,1.00),(0,0.3333333333333333,1.),"
-                        ".UNSPECIFIED.);"),
-            std::string::npos)
+  EXPECT_NE(
+      result.find(
+          ",.RULED_SURF.,.F.,.U.,.T.,(4,3,4),(4,3,4),(0.0E0,0.5,1.00),(0,0.3333333333333333,1.),"
+          ".UNSPECIFIED.);"),
+      std::string::npos)
       << "form and flags stay";
 }
 
@@ -118,47 +129,58 @@ TEST(RefinedSurface, WhatWasInsertedAndIsRemovedAgainLeavesSpareRecordsBehind) {
 
 TEST(RefinedSurface, ImpliedKnotsAreListedOnceTheyAreOthers) {
   const auto bezier =
-      step_text(unit_square_points() + "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.);\n");
+      step_text(unit_square_points() +
+                "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.);\n");
+  EXPECT_NE(replaced(bezier, inserted(bezier, {0.25}))
+                .find("#10=B_SPLINE_SURFACE_WITH_KNOTS('b',1,1,((#1,#2),\n(#11,#12),\n(#3,#4)),."
+                      "UNSPECIFIED.,.F.,.F.,.F."
+                      ",(2,1,2),(2,2),(0.,0.25,1.),(0.,1.),.UNSPECIFIED.);\n"),
+            std::string::npos);
   EXPECT_NE(
-      replaced(bezier, inserted(bezier, {0.25}))
-          .find("#10=B_SPLINE_SURFACE_WITH_KNOTS('b',1,1,((#1,#2),\n(#11,#12),\n(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F."
-                ",(2,1,2),(2,2),(0.,0.25,1.),(0.,1.),.UNSPECIFIED.);\n"),
-      std::string::npos);
-  EXPECT_NE(replaced(bezier, *elevate_degree(surface_of(bezier), 0)).find("#10=BEZIER_SURFACE('b',2,1,"),
-            std::string::npos)
+      replaced(bezier, *elevate_degree(surface_of(bezier), 0)).find("#10=BEZIER_SURFACE('b',2,1,"),
+      std::string::npos)
       << "still one Bezier piece";
   for (const auto* form : {"QUASI_UNIFORM_SURFACE", "UNIFORM_SURFACE"}) {
     const auto bytes = edited(bezier, {{"BEZIER_SURFACE", form}});
-    EXPECT_NE(replaced(bytes, inserted(bytes, {}, {0.5})).find("#10=B_SPLINE_SURFACE_WITH_KNOTS('b',1,1,"),
+    EXPECT_NE(replaced(bytes, inserted(bytes, {}, {0.5}))
+                  .find("#10=B_SPLINE_SURFACE_WITH_KNOTS('b',1,1,"),
               std::string::npos);
   }
 }
 
-const std::string complex_surface =
-    unit_square_points() +
-    "#10=(BEZIER_SURFACE()BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)"
-    "GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(((1.,2.00),(1.,4.)))REPRESENTATION_ITEM('')SURFACE());\n";
+const std::string complex_surface = unit_square_points() +
+                                    "#10=(BEZIER_SURFACE()BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#"
+                                    "1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)"
+                                    "GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(((1.,"
+                                    "2.00),(1.,4.)))REPRESENTATION_ITEM('')SURFACE());\n";
 
 TEST(RefinedSurface, ComplexInstancesKeepTheOrderOfTheirParts) {
   const auto bytes = step_text(complex_surface);
   const auto result = replaced(bytes, inserted(bytes, {0.5}));
-  EXPECT_NE(result.find("#10=(BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),\n(#11,#12),\n(#3,#4)),.UNSPECIFIED.,.F.,"
-                        ".F.,.F.)B_SPLINE_SURFACE_WITH_KNOTS((2,1,2),(2,2),(0.,0.5,1.),(0.,1.),.UNSPECIFIED.)"
-                        "GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(((1.,2.00),\n(1.,3.),\n(1.,4.)))"
-                        "REPRESENTATION_ITEM('')SURFACE());\n"),
-            std::string::npos)
+  EXPECT_NE(
+      result.find(
+          "#10=(BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),\n(#11,#12),\n(#3,#4)),.UNSPECIFIED."
+          ",.F.,"
+          ".F.,.F.)B_SPLINE_SURFACE_WITH_KNOTS((2,1,2),(2,2),(0.,0.5,1.),(0.,1.),.UNSPECIFIED.)"
+          "GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(((1.,2.00),\n(1.,3.),\n(1.,4.))"
+          ")"
+          "REPRESENTATION_ITEM('')SURFACE());\n"),
+      std::string::npos)
       << result;
   const auto twice = replaced(result, inserted(result, {}, {0.25}));
-  EXPECT_NE(twice.find("B_SPLINE_SURFACE_WITH_KNOTS((2,1,2),(2,1,2),(0.,0.5,1.),(0.,0.25,1.),.UNSPECIFIED.)"),
-            std::string::npos);
+  EXPECT_NE(
+      twice.find(
+          "B_SPLINE_SURFACE_WITH_KNOTS((2,1,2),(2,1,2),(0.,0.5,1.),(0.,0.25,1.),.UNSPECIFIED.)"),
+      std::string::npos);
 }
 
 TEST(RefinedSurface, WeightsAloneCanChange) {
   const auto bytes = step_text(complex_surface);
   const auto s = surface_of(bytes);
   const auto heavier = Surface::create(s.knots(), s.control_points(), {1, 2, 1, 0.1});
-  EXPECT_EQ(replaced(bytes, *heavier), edited(bytes, {{"((#1,#2),(#3,#4))", "((#1,#2),\n(#3,#4))"},
-                                                      {"((1.,2.00),(1.,4.))", "((1.,2.00),\n(1.,0.1))"}}));
+  EXPECT_EQ(replaced(bytes, *heavier),
+            edited(bytes, {{"((#1,#2),(#3,#4))", "((#1,#2),\n(#3,#4))"},
+                           {"((1.,2.00),(1.,4.))", "((1.,2.00),\n(1.,0.1))"}}));
 }
 
 Surface weighted(const Surface& s, std::vector<double> weights = {1, 0.5, 1, 3}) {
@@ -168,43 +190,53 @@ Surface weighted(const Surface& s, std::vector<double> weights = {1, 0.5, 1, 3})
 const std::string three_weights = "RATIONAL_B_SPLINE_SURFACE(((1.,0.5),\n(1.,3.)))";
 
 TEST(RefinedSurface, ASimpleRecordThatGetsWeightsBecomesAComplexOne) {
-  const auto bytes = step_text(unit_square_points() + bilinear_patch() + "#11=VERTEX_POINT('',#2);\n");
-  EXPECT_EQ(
-      replaced(bytes, weighted(surface_of(bytes))),
-      edited(bytes, {{"#10=B_SPLINE_SURFACE_WITH_KNOTS('patch',1,1,", "#10=(BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,"},
-                     {"((#1,#2),(#3,#4))", "((#1,#2),\n(#3,#4))"},
-                     {".F.,.F.,.F.,(2,2)", ".F.,.F.,.F.)B_SPLINE_SURFACE_WITH_KNOTS((2,2)"},
-                     {".UNSPECIFIED.);", ".UNSPECIFIED.)GEOMETRIC_REPRESENTATION_ITEM()" + three_weights +
-                                             "REPRESENTATION_ITEM('patch')SURFACE());"}}));
+  const auto bytes =
+      step_text(unit_square_points() + bilinear_patch() + "#11=VERTEX_POINT('',#2);\n");
+  EXPECT_EQ(replaced(bytes, weighted(surface_of(bytes))),
+            edited(bytes, {{"#10=B_SPLINE_SURFACE_WITH_KNOTS('patch',1,1,",
+                            "#10=(BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,"},
+                           {"((#1,#2),(#3,#4))", "((#1,#2),\n(#3,#4))"},
+                           {".F.,.F.,.F.,(2,2)", ".F.,.F.,.F.)B_SPLINE_SURFACE_WITH_KNOTS((2,2)"},
+                           {".UNSPECIFIED.);", ".UNSPECIFIED.)GEOMETRIC_REPRESENTATION_ITEM()" +
+                                                   three_weights +
+                                                   "REPRESENTATION_ITEM('patch')SURFACE());"}}));
   const auto twice = replaced(bytes, weighted(inserted(bytes, {0.25}), {1, 2, 3, 4, 5, 6}));
-  EXPECT_NE(twice.find("B_SPLINE_SURFACE_WITH_KNOTS((2,1,2),(2,2),(0.,0.25,1.),(0.,1.),.UNSPECIFIED.)GEOMETRIC"),
-            std::string::npos)
+  EXPECT_NE(
+      twice.find(
+          "B_SPLINE_SURFACE_WITH_KNOTS((2,1,2),(2,2),(0.,0.25,1.),(0.,1.),.UNSPECIFIED.)GEOMETRIC"),
+      std::string::npos)
       << "knots at once";
 }
 
 TEST(RefinedSurface, CommentsBetweenAttributesStayWhenWeightsCome) {
-  const auto bytes = step_text(
-      unit_square_points() +
-      "#10 = B_SPLINE_SURFACE_WITH_KNOTS ( 'a,b' , 1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F. /* here, there */ ,"
-      " (2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED. ) ;\n");
+  const auto bytes = step_text(unit_square_points() +
+                               "#10 = B_SPLINE_SURFACE_WITH_KNOTS ( 'a,b' , "
+                               "1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F. /* here, there */ ,"
+                               " (2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED. ) ;\n");
   const auto result = replaced(bytes, weighted(surface_of(bytes)));
-  EXPECT_NE(result.find("#10 = (BOUNDED_SURFACE()B_SPLINE_SURFACE( 1,1,"), std::string::npos) << result;
-  EXPECT_NE(result.find(".F. /* here, there */ )B_SPLINE_SURFACE_WITH_KNOTS( (2,2),"), std::string::npos) << result;
+  EXPECT_NE(result.find("#10 = (BOUNDED_SURFACE()B_SPLINE_SURFACE( 1,1,"), std::string::npos)
+      << result;
+  EXPECT_NE(result.find(".F. /* here, there */ )B_SPLINE_SURFACE_WITH_KNOTS( (2,2),"),
+            std::string::npos)
+      << result;
   EXPECT_NE(result.find("REPRESENTATION_ITEM('a,b')SURFACE()) ;"), std::string::npos) << result;
 }
 
 TEST(RefinedSurface, ImpliedKnotsStayImpliedWhenWeightsCome) {
   const auto bezier =
-      step_text(unit_square_points() + "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.);\n");
-  const auto own = "BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),\n(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)";
+      step_text(unit_square_points() +
+                "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.);\n");
+  const auto own =
+      "BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),\n(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)";
   const auto tail = three_weights + "REPRESENTATION_ITEM('b')SURFACE()";
   const std::tuple<const char*, std::string> expected[] = {
-      {"BEZIER_SURFACE",
-       std::string("#10=(BEZIER_SURFACE()") + own + "GEOMETRIC_REPRESENTATION_ITEM()" + tail + ");\n"},
-      {"QUASI_UNIFORM_SURFACE",
-       std::string("#10=(") + own + "GEOMETRIC_REPRESENTATION_ITEM()QUASI_UNIFORM_SURFACE()" + tail + ");\n"},
-      {"UNIFORM_SURFACE",
-       std::string("#10=(") + own + "GEOMETRIC_REPRESENTATION_ITEM()" + tail + "UNIFORM_SURFACE());\n"}};
+      {"BEZIER_SURFACE", std::string("#10=(BEZIER_SURFACE()") + own +
+                             "GEOMETRIC_REPRESENTATION_ITEM()" + tail + ");\n"},
+      {"QUASI_UNIFORM_SURFACE", std::string("#10=(") + own +
+                                    "GEOMETRIC_REPRESENTATION_ITEM()QUASI_UNIFORM_SURFACE()" +
+                                    tail + ");\n"},
+      {"UNIFORM_SURFACE", std::string("#10=(") + own + "GEOMETRIC_REPRESENTATION_ITEM()" + tail +
+                              "UNIFORM_SURFACE());\n"}};
   for (const auto& [form, text] : expected) {
     const auto bytes = edited(bezier, {{"BEZIER_SURFACE", form}});
     const auto result = replaced(bytes, weighted(surface_of(bytes)));
@@ -214,20 +246,23 @@ TEST(RefinedSurface, ImpliedKnotsStayImpliedWhenWeightsCome) {
               std::string::npos)
         << form;
     // And once more, now that it is complex.
-    EXPECT_NE(replaced(result, weighted(surface_of(bytes), {1, 1, 1, 2})).find("SURFACE(((1.,1.),\n(1.,2.)))"),
+    EXPECT_NE(replaced(result, weighted(surface_of(bytes), {1, 1, 1, 2}))
+                  .find("SURFACE(((1.,1.),\n(1.,2.)))"),
               std::string::npos);
   }
 }
 
 TEST(RefinedSurface, AComplexRecordGetsThePartForItsWeights) {
-  const auto bytes =
-      step_text(unit_square_points() +
-                "#10=(BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)"
-                "B_SPLINE_SURFACE_WITH_KNOTS((2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)GEOMETRIC_REPRESENTATION_ITEM()"
-                "REPRESENTATION_ITEM('')SURFACE());\n");
+  const auto bytes = step_text(
+      unit_square_points() +
+      "#10=(BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)"
+      "B_SPLINE_SURFACE_WITH_KNOTS((2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)GEOMETRIC_"
+      "REPRESENTATION_ITEM()"
+      "REPRESENTATION_ITEM('')SURFACE());\n");
   EXPECT_EQ(replaced(bytes, weighted(surface_of(bytes))),
             edited(bytes, {{"((#1,#2),(#3,#4))", "((#1,#2),\n(#3,#4))"},
-                           {"ITEM()REPRESENTATION_ITEM('')", "ITEM()" + three_weights + "REPRESENTATION_ITEM('')"}}));
+                           {"ITEM()REPRESENTATION_ITEM('')",
+                            "ITEM()" + three_weights + "REPRESENTATION_ITEM('')"}}));
 }
 
 TEST(RefinedSurface, PolesAndSeamsShareTheirRecords) {
@@ -237,7 +272,8 @@ TEST(RefinedSurface, PolesAndSeamsShareTheirRecords) {
 }
 
 TEST(RefinedSurface, AFileInOneLineStaysInOneLineAndScopesAreKept) {
-  auto bytes = step_text("#20=&SCOPE\n" + unit_square_points() + bilinear_patch() + "ENDSCOPE /#10/\nHOLDER(#10);\n");
+  auto bytes = step_text("#20=&SCOPE\n" + unit_square_points() + bilinear_patch() +
+                         "ENDSCOPE /#10/\nHOLDER(#10);\n");
   const auto scoped = replaced(bytes, inserted(bytes, {0.25}));
   EXPECT_LT(scoped.find("#22=CARTESIAN_POINT"), scoped.find("ENDSCOPE"));
   std::erase(bytes, '\n');
@@ -257,16 +293,26 @@ TEST(RefinedSurface, WhatStepCannotSayIsAnError) {
   const auto s = surface_of(bytes);
   EXPECT_NE(what(inserted(bytes, {0.5, 0.5})).find("torn along a knot"), std::string::npos);
   EXPECT_NE(what(s, "#99").find("#99"), std::string::npos);
-  const auto short_record = step_text(unit_square_points() + "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)));\n");
+  const auto short_record =
+      step_text(unit_square_points() + "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)));\n");
   const brep::Replacement finer{"#10", inserted(short_record, {0.5})};
-  EXPECT_NE(parse_or_die(short_record).with_surfaces({&finer, 1}).error().message().find("it has 4 attributes"),
+  EXPECT_NE(parse_or_die(short_record)
+                .with_surfaces({&finer, 1})
+                .error()
+                .message()
+                .find("it has 4 attributes"),
             std::string::npos);
   const brep::Replacement heavier{"#10", weighted(surface_of(short_record))};
-  EXPECT_NE(parse_or_die(short_record).with_surfaces({&heavier, 1}).error().message().find("it has 4 attributes"),
+  EXPECT_NE(parse_or_die(short_record)
+                .with_surfaces({&heavier, 1})
+                .error()
+                .message()
+                .find("it has 4 attributes"),
             std::string::npos);
   const auto with_weights = step_text(complex_surface);
   const brep::Replacement plain{"#10", s};
-  EXPECT_NE(parse_or_die(with_weights).with_surfaces({&plain, 1}).error().message().find("weights"), std::string::npos);
+  EXPECT_NE(parse_or_die(with_weights).with_surfaces({&plain, 1}).error().message().find("weights"),
+            std::string::npos);
   const brep::Replacement twice[] = {{"#10", s}, {"#10", s}};
   EXPECT_NE(file.with_surfaces(twice).error().message().find("twice"), std::string::npos);
 }

@@ -58,7 +58,8 @@ void expect_same(const Shown& a, const Shown& b, double within = rounding) {
   EXPECT_LE((a.box.max() - b.box.max()).norm(), within * size);
 }
 
-FacesFile saved(const Source& source, const char* format, bool convert = false, SaveOptions options = {}) {
+FacesFile saved(const Source& source, const char* format, bool convert = false,
+                SaveOptions options = {}) {
   auto made = save_faces(source, *find_format(format), options, convert);
   if (!made) {
     ADD_FAILURE() << made.error().message();
@@ -69,13 +70,15 @@ FacesFile saved(const Source& source, const char* format, bool convert = false, 
 
 std::shared_ptr<const Source> again(const FacesFile& file, const char* format) {
   auto source = open_or_die(file.bytes, std::string("again.") + format);
-  for (const std::string& remark : source->remarks()) EXPECT_EQ(remark.find("warning"), std::string::npos) << remark;
+  for (const std::string& remark : source->remarks())
+    EXPECT_EQ(remark.find("warning"), std::string::npos) << remark;
   return source;
 }
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t result = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++result;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++result;
   return result;
 }
 
@@ -102,11 +105,13 @@ std::string drilled_box() {
   for (int k = 0; k < 2; ++k) hole[k] = b.circle(0.5, 2 * k, 2, 1.5);
   const auto plane = [&](int corner, std::array<double, 3> normal, std::array<double, 3> x) {
     const int at = b.point((corner & 1) * 4, (corner >> 1 & 1) * 3, (corner >> 2 & 1) * 2);
-    const int z = b.direction(normal[0], normal[1], normal[2]), along_x = b.direction(x[0], x[1], x[2]);
-    return b.entity("PLANE('',#" +
-                    std::to_string(b.entity("AXIS2_PLACEMENT_3D('',#" + std::to_string(at) + ",#" + std::to_string(z) +
-                                            ",#" + std::to_string(along_x) + ")")) +
-                    ")");
+    const int z = b.direction(normal[0], normal[1], normal[2]),
+              along_x = b.direction(x[0], x[1], x[2]);
+    return b.entity(
+        "PLANE('',#" +
+        std::to_string(b.entity("AXIS2_PLACEMENT_3D('',#" + std::to_string(at) + ",#" +
+                                std::to_string(z) + ",#" + std::to_string(along_x) + ")")) +
+        ")");
   };
   const auto loop = [&](std::array<int, 4> c) {
     return b.bound({along(c[0], c[1]), along(c[1], c[2]), along(c[2], c[3]), along(c[3], c[0])});
@@ -125,10 +130,12 @@ std::string drilled_box() {
   return testing::step_text(b.text());
 }
 
-/// A face on a surface of revolution or a cone, sphere or torus: a closed shell of one surface, by a point of it.
+/// A face on a surface of revolution or a cone, sphere or torus: a closed shell of one surface, by
+/// a point of it.
 std::string whole_surface(const std::string& surface, std::array<double, 3> at) {
   FaceBuilder b;
-  b.face(b.entity(surface + ",#" + std::to_string(b.frame()) + "," + (surface[0] == 'S' ? "2.)" : "5.,2.)")),
+  b.face(b.entity(surface + ",#" + std::to_string(b.frame()) + "," +
+                  (surface[0] == 'S' ? "2.)" : "5.,2.)")),
          {b.vertex_bound(at[0], at[1], at[2])});
   return testing::step_text(b.text());
 }
@@ -158,7 +165,8 @@ TEST_P(SavedFaces, MadeStepFilesKeepTheirFacesTheirUnitsAndTheirPlaces) {
     if (source->model()->faces.empty()) continue;
     SCOPED_TRACE(name);
     const FacesFile file = saved(*source, GetParam());
-    for (const LeftOut& left : file.left_out) EXPECT_EQ(left.what().find("face"), std::string::npos) << sentence(left);
+    for (const LeftOut& left : file.left_out)
+      EXPECT_EQ(left.what().find("face"), std::string::npos) << sentence(left);
     const auto read = again(file, GetParam());
     EXPECT_EQ(read->model()->assembly->unit, source->model()->assembly->unit);
     expect_same(shown(*source), shown(*read));
@@ -166,10 +174,12 @@ TEST_P(SavedFaces, MadeStepFilesKeepTheirFacesTheirUnitsAndTheirPlaces) {
 }
 
 TEST_P(SavedFaces, MadeIgesFilesKeepTheirFaces) {
-  const std::vector<testing::MadeFile> more = {
-      {"hollow_box.igs", testing::iges_hollow_box},       {"hollow_boxes.igs", testing::iges_hollow_boxes},
-      {"turned.igs", testing::iges_box_of_turned_faces},  {"drum.igs", testing::iges_drum_in_inch},
-      {"ring.igs", testing::iges_ring_in_inch_backwards}, {"dome.igs", testing::iges_dome_in_metres}};
+  const std::vector<testing::MadeFile> more = {{"hollow_box.igs", testing::iges_hollow_box},
+                                               {"hollow_boxes.igs", testing::iges_hollow_boxes},
+                                               {"turned.igs", testing::iges_box_of_turned_faces},
+                                               {"drum.igs", testing::iges_drum_in_inch},
+                                               {"ring.igs", testing::iges_ring_in_inch_backwards},
+                                               {"dome.igs", testing::iges_dome_in_metres}};
   for (const auto* list : {&testing::made_iges_files, &more}) {
     for (const auto& [name, text] : *list) {
       const auto source = open_or_die(text(), name);
@@ -178,9 +188,10 @@ TEST_P(SavedFaces, MadeIgesFilesKeepTheirFaces) {
       const FacesFile file = saved(*source, GetParam());
       const auto read = again(file, GetParam());
       EXPECT_EQ(read->model()->length_unit(), source->model()->length_unit());
-      const bool swept = std::ranges::any_of(source->model()->supports, [](const brep::Support& support) {
-        return std::holds_alternative<brep::SweptSurface>(support.form);
-      });
+      const bool swept =
+          std::ranges::any_of(source->model()->supports, [](const brep::Support& support) {
+            return std::holds_alternative<brep::SweptSurface>(support.form);
+          });
       // Swept surfaces are B-splines in IGES, and then have another mesh, to its tolerance.
       const bool other_mesh = swept && std::string_view(GetParam()) == "iges";
       expect_same(shown(*source), shown(*read), other_mesh ? mesh_tolerance : 1e-6);
@@ -198,8 +209,9 @@ TEST_P(SavedFaces, HollowsStayHollows) {
 }
 
 TEST_P(SavedFaces, SphereAndTorusStayWholeAndAreSolids) {
-  for (const auto& [surface, at] : {std::pair<std::string, std::array<double, 3>>("SPHERICAL_SURFACE(''", {0, 0, 2}),
-                                    {"TOROIDAL_SURFACE(''", {7, 0, 0}}}) {
+  for (const auto& [surface, at] :
+       {std::pair<std::string, std::array<double, 3>>("SPHERICAL_SURFACE(''", {0, 0, 2}),
+        {"TOROIDAL_SURFACE(''", {7, 0, 0}}}) {
     const auto source = open_or_die(whole_surface(surface, at), "whole.step");
     const FacesFile file = saved(*source, GetParam());
     EXPECT_EQ(file.solids, 1U) << surface;
@@ -218,13 +230,15 @@ TEST_P(SavedFaces, ASplineFaceWithNeighboursSharesItsEdgesWithThem) {
 TEST_P(SavedFaces, WhatCannotBeReadIsNamedAndItsSurfaceWrittenWhole) {
   FaceBuilder b;
   const int a = b.vertex(0, 0, 0), c = b.vertex(1, 0, 0);
-  const int odd = b.edge(a, c, "OFFSET_CURVE_3D('',$,1.,.F.,$)"), back = b.line(c, a, {1, 0, 0}, {-1, 0, 0});
+  const int odd = b.edge(a, c, "OFFSET_CURVE_3D('',$,1.,.F.,$)"),
+            back = b.line(c, a, {1, 0, 0}, {-1, 0, 0});
   const int face = b.face(10, {b.bound({odd, back})});
   const auto source = open_or_die(testing::step_text(testing::square + b.text()), "odd.step");
   const FacesFile file = saved(*source, GetParam());
   EXPECT_EQ(file.faces, 0U);
   EXPECT_EQ(file.surfaces, 1U);
-  const auto left = std::ranges::find(file.left_out, "face whose trims are left out", &LeftOut::one);
+  const auto left =
+      std::ranges::find(file.left_out, "face whose trims are left out", &LeftOut::one);
   ASSERT_NE(left, file.left_out.end());
   EXPECT_EQ(left->ids, std::vector{FaceBuilder::ref(face)});
   EXPECT_EQ(again(file, GetParam())->surfaces().size(), 1U);
@@ -234,10 +248,10 @@ TEST_P(SavedFaces, AnEdgeMayPassTheEndOfItsClosedCurve) {
   for (const bool whole : {true, false}) {
     FaceBuilder b;
     const int end = b.point(2, 0, 0);
-    const std::string curve =
-        "B_SPLINE_CURVE_WITH_KNOTS('',2,(" +
-        FaceBuilder::list_of({end, b.point(2, 2, 0), b.point(-2, 2, 0), b.point(-2, -2, 0), b.point(2, -2, 0), end}) +
-        "),.UNSPECIFIED.,.T.,.F.,(3,1,1,1,3),(0.,1.,2.,3.,4.),.UNSPECIFIED.)";
+    const std::string curve = "B_SPLINE_CURVE_WITH_KNOTS('',2,(" +
+                              FaceBuilder::list_of({end, b.point(2, 2, 0), b.point(-2, 2, 0),
+                                                    b.point(-2, -2, 0), b.point(2, -2, 0), end}) +
+                              "),.UNSPECIFIED.,.T.,.F.,(3,1,1,1,3),(0.,1.,2.,3.,4.),.UNSPECIFIED.)";
     const int above = b.vertex(0, 2, 0), below = b.vertex(0, -2, 0);
     std::vector<int> loop = {b.edge(whole ? above : below, above, curve)};
     if (!whole) loop.push_back(b.line(above, below, {0, 2, 0}, {0, -1, 0}));
@@ -247,8 +261,12 @@ TEST_P(SavedFaces, AnEdgeMayPassTheEndOfItsClosedCurve) {
     EXPECT_EQ(file.faces, 1U);
     const Shown before = shown(*source), after = shown(*again(file, GetParam()));
     EXPECT_NEAR(after.area, before.area, 0.01 * before.area) << whole;
-    EXPECT_LE((before.box.min() - after.box.min()).norm(), mesh_tolerance * before.box.diagonal().norm()) << whole;
-    EXPECT_LE((before.box.max() - after.box.max()).norm(), mesh_tolerance * before.box.diagonal().norm()) << whole;
+    EXPECT_LE((before.box.min() - after.box.min()).norm(),
+              mesh_tolerance * before.box.diagonal().norm())
+        << whole;
+    EXPECT_LE((before.box.max() - after.box.max()).norm(),
+              mesh_tolerance * before.box.diagonal().norm())
+        << whole;
   }
 }
 

@@ -34,7 +34,8 @@ TEST(StepText, ReadsBackToTheLastBit) {
     EXPECT_EQ(read.unit, "mm");
     EXPECT_FALSE(read.trimmed);
     EXPECT_EQ(read.surface.knots(), surfaces[k].surface.knots());
-    EXPECT_TRUE(testing::same_bits(read.surface.control_points(), surfaces[k].surface.control_points()));
+    EXPECT_TRUE(
+        testing::same_bits(read.surface.control_points(), surfaces[k].surface.control_points()));
     EXPECT_TRUE(std::ranges::equal(read.surface.weights(), surfaces[k].surface.weights()));
     EXPECT_EQ(read.closed, (std::array{read.name == "tube", read.name == "cone"})) << read.name;
   }
@@ -44,8 +45,9 @@ TEST(StepText, ReadsBackToTheLastBit) {
 TEST(StepText, RealsAreTheShortestThatReadBack) {
   constexpr int columns = 4000;
   std::mt19937_64 random(7);
-  std::vector<double> weights = {1,    10,   1e4, 1e5,  123456, 0.1,   1e-4, 1e-5, 0.00012, 123456789012345680000.0,
-                                 1e21, 1e23, -1,  -0.5, 1e50,   1e-300};
+  std::vector<double> weights = {
+      1,    10,   1e4, 1e5,  123456, 0.1,   1e-4, 1e-5, 0.00012, 123456789012345680000.0,
+      1e21, 1e23, -1,  -0.5, 1e50,   1e-300};
   while (weights.size() < 2 * columns) {
     const auto bits = random();
     const double any = std::bit_cast<double>(bits);
@@ -54,9 +56,9 @@ TEST(StepText, RealsAreTheShortestThatReadBack) {
     const double value = choices[weights.size() % 3];
     if (std::abs(value) <= largest_number && value != 0) weights.push_back(value);
   }
-  const step::NewSurface surface{
-      "", *Surface::create({*KnotVector::clamped_uniform(1, 2), *KnotVector::clamped_uniform(1, columns)},
-                           Points::Random(2 * columns, 3), weights)};
+  const step::NewSurface surface{"", *Surface::create({*KnotVector::clamped_uniform(1, 2),
+                                                       *KnotVector::clamped_uniform(1, columns)},
+                                                      Points::Random(2 * columns, 3), weights)};
   auto text = knead::step::text_of({&surface, 1});
   ASSERT_TRUE(text) << text.error().message();
   std::erase(*text, '\n');
@@ -64,7 +66,8 @@ TEST(StepText, RealsAreTheShortestThatReadBack) {
   ASSERT_NE(at, std::string::npos);
   for (const double weight : weights) {
     std::array<char, 40> buffer{};
-    std::string wanted(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), weight).ptr);
+    std::string wanted(buffer.data(),
+                       std::to_chars(buffer.data(), buffer.data() + buffer.size(), weight).ptr);
     const auto exponent = std::min(wanted.find('e'), wanted.size());
     if (exponent < wanted.size()) wanted[exponent] = 'E';
     if (wanted.find('.') == std::string::npos) wanted.insert(exponent, ".");
@@ -79,15 +82,17 @@ TEST(StepText, CanBeEditedLikeAnyFile) {
   const auto surfaces = new_surfaces();
   const auto file = parse_or_die(*knead::step::text_of(surfaces));
   EXPECT_EQ(file.with_control_points({}), file.bytes());
-  const brep::Replacement other{file.surfaces()[0].id,
-                                *surfaces[0].surface.with_control_points(2 * surfaces[0].surface.control_points())};
+  const brep::Replacement other{
+      file.surfaces()[0].id,
+      *surfaces[0].surface.with_control_points(2 * surfaces[0].surface.control_points())};
   EXPECT_TRUE(file.with_surfaces({&other, 1}));
 }
 
 TEST(StepText, EveryUnitIsReadAsWhatItIs) {
   const auto surfaces = new_surfaces();
-  const std::pair<const char*, double> units[] = {{"um", 1e-6}, {"mm", 1e-3},     {"cm", 1e-2},    {"m", 1},
-                                                  {"km", 1e3},  {"inch", 0.0254}, {"foot", 0.3048}};
+  const std::pair<const char*, double> units[] = {{"um", 1e-6},    {"mm", 1e-3}, {"cm", 1e-2},
+                                                  {"m", 1},        {"km", 1e3},  {"inch", 0.0254},
+                                                  {"foot", 0.3048}};
   for (const auto& [unit, metres] : units) {
     const auto text = knead::step::text_of(surfaces, {.unit = unit});
     ASSERT_TRUE(text) << unit;
@@ -101,28 +106,33 @@ TEST(StepText, EveryUnitIsReadAsWhatItIs) {
 
 TEST(StepText, NamesOfAllKindsComeBack) {
   const auto surface = new_surfaces().front().surface;
-  for (const auto* name : {"", "it's", "a\\b", "\\X2\\", "été αβ 車", "🚗", "line\nbreak\ttab", "#10=X('')"}) {
+  for (const auto* name :
+       {"", "it's", "a\\b", "\\X2\\", "été αβ 車", "🚗", "line\nbreak\ttab", "#10=X('')"}) {
     const step::NewSurface item{name, surface};
     const auto text = knead::step::text_of({&item, 1}, {.product = name, .file_name = name});
     ASSERT_TRUE(text);
     EXPECT_EQ(parse_or_die(*text).surfaces()[0].name, name);
-    EXPECT_TRUE(std::ranges::all_of(*text, [](char c) { return c == '\n' || (c >= ' ' && c < 127); }));
+    EXPECT_TRUE(
+        std::ranges::all_of(*text, [](char c) { return c == '\n' || (c >= ' ' && c < 127); }));
   }
   const step::NewSurface broken{"caf\xE9", surface};
-  EXPECT_EQ(parse_or_die(*knead::step::text_of({&broken, 1})).surfaces()[0].name, "caf\xEF\xBF\xBD");
+  EXPECT_EQ(parse_or_die(*knead::step::text_of({&broken, 1})).surfaces()[0].name,
+            "caf\xEF\xBF\xBD");
 }
 
 TEST(StepText, DependsOnItsArgumentsOnly) {
   const auto surfaces = new_surfaces();
   const step::TextOptions options{.time_stamp = "2024-05-17T12:00:00"};
   EXPECT_EQ(*knead::step::text_of(surfaces, options), *knead::step::text_of(surfaces, options));
-  EXPECT_NE(knead::step::text_of(surfaces, options)->find("FILE_NAME('','2024-05-17T12:00:00',"), std::string::npos);
+  EXPECT_NE(knead::step::text_of(surfaces, options)->find("FILE_NAME('','2024-05-17T12:00:00',"),
+            std::string::npos);
 }
 
 TEST(StepText, WhatCannotBeWrittenIsAnError) {
   EXPECT_FALSE(knead::step::text_of({}));
   const auto surfaces = new_surfaces();
-  EXPECT_NE(knead::step::text_of(surfaces, {.unit = "furlong"}).error().message().find("furlong"), std::string::npos);
+  EXPECT_NE(knead::step::text_of(surfaces, {.unit = "furlong"}).error().message().find("furlong"),
+            std::string::npos);
   const auto torn = *KnotVector::create(1, {0, 0, 1, 1, 2, 2});
   const auto line = *KnotVector::create(1, {0, 0, 1, 1});
   const step::NewSurface item{"sheet", *Surface::create({torn, line}, Points::Random(8, 3))};

@@ -14,7 +14,8 @@ namespace knead::testing {
 
 /// An exchange structure around the entities of one DATA section.
 inline std::string step_text(const std::string& data) {
-  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','',''"
+         ");\n"
          "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n" +
          data + "ENDSEC;\nEND-ISO-10303-21;\n";
 }
@@ -38,7 +39,8 @@ inline step::File parse_or_die(const std::string& bytes) {
   return *std::move(file);
 }
 
-inline std::shared_ptr<const Source> open_or_die(const std::string& bytes, const std::string& name) {
+inline std::shared_ptr<const Source> open_or_die(const std::string& bytes,
+                                                 const std::string& name) {
   auto source = open_source(bytes, name);
   if (!source) {
     ADD_FAILURE() << source.error().message();

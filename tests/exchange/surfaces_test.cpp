@@ -17,8 +17,8 @@ using testing::unit_square_points;
 std::string points(int n) {
   std::string text;
   for (int k = 1; k <= n; ++k) {
-    text += "#" + std::to_string(k) + "=CARTESIAN_POINT('',(" + std::to_string(k) + ".," + std::to_string(k * k) +
-            ".,0.));\n";
+    text += "#" + std::to_string(k) + "=CARTESIAN_POINT('',(" + std::to_string(k) + ".," +
+            std::to_string(k * k) + ".,0.));\n";
   }
   return text;
 }
@@ -27,7 +27,8 @@ std::string net(int rows, int columns) {
   std::string text = "(";
   for (int i = 0; i < rows; ++i) {
     text += i == 0 ? "(" : ",(";
-    for (int j = 0; j < columns; ++j) text += (j == 0 ? "#" : ",#") + std::to_string(i * columns + j + 1);
+    for (int j = 0; j < columns; ++j)
+      text += (j == 0 ? "#" : ",#") + std::to_string(i * columns + j + 1);
     text += ")";
   }
   return text + ")";
@@ -45,8 +46,8 @@ Error reason(const std::string& data) {
 }
 
 TEST(StepSurfaces, TheOuterListIsU) {
-  const auto file =
-      parse_or_die(step_text(points(6) + "#10=BEZIER_SURFACE('b',2,1," + net(3, 2) + ",.UNSPECIFIED.,.F.,.F.,.U.);\n"));
+  const auto file = parse_or_die(step_text(points(6) + "#10=BEZIER_SURFACE('b',2,1," + net(3, 2) +
+                                           ",.UNSPECIFIED.,.F.,.F.,.U.);\n"));
   ASSERT_EQ(file.surfaces().size(), 1U);
   const auto& surface = file.surfaces()[0];
   EXPECT_EQ(surface.id, "#10");
@@ -57,43 +58,45 @@ TEST(StepSurfaces, TheOuterListIsU) {
 }
 
 TEST(StepSurfaces, ImpliedKnotsAreThoseOfTheStandard) {
-  const auto bezier =
-      parse_or_die(step_text(points(10) + "#20=BEZIER_SURFACE('',2,1," + net(5, 2) + ",.UNSPECIFIED.,.F.,.F.,.U.);\n"));
+  const auto bezier = parse_or_die(step_text(points(10) + "#20=BEZIER_SURFACE('',2,1," + net(5, 2) +
+                                             ",.UNSPECIFIED.,.F.,.F.,.U.);\n"));
   EXPECT_EQ(knots_of(bezier, 0), (std::vector<double>{0, 0, 0, 1, 1, 2, 2, 2}));
   EXPECT_EQ(knots_of(bezier, 1), (std::vector<double>{0, 0, 1, 1}));
-  const auto quasi = parse_or_die(
-      step_text(points(10) + "#20=QUASI_UNIFORM_SURFACE('',2,1," + net(5, 2) + ",.UNSPECIFIED.,.F.,.F.,.U.);\n"));
+  const auto quasi = parse_or_die(step_text(points(10) + "#20=QUASI_UNIFORM_SURFACE('',2,1," +
+                                            net(5, 2) + ",.UNSPECIFIED.,.F.,.F.,.U.);\n"));
   EXPECT_EQ(knots_of(quasi, 0), (std::vector<double>{0, 0, 0, 1, 2, 3, 3, 3}));
-  const auto uniform = parse_or_die(
-      step_text(points(10) + "#20=UNIFORM_SURFACE('',2,1," + net(5, 2) + ",.UNSPECIFIED.,.F.,.F.,.U.);\n"));
+  const auto uniform = parse_or_die(step_text(points(10) + "#20=UNIFORM_SURFACE('',2,1," +
+                                              net(5, 2) + ",.UNSPECIFIED.,.F.,.F.,.U.);\n"));
   EXPECT_EQ(knots_of(uniform, 0), (std::vector<double>{-2, -1, 0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(knots_of(uniform, 1), (std::vector<double>{-1, 0, 1, 2}));
   EXPECT_EQ(uniform.surfaces()[0].surface.knots(0).domain().upper, 3);
 }
 
 TEST(StepSurfaces, ComplexInstancesInAnyOrderOfTheirParts) {
-  const std::string knots[] = {"B_SPLINE_SURFACE_WITH_KNOTS((2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)",
-                               "BEZIER_SURFACE()", "QUASI_UNIFORM_SURFACE()"};
+  const std::string knots[] = {
+      "B_SPLINE_SURFACE_WITH_KNOTS((2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)", "BEZIER_SURFACE()",
+      "QUASI_UNIFORM_SURFACE()"};
   for (const auto& form : knots) {
-    const auto file =
-        parse_or_die(step_text(unit_square_points() + "#10=(" + form +
-                               "BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)"
-                               "GEOMETRIC_REPRESENTATION_ITEM()"
-                               "RATIONAL_B_SPLINE_SURFACE(((1.,-2.),(0.5,0.)))REPRESENTATION_ITEM('r')SURFACE());\n"));
+    const auto file = parse_or_die(step_text(
+        unit_square_points() + "#10=(" + form +
+        "BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)"
+        "GEOMETRIC_REPRESENTATION_ITEM()"
+        "RATIONAL_B_SPLINE_SURFACE(((1.,-2.),(0.5,0.)))REPRESENTATION_ITEM('r')SURFACE());\n"));
     ASSERT_EQ(file.surfaces().size(), 1U) << form;
     const auto& surface = file.surfaces()[0];
     EXPECT_EQ(surface.name, "r");
-    EXPECT_EQ(std::vector<double>(surface.surface.weights().begin(), surface.surface.weights().end()),
-              (std::vector<double>{1, -2, 0.5, 0}))
+    EXPECT_EQ(
+        std::vector<double>(surface.surface.weights().begin(), surface.surface.weights().end()),
+        (std::vector<double>{1, -2, 0.5, 0}))
         << "negative and zero weights are kept";
     EXPECT_EQ(knots_of(file, 0), (std::vector<double>{0, 0, 1, 1}));
   }
 }
 
 TEST(StepSurfaces, EqualKnotsListedApartAddUp) {
-  const auto file =
-      parse_or_die(step_text(points(10) + "#20=B_SPLINE_SURFACE_WITH_KNOTS('',2,1," + net(5, 2) +
-                             ",.UNSPECIFIED.,.F.,.F.,.F.,(3,1,1,3),(2,2),(0.,0.5,0.5,1.),(0.,1.),.UNSPECIFIED.);\n"));
+  const auto file = parse_or_die(step_text(
+      points(10) + "#20=B_SPLINE_SURFACE_WITH_KNOTS('',2,1," + net(5, 2) +
+      ",.UNSPECIFIED.,.F.,.F.,.F.,(3,1,1,3),(2,2),(0.,0.5,0.5,1.),(0.,1.),.UNSPECIFIED.);\n"));
   EXPECT_EQ(knots_of(file, 0), (std::vector<double>{0, 0, 0, 0.5, 0.5, 1, 1, 1}));
 }
 
@@ -116,14 +119,20 @@ TEST(StepSurfaces, AnUnreadableSurfaceSaysWhyAndLeavesTheRestUsable) {
       {with_knots("1,1", "(2,99999999999),(2,2),(0.,1.),(0.,1.)"), "u knot 1 is not a positive"},
       {with_knots("1,1", "(2,2),(2,2),(0.),(0.,1.)"), "1 u knots with 2"},
       {with_knots("1,1", "$,(2,2),(0.,1.),(0.,1.)"), "not a list"},
-      {unit_square_points() + "#20=B_SPLINE_SURFACE('',1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.);\n",
+      {unit_square_points() +
+           "#20=B_SPLINE_SURFACE('',1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.);\n",
        "no knots"},
-      {unit_square_points() + "#20=BEZIER_SURFACE('',1,1,((#1,#2),(#3)),.UNSPECIFIED.,.F.,.F.,.F.);\n", "row 1"},
-      {unit_square_points() + "#20=BEZIER_SURFACE('',1,1,((#1,#2),(#3,$)),.UNSPECIFIED.,.F.,.F.,.F.);\n",
+      {unit_square_points() +
+           "#20=BEZIER_SURFACE('',1,1,((#1,#2),(#3)),.UNSPECIFIED.,.F.,.F.,.F.);\n",
+       "row 1"},
+      {unit_square_points() +
+           "#20=BEZIER_SURFACE('',1,1,((#1,#2),(#3,$)),.UNSPECIFIED.,.F.,.F.,.F.);\n",
        "does not refer"},
-      {unit_square_points() + "#20=BEZIER_SURFACE('',1,1,(),.UNSPECIFIED.,.F.,.F.,.F.);\n", "empty"},
+      {unit_square_points() + "#20=BEZIER_SURFACE('',1,1,(),.UNSPECIFIED.,.F.,.F.,.F.);\n",
+       "empty"},
       {unit_square_points() + "#20=BEZIER_SURFACE('');\n", "lacks"},
-      {points(8) + "#20=BEZIER_SURFACE('',2,1," + net(4, 2) + ",.UNSPECIFIED.,.F.,.F.,.F.);\n", "whole Bezier"},
+      {points(8) + "#20=BEZIER_SURFACE('',2,1," + net(4, 2) + ",.UNSPECIFIED.,.F.,.F.,.F.);\n",
+       "whole Bezier"},
   };
   for (const auto& c : cases) {
     const auto error = reason(c.data);
@@ -132,12 +141,14 @@ TEST(StepSurfaces, AnUnreadableSurfaceSaysWhyAndLeavesTheRestUsable) {
     EXPECT_GT(error.line, 8) << error.message();
   }
   const auto point = reason(
-      "#1=CARTESIAN_POINT('',(0.,0.));\n#2=CARTESIAN_POINT('',(0.,1.,0.));\n#3=DIRECTION('',(1.,0.,0.));\n"
+      "#1=CARTESIAN_POINT('',(0.,0.));\n#2=CARTESIAN_POINT('',(0.,1.,0.));\n#3=DIRECTION('',(1.,0.,"
+      "0.));\n"
       "#4=CARTESIAN_POINT('',(1.,1.,0.));\n" +
       bilinear_patch());
   EXPECT_EQ(point.where, "#1 CARTESIAN_POINT");
   EXPECT_EQ(point.line, 8);
-  const auto mixed = parse_or_die(step_text(unit_square_points() + bilinear_patch() + "#20=BEZIER_SURFACE('');\n"));
+  const auto mixed = parse_or_die(
+      step_text(unit_square_points() + bilinear_patch() + "#20=BEZIER_SURFACE('');\n"));
   EXPECT_EQ(mixed.surfaces().size(), 1U);
   EXPECT_EQ(mixed.model().unreadable.size(), 1U);
 }
@@ -151,7 +162,9 @@ TEST(StepSurfaces, ClosedMeansThatTheBoundaryIsocurvesAreTheSame) {
                step_text(points(7) +
                          "#8=CARTESIAN_POINT('',(1.,1.,0.));\n#9=CARTESIAN_POINT('',(2.,4.,0.));\n"
                          "#20=B_SPLINE_SURFACE_WITH_KNOTS('',1,1,((#1,#2),(#3,#4),(#5,#6),(" +
-                         last + ")),.UNSPECIFIED.,.F.,.F.,.F.,(2,1,1,2),(2,2),(0.,1.,2.,3.),(0.,1.),.UNSPECIFIED.);\n"))
+                         last +
+                         ")),.UNSPECIFIED.,.F.,.F.,.F.,(2,1,1,2),(2,2),(0.,1.,2.,3.),(0.,1.),."
+                         "UNSPECIFIED.);\n"))
         .surfaces()[0]
         .closed;
   };
@@ -159,12 +172,14 @@ TEST(StepSurfaces, ClosedMeansThatTheBoundaryIsocurvesAreTheSame) {
   EXPECT_EQ(prism("#8,#9"), (std::array<bool, 2>{true, false}));
   EXPECT_EQ(prism("#8,#7"), (std::array<bool, 2>{false, false}));
   // A net collapsed along v is not closed in v, though all its isocurves along u agree.
-  EXPECT_EQ(parse_or_die(step_text(unit_square_points() + bilinear_patch("((#1,#1),(#3,#3))"))).surfaces()[0].closed,
+  EXPECT_EQ(parse_or_die(step_text(unit_square_points() + bilinear_patch("((#1,#1),(#3,#3))")))
+                .surfaces()[0]
+                .closed,
             (std::array<bool, 2>{false, false}));
   // An unclamped periodic one: the first p control points are the last again.
-  const auto periodic = parse_or_die(
-      step_text(points(6) +
-                "#20=UNIFORM_SURFACE('',2,1,((#1,#2),(#3,#4),(#5,#6),(#1,#2),(#3,#4)),.UNSPECIFIED.,.T.,.F.,.F.);\n"));
+  const auto periodic =
+      parse_or_die(step_text(points(6) + "#20=UNIFORM_SURFACE('',2,1,((#1,#2),(#3,#4),(#5,#6),(#1,#"
+                                         "2),(#3,#4)),.UNSPECIFIED.,.T.,.F.,.F.);\n"));
   EXPECT_EQ(periodic.surfaces()[0].closed, (std::array<bool, 2>{true, false}));
 }
 
@@ -194,14 +209,14 @@ TEST(StepSurfaces, ForeignFilesHaveTheSurfacesThatTheirIndexLists) {
     EXPECT_EQ(std::to_string(file->surfaces().size()), columns[2]) << name;
     EXPECT_TRUE(file->model().unreadable.empty()) << name;
     if (columns[4].empty()) continue;
-    const auto largest =
-        std::max_element(file->surfaces().begin(), file->surfaces().end(),
-                         [](const auto& a, const auto& b) { return a.surface.size() < b.surface.size(); });
+    const auto largest = std::max_element(
+        file->surfaces().begin(), file->surfaces().end(),
+        [](const auto& a, const auto& b) { return a.surface.size() < b.surface.size(); });
     const auto net = largest->surface.net();
     EXPECT_EQ(std::to_string(net[0]) + "x" + std::to_string(net[1]), columns[5]) << name;
-    EXPECT_EQ(
-        std::to_string(largest->surface.knots(0).degree()) + "x" + std::to_string(largest->surface.knots(1).degree()),
-        columns[4])
+    EXPECT_EQ(std::to_string(largest->surface.knots(0).degree()) + "x" +
+                  std::to_string(largest->surface.knots(1).degree()),
+              columns[4])
         << name;
     ++files;
   }

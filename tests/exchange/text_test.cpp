@@ -16,11 +16,11 @@ using testing::step_text;
 
 // The x coordinate of control point 0 written as `text`.
 Expected<double> read_real(const std::string& text) {
-  const auto file =
-      parse_or_die(step_text("#1=CARTESIAN_POINT('',(" + text +
-                             ",0.,0.));\n#2=CARTESIAN_POINT('',(0.,1.,0.));\n#3=CARTESIAN_POINT('',(1.,0.,0.));\n"
-                             "#4=CARTESIAN_POINT('',(1.,1.,0.));\n" +
-                             bilinear_patch()));
+  const auto file = parse_or_die(step_text(
+      "#1=CARTESIAN_POINT('',(" + text +
+      ",0.,0.));\n#2=CARTESIAN_POINT('',(0.,1.,0.));\n#3=CARTESIAN_POINT('',(1.,0.,0.));\n"
+      "#4=CARTESIAN_POINT('',(1.,1.,0.));\n" +
+      bilinear_patch()));
   if (file.surfaces().empty()) return std::unexpected(file.model().unreadable.at(0).reason);
   return file.surfaces()[0].surface.control_points()(0, 0);
 }
@@ -56,7 +56,8 @@ TEST(StepReals, AreCorrectlyRounded) {
   for (const auto& c : cases) {
     const auto value = read_real(c.text);
     ASSERT_TRUE(value) << c.text;
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(*value), std::bit_cast<std::uint64_t>(c.value)) << c.text;
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(*value), std::bit_cast<std::uint64_t>(c.value))
+        << c.text;
   }
   EXPECT_TRUE(std::signbit(*read_real("-0.")));
   EXPECT_TRUE(std::signbit(*read_real("-1.E-400")));
@@ -64,16 +65,18 @@ TEST(StepReals, AreCorrectlyRounded) {
 }
 
 TEST(StepReals, TooLargeForADoubleIsAnErrorOfTheSurface) {
-  for (const auto* text : {"1.E309", "-1.E99999999999999999999", "1.E+400"}) EXPECT_FALSE(read_real(text)) << text;
+  for (const auto* text : {"1.E309", "-1.E99999999999999999999", "1.E+400"})
+    EXPECT_FALSE(read_real(text)) << text;
   EXPECT_FALSE(read_real(std::string(400, '9') + "."));
 }
 
-// Everything that can be a coordinate survives writing and reading, as a legal REAL with 17 significant digits.
+// Everything that can be a coordinate survives writing and reading, as a legal REAL with 17
+// significant digits.
 TEST(StepReals, AnyDoubleSurvivesWritingToTheLastBit) {
   const auto file = parse_or_die(step_text(testing::unit_square_points() + bilinear_patch()));
   std::mt19937_64 random(7);
-  std::vector<double> values = {-0.0,           0.1, 1.0 / 3, -1e23, 5e-324, -2.2250738585072014e-308, largest_number,
-                                -largest_number};
+  std::vector<double> values = {
+      -0.0, 0.1, 1.0 / 3, -1e23, 5e-324, -2.2250738585072014e-308, largest_number, -largest_number};
   while (values.size() < 3000) {
     const double value = std::bit_cast<double>(random());
     if (std::abs(value) <= largest_number) values.push_back(value);
@@ -83,7 +86,8 @@ TEST(StepReals, AnyDoubleSurvivesWritingToTheLastBit) {
     const step::Edit edit{"#10", points};
     const auto bytes = file.with_control_points({&edit, 1});
     ASSERT_TRUE(bytes) << bytes.error().message();
-    EXPECT_TRUE(testing::same_bits(parse_or_die(*bytes).surfaces()[0].surface.control_points(), points));
+    EXPECT_TRUE(
+        testing::same_bits(parse_or_die(*bytes).surfaces()[0].surface.control_points(), points));
   }
 }
 
@@ -94,10 +98,10 @@ TEST(StepReals, AreWrittenWithSeventeenDigits) {
   points(0, 1) = -0.0;
   points(0, 2) = 1e40;
   const step::Edit edit{"#10", points};
-  EXPECT_NE(
-      file.with_control_points({&edit, 1})
-          ->find("#1=CARTESIAN_POINT('',(-1.0000000000000001E-01,-0.0000000000000000E+00,1.0000000000000000E+40));\n"),
-      std::string::npos);
+  EXPECT_NE(file.with_control_points({&edit, 1})
+                ->find("#1=CARTESIAN_POINT('',(-1.0000000000000001E-01,-0.0000000000000000E+00,1."
+                       "0000000000000000E+40));\n"),
+            std::string::npos);
 }
 
 TEST(StepStrings, AreDecodedToUtf8) {

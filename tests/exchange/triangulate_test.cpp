@@ -27,15 +27,18 @@ double area_of_loop(const Loop& loop) {
   return static_cast<double>(sum / 2);
 }
 
-/// The loops are the bounds of the triangles, none of which is turned over; together they cover what the loops do.
+/// The loops are the bounds of the triangles, none of which is turned over; together they cover
+/// what the loops do.
 void expect_filled(const std::vector<Loop>& loops) {
   const auto triangles = triangulate(loops, {});
   ASSERT_TRUE(triangles);
   Loop points;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;  // of the loops -1, of the triangles +1
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int>
+      sides;  // of the loops -1, of the triangles +1
   double wanted = 0, area = 0;
   for (const Loop& loop : loops) {
-    const auto first = static_cast<std::uint32_t>(points.size()), n = static_cast<std::uint32_t>(loop.size());
+    const auto first = static_cast<std::uint32_t>(points.size()),
+               n = static_cast<std::uint32_t>(loop.size());
     for (std::uint32_t k = 0; k < n; ++k) --sides[{first + k, first + (k + 1) % n}];
     points.insert(points.end(), loop.begin(), loop.end());
     wanted += area_of_loop(loop);
@@ -65,7 +68,9 @@ Loop regular(Vector2d centre, double radius, int corners, double turn) {
   }
   return loop;
 }
-Loop hole_at(double x, double y, double side) { return {{x, y}, {x, y + side}, {x + side, y + side}, {x + side, y}}; }
+Loop hole_at(double x, double y, double side) {
+  return {{x, y}, {x, y + side}, {x + side, y + side}, {x + side, y}};
+}
 
 /// A plate of about 1 x 1 with 1 to 9 holes.
 class Plate {
@@ -76,7 +81,16 @@ class Plate {
         loops_ = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
         break;
       case 1:  // corners along the sides
-        loops_ = {{{0, 0}, {0.25, 0}, {0.5, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0.5, 1}, {0, 1}, {0, 0.75}, {0, 0.25}}};
+        loops_ = {{{0, 0},
+                   {0.25, 0},
+                   {0.5, 0},
+                   {1, 0},
+                   {1, 0.5},
+                   {1, 1},
+                   {0.5, 1},
+                   {0, 1},
+                   {0, 0.75},
+                   {0, 0.25}}};
         break;
       case 2:  // notches between the holes
         loops_ = {{{0, 0},
@@ -101,18 +115,23 @@ class Plate {
     }
     const int holes = 1 + static_cast<int>(random_() % 9), kind = static_cast<int>(seed / 4 % 5);
     for (int tried = 0; tried < 400 && static_cast<int>(loops_.size()) <= holes; ++tried) add(kind);
-    if (seed / 20 % 2 == 1) turn(uniform(0, 2 * std::numbers::pi));  // rounding takes them out of line a little
+    if (seed / 20 % 2 == 1)
+      turn(uniform(0, 2 * std::numbers::pi));  // rounding takes them out of line a little
   }
   [[nodiscard]] const std::vector<Loop>& loops() const { return loops_; }
 
  private:
-  double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
+  double uniform(double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random_);
+  }
 
   /// Whether a square is free, with a margin; if so, it is no longer.
   bool block(double x, double y, double width, double height) {
     constexpr double margin = 1e-8;
     for (const auto& [a, b, w, h] : blocked_) {
-      if (x < a + w + margin && a < x + width + margin && y < b + h + margin && b < y + height + margin) return false;
+      if (x < a + w + margin && a < x + width + margin && y < b + h + margin &&
+          b < y + height + margin)
+        return false;
     }
     blocked_.push_back({x, y, width, height});
     return true;
@@ -131,13 +150,18 @@ class Plate {
     if (x <= 0 || y <= 0 || x + side >= 1 || y + side >= 1 || !block(x, y, side, side)) return;
     const Vector2d centre(x + side / 2, y + side / 2);
     if (kind == 2) {
-      loops_.push_back({{x, y + side / 2}, {x + side / 2, y + side}, {x + side, y + side / 2}, {x + side / 2, y}});
+      loops_.push_back({{x, y + side / 2},
+                        {x + side / 2, y + side},
+                        {x + side, y + side / 2},
+                        {x + side / 2, y}});
     } else if (kind == 3) {
-      loops_.push_back(regular(centre, side / 2, 3 + static_cast<int>(random_() % 40), uniform(0, 6)));
+      loops_.push_back(
+          regular(centre, side / 2, 3 + static_cast<int>(random_() % 40), uniform(0, 6)));
     } else {
       loops_.push_back(hole_at(x, y, side));
     }
-    std::ranges::rotate(loops_.back(), loops_.back().begin() + static_cast<std::ptrdiff_t>(random_() % 3));
+    std::ranges::rotate(loops_.back(),
+                        loops_.back().begin() + static_cast<std::ptrdiff_t>(random_() % 3));
   }
 
   void turn(double angle) {
@@ -171,7 +195,8 @@ TEST(Triangulate, HolesInRowsAndColumnsAreBridgedToEachOther) {
 }
 
 TEST(Triangulate, ABridgeLeavesTheCopyOfACornerThatFacesIt) {
-  // The three holes on the right begin at one height; all see the same corner of the first one before others.
+  // The three holes on the right begin at one height; all see the same corner of the first one
+  // before others.
   std::vector<Loop> loops = {{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, hole_at(1, 4, 2)};
   for (const double y : {3.5, 4.0, 5.0, 6.0, 6.5}) loops.push_back(hole_at(4, y, 0.25));
   expect_filled(loops);
@@ -180,7 +205,8 @@ TEST(Triangulate, ABridgeLeavesTheCopyOfACornerThatFacesIt) {
 TEST(Triangulate, AHoleThatTouchesTheOutlineOrAnotherHoleIsFilledAround) {
   const Loop outline = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
   const Loop in_a_corner = {{0, 0}, {1, 2}, {2, 1}}, second = {{1, 2}, {1, 3}, {2, 3}};
-  for (const auto& holes : {std::vector<Loop>{in_a_corner}, std::vector<Loop>{in_a_corner, second}}) {
+  for (const auto& holes :
+       {std::vector<Loop>{in_a_corner}, std::vector<Loop>{in_a_corner, second}}) {
     std::vector<Loop> loops = {outline};
     loops.insert(loops.end(), holes.begin(), holes.end());
     const auto triangles = triangulate(loops, {});
@@ -188,7 +214,8 @@ TEST(Triangulate, AHoleThatTouchesTheOutlineOrAnotherHoleIsFilledAround) {
     Loop points;
     for (const Loop& loop : loops) points.insert(points.end(), loop.begin(), loop.end());
     double area = 0, wanted = 0;
-    for (const auto& [a, b, c] : *triangles) area += doubled_area(points[a], points[b], points[c]) / 2;
+    for (const auto& [a, b, c] : *triangles)
+      area += doubled_area(points[a], points[b], points[c]) / 2;
     for (const Loop& loop : loops) wanted += area_of_loop(loop);
     EXPECT_NEAR(area, wanted, 1e-12);
   }
@@ -212,13 +239,15 @@ TEST(Triangulate, FacesOfPlatesHaveTheirArea) {
     builder.face(plane, bounds);
     const auto model = model_faces(builder.file().model());
     ASSERT_TRUE(model) << model.error().message();
-    ASSERT_EQ(model->faces.size(), 1U) << (model->skipped.empty() ? "" : model->skipped[0].reason.message());
+    ASSERT_EQ(model->faces.size(), 1U)
+        << (model->skipped.empty() ? "" : model->skipped[0].reason.message());
     EXPECT_NEAR(testing::area_of(model->faces[0]), wanted, 1e-9 * wanted);
   }
 }
 
 TEST(Orientation, IsExactWhereRoundingCannotTell) {
-  // c is moved from the line through a and b by single units in the last place (Kettner et al. 2008).
+  // c is moved from the line through a and b by single units in the last place (Kettner et al.
+  // 2008).
   const Vector2d a(12, 12), b(24, 24);
   for (int i = -3; i <= 3; ++i) {
     for (int j = -3; j <= 3; ++j) {

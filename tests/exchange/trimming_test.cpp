@@ -15,24 +15,28 @@ using testing::parse_or_die;
 using testing::step_text;
 using testing::unit_square_points;
 
-// A face on surface #10 bounded by the polygon through the given vertices (entities #50 … are vertex points).
+// A face on surface #10 bounded by the polygon through the given vertices (entities #50 … are
+// vertex points).
 class Face {
  public:
   int vertex(double x, double y, double z = 0) {
-    text_ << "#" << id_ << "=CARTESIAN_POINT('',(" << real(x) << "," << real(y) << "," << real(z) << "));\n#" << id_ + 1
-          << "=VERTEX_POINT('',#" << id_ << ");\n";
+    text_ << "#" << id_ << "=CARTESIAN_POINT('',(" << real(x) << "," << real(y) << "," << real(z)
+          << "));\n#" << id_ + 1 << "=VERTEX_POINT('',#" << id_ << ");\n";
     places_[id_ + 1] = Point(x, y, z);
     return (id_ += 2) - 1;
   }
   int line(int from, int to) {
     const Point way = places_.at(to) - places_.at(from);
-    const int direction = entity("DIRECTION('',(" + real(way.x()) + "," + real(way.y()) + "," + real(way.z()) + "))");
+    const int direction =
+        entity("DIRECTION('',(" + real(way.x()) + "," + real(way.y()) + "," + real(way.z()) + "))");
     const int vector = entity("VECTOR('',#" + std::to_string(direction) + ",1.)");
-    return edge(from, to, "LINE('',#" + std::to_string(from - 1) + ",#" + std::to_string(vector) + ")");
+    return edge(from, to,
+                "LINE('',#" + std::to_string(from - 1) + ",#" + std::to_string(vector) + ")");
   }
   int edge(int from, int to, const std::string& curve, bool sense = true) {
-    text_ << "#" << id_ << "=" << curve << ";\n#" << id_ + 1 << "=EDGE_CURVE('',#" << from << ",#" << to << ",#" << id_
-          << (sense ? ",.T." : ",.F.") << ");\n#" << id_ + 2 << "=ORIENTED_EDGE('',*,*,#" << id_ + 1 << ",.T.);\n";
+    text_ << "#" << id_ << "=" << curve << ";\n#" << id_ + 1 << "=EDGE_CURVE('',#" << from << ",#"
+          << to << ",#" << id_ << (sense ? ",.T." : ",.F.") << ");\n#" << id_ + 2
+          << "=ORIENTED_EDGE('',*,*,#" << id_ + 1 << ",.T.);\n";
     return (id_ += 3) - 1;
   }
   int entity(const std::string& record) {
@@ -42,7 +46,8 @@ class Face {
   void bound(const std::vector<int>& edges) {
     std::string list;
     for (const int e : edges) list += (list.empty() ? "#" : ",#") + std::to_string(e);
-    text_ << "#" << id_ << "=EDGE_LOOP('',(" << list << "));\n#" << id_ + 1 << "=FACE_BOUND('',#" << id_ << ",.T.);\n";
+    text_ << "#" << id_ << "=EDGE_LOOP('',(" << list << "));\n#" << id_ + 1 << "=FACE_BOUND('',#"
+          << id_ << ",.T.);\n";
     bounds_ += (bounds_.empty() ? "#" : ",#") + std::to_string(id_ + 1);
     id_ += 2;
   }
@@ -54,7 +59,9 @@ class Face {
       edges.push_back(line(vertices[k], vertices[(k + 1) % vertices.size()]));
     bound(edges);
   }
-  std::string text() const { return text_.str() + "#9000=ADVANCED_FACE('',(" + bounds_ + "),#10,.T.);\n"; }
+  std::string text() const {
+    return text_.str() + "#9000=ADVANCED_FACE('',(" + bounds_ + "),#10,.T.);\n";
+  }
 
  private:
   static std::string real(double x) {
@@ -123,37 +130,44 @@ TEST(StepTrimming, CurvesOfAnyKindMayRunAlongTheBoundary) {
   const int d = face.vertex(0, 1);
   const int m = face.entity("CARTESIAN_POINT('',(0.3,0.,0.))");
   const auto point = [](int vertex) { return "#" + std::to_string(vertex - 1); };
-  const int spline = face.entity("B_SPLINE_CURVE_WITH_KNOTS('',2,(" + point(b) + ",#" + std::to_string(m) + "," +
-                                 point(a) + "),.UNSPECIFIED.,.F.,.F.,(3,3),(0.,1.),.UNSPECIFIED.)");
+  const int spline =
+      face.entity("B_SPLINE_CURVE_WITH_KNOTS('',2,(" + point(b) + ",#" + std::to_string(m) + "," +
+                  point(a) + "),.UNSPECIFIED.,.F.,.F.,(3,3),(0.,1.),.UNSPECIFIED.)");
   const int pcurve = face.entity("NOTHING()");
   face.bound(
-      {face.edge(a, b, "SURFACE_CURVE('',#" + std::to_string(spline) + ",(#" + std::to_string(pcurve) + "),.CURVE_3D.)",
+      {face.edge(a, b,
+                 "SURFACE_CURVE('',#" + std::to_string(spline) + ",(#" + std::to_string(pcurve) +
+                     "),.CURVE_3D.)",
                  false),
        face.edge(b, c, "POLYLINE('',(" + point(b) + "," + point(c) + "))"), face.line(c, d),
-       face.edge(d, a, "BEZIER_CURVE('',1,(" + point(d) + "," + point(a) + "),.UNSPECIFIED.,.F.,.F.)")});
+       face.edge(d, a,
+                 "BEZIER_CURVE('',1,(" + point(d) + "," + point(a) + "),.UNSPECIFIED.,.F.,.F.)")});
   EXPECT_FALSE(trimmed(square, face));
 }
 
 TEST(StepTrimming, SeamsAndPolesNeedNoEdge) {
   const auto cylinder = [] {
     std::string text;
-    const char* xy[] = {"1.,0.", "1.,1.", "0.,1.", "-1.,1.", "-1.,0.", "-1.,-1.", "0.,-1.", "1.,-1."};
+    const char* xy[] = {"1.,0.",  "1.,1.",   "0.,1.",  "-1.,1.",
+                        "-1.,0.", "-1.,-1.", "0.,-1.", "1.,-1."};
     std::string rows;
     std::string weights;
     for (int k = 0; k < 8; ++k) {
       for (int z = 0; z < 2; ++z) {
-        text +=
-            "#" + std::to_string(20 + 2 * k + z) + "=CARTESIAN_POINT('',(" + xy[k] + "," + std::to_string(z) + ".));\n";
+        text += "#" + std::to_string(20 + 2 * k + z) + "=CARTESIAN_POINT('',(" + xy[k] + "," +
+                std::to_string(z) + ".));\n";
       }
     }
     for (int k = 0; k <= 8; ++k) {
       const int id = 20 + 2 * (k % 8);
-      rows += std::string(k == 0 ? "(" : ",(") + "#" + std::to_string(id) + ",#" + std::to_string(id + 1) + ")";
-      weights +=
-          std::string(k == 0 ? "" : ",") + (k % 2 == 0 ? "(1.,1.)" : "(0.70710678118654757,0.70710678118654757)");
+      rows += std::string(k == 0 ? "(" : ",(") + "#" + std::to_string(id) + ",#" +
+              std::to_string(id + 1) + ")";
+      weights += std::string(k == 0 ? "" : ",") +
+                 (k % 2 == 0 ? "(1.,1.)" : "(0.70710678118654757,0.70710678118654757)");
     }
     return text + "#10=(BOUNDED_SURFACE()B_SPLINE_SURFACE(2,1,(" + rows +
-           "),.UNSPECIFIED.,.T.,.F.,.F.)B_SPLINE_SURFACE_WITH_KNOTS((3,2,2,2,3),(2,2),(0.,1.,2.,3.,4.),(0.,1.),."
+           "),.UNSPECIFIED.,.T.,.F.,.F.)B_SPLINE_SURFACE_WITH_KNOTS((3,2,2,2,3),(2,2),(0.,1.,2.,3.,"
+           "4.),(0.,1.),."
            "UNSPECIFIED.)"
            "GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE((" +
            weights + "))REPRESENTATION_ITEM('')SURFACE());\n";
@@ -167,7 +181,8 @@ TEST(StepTrimming, SeamsAndPolesNeedNoEdge) {
   Face whole;
   circle(whole, 0);
   circle(whole, 1);
-  EXPECT_EQ(parse_or_die(step_text(cylinder + whole.text())).surfaces()[0].closed, (std::array<bool, 2>{true, false}));
+  EXPECT_EQ(parse_or_die(step_text(cylinder + whole.text())).surfaces()[0].closed,
+            (std::array<bool, 2>{true, false}));
   EXPECT_FALSE(trimmed(cylinder, whole));
   Face shortened;
   circle(shortened, 0);
@@ -194,9 +209,10 @@ std::string contents(const std::string& text) {
   const step::File file = parse_or_die(text);
   std::ostringstream all;
   for (const brep::SplineSurface& s : file.surfaces())
-    all << s.id << ' ' << s.name << ' ' << s.unit << s.closed[0] << s.closed[1] << s.trimmed << s.faces << ' '
-        << s.surface.control_points().row(3) << '\n';
-  for (const brep::UnreadableSurface& s : file.model().unreadable) all << s.id << ' ' << s.reason.message() << '\n';
+    all << s.id << ' ' << s.name << ' ' << s.unit << s.closed[0] << s.closed[1] << s.trimmed
+        << s.faces << ' ' << s.surface.control_points().row(3) << '\n';
+  for (const brep::UnreadableSurface& s : file.model().unreadable)
+    all << s.id << ' ' << s.reason.message() << '\n';
   return all.str();
 }
 
@@ -204,8 +220,9 @@ TEST(StepTrimming, ThreadsDoNotChangeWhatALargeFileHolds) {
   Face whole, inset;
   whole.polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
   inset.polygon({{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}});
-  const std::array<std::string, 4> kinds = {square + whole.text(), square + inset.text(), square,
-                                            unit_square_points() + bilinear_patch("((#1,#2),(#3))")};
+  const std::array<std::string, 4> kinds = {
+      square + whole.text(), square + inset.text(), square,
+      unit_square_points() + bilinear_patch("((#1,#2),(#3))")};
   std::string data;
   for (std::size_t k = 0; k < 200; ++k) {
     std::string copy = kinds[k % 4];

@@ -35,7 +35,8 @@ TEST(Cancellation, weights_and_products_grow_as_the_knots_meet_and_the_entry_doe
 }
 
 TEST(Cancellation, error_is_within_the_bound_of_rounded_terms) {
-  // A term is wrong by its weight (2 (p + 3) ulp) and its integral (4 (3p + 4) ulp), the bounds of their docstrings.
+  // A term is wrong by its weight (2 (p + 3) ulp) and its integral (4 (3p + 4) ulp), the bounds of
+  // their docstrings.
   for (const int p : {3, 5, 10}) {
     for (int r = 0; r <= 10; ++r) {
       const Cancellation at = cancellation(p, r);
@@ -66,7 +67,8 @@ TEST(Cancellation, kahan_summation_and_normalising_gain_nothing) {
 
 TEST(Cancellation, spares_the_tabulated_entry_as_the_degree_grows_but_not_the_worst) {
   EXPECT_LT(cancellation(10, 10).plain, 1e-12);
-  EXPECT_GT(cancellation(10, 10).mirrored, 1e-5);  // the same entry with integrals from the other side
+  EXPECT_GT(cancellation(10, 10).mirrored,
+            1e-5);  // the same entry with integrals from the other side
   for (const int p : {3, 5, 7, 10}) {
     EXPECT_GT(worst_on_thesis_knots(p, 10), 1e-7) << p;
     EXPECT_GT(worst_by_better_side(p, 10), 1e-9) << p;
@@ -74,8 +76,8 @@ TEST(Cancellation, spares_the_tabulated_entry_as_the_degree_grows_but_not_the_wo
   }
 }
 
-// The page states numbers; they are those that are computed: to the digits stated, and the worst entries of whole
-// matrices, which are noise of the analytic method, to their order of magnitude.
+// The page states numbers; they are those that are computed: to the digits stated, and the worst
+// entries of whole matrices, which are noise of the analytic method, to their order of magnitude.
 TEST(Cancellation, is_what_the_page_says) {
   std::ifstream page(std::string(KNEAD_SOURCE_DIR) + "/docs/gramians/error-analysis.md");
   int rows = 0, worst_rows = 0;
@@ -99,8 +101,8 @@ TEST(Cancellation, is_what_the_page_says) {
     } else {
       ASSERT_EQ(cells.size(), 5u) << line;
       const int p = static_cast<int>(cells[0]);
-      const double computed[] = {worst_on_thesis_knots(p, 6), worst_on_thesis_knots(p, 8), worst_on_thesis_knots(p, 10),
-                                 worst_on_cluster(p)};
+      const double computed[] = {worst_on_thesis_knots(p, 6), worst_on_thesis_knots(p, 8),
+                                 worst_on_thesis_knots(p, 10), worst_on_cluster(p)};
       for (std::size_t k = 0; k < 4; ++k) {
         EXPECT_LE(std::abs(std::log10(cells[k + 1] / computed[k])), 1) << line;
       }

@@ -29,7 +29,8 @@ TEST(Roofline, CountsTheOperationsOfLoops) {
   const auto all = roofline_kernels(10, 12);
   // A multiplication and an addition per entry and column.
   EXPECT_EQ(kernel(all, "K assembled times three columns").operations, 72 * 72 * 6);
-  // At every u the 32 × 3 numbers of four lines, then four terms for every coordinate of a point: 7 operations each.
+  // At every u the 32 × 3 numbers of four lines, then four terms for every coordinate of a point: 7
+  // operations each.
   EXPECT_EQ(kernel(all, "points on a grid").operations, 10 * 96 * 7 + 100 * 3 * 7);
 }
 

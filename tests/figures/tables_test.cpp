@@ -1,5 +1,6 @@
-// Every entry of the thesis' tables and matrices against exact values: those that the project carries (21 digits, held
-// here against quadruple precision), and those published, where a foreign folder has them.
+// Every entry of the thesis' tables and matrices against exact values: those that the project
+// carries (21 digits, held here against quadruple precision), and those published, where a foreign
+// folder has them.
 #include "figures/tables.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +44,8 @@ Quad quad_entry(const std::string& term, int p, int r, bool normalised, int i, i
       const Quad u = x[at] + h * rule.t[g];
       const auto f = testing::quad_span_basis(x, p, term[1] - '0', s, u);
       const auto k = testing::quad_span_basis(x, p, term[2] - '0', s, u);
-      sum += h * rule.weight[g] * f[static_cast<std::size_t>(i - s + p)] * k[static_cast<std::size_t>(j - s + p)];
+      sum += h * rule.weight[g] * f[static_cast<std::size_t>(i - s + p)] *
+             k[static_cast<std::size_t>(j - s + p)];
     }
   }
   return sum;
@@ -66,9 +68,11 @@ TEST(Tables, carry_exact_values_that_are_those_of_quadruple_precision) {
   }
   for (const CsvRow& row : read_csv(data + "/figures_5_50_to_5_57.csv")) {
     const long double carried_value = std::stold(row.at("exact"));
-    const Quad exact = quad_entry(row.at("term"), 3, 0, false, std::stoi(row.at("i")), std::stoi(row.at("j")));
+    const Quad exact =
+        quad_entry(row.at("term"), 3, 0, false, std::stoi(row.at("i")), std::stoi(row.at("j")));
     const long double size = carried_value == 0 ? 1e-10L : std::abs(carried_value);
-    EXPECT_LE(static_cast<long double>(testing::magnitude(exact - Quad(carried_value))), carried * size)
+    EXPECT_LE(static_cast<long double>(testing::magnitude(exact - Quad(carried_value))),
+              carried * size)
         << row.at("term") << " " << row.at("i") << " " << row.at("j");
   }
 }
@@ -84,28 +88,32 @@ TEST(Tables, agree_with_the_exact_values_by_gauss_and_recurrence) {
 
 TEST(Tables, agree_with_the_exact_values_by_the_analytic_method_but_for_a_digit_per_r) {
   for (const TableRow& row : table_rows(data)) {
-    EXPECT_LE(row.error(1), 1e-14 + 1e-15 * std::pow(10, row.r)) << "Table " << row.table << ", r = " << row.r;
+    EXPECT_LE(row.error(1), 1e-14 + 1e-15 * std::pow(10, row.r))
+        << "Table " << row.table << ", r = " << row.r;
   }
 }
 
 TEST(Tables, mark_the_wrong_digits_of_the_thesis_exact_columns_and_no_others) {
   std::set<std::string> wrong;
   for (const TableRow& row : table_rows(data)) {
-    if (!is_right(row.printed_exact, row.exact)) wrong.insert(row.table + " r=" + std::to_string(row.r));
+    if (!is_right(row.printed_exact, row.exact))
+      wrong.insert(row.table + " r=" + std::to_string(row.r));
   }
-  EXPECT_EQ(wrong,
-            (std::set<std::string>{"5.4 r=6", "5.9 r=7", "5.12 r=4", "5.12 r=7", "5.17 r=4", "5.18 r=5", "5.18 r=7"}));
+  EXPECT_EQ(wrong, (std::set<std::string>{"5.4 r=6", "5.9 r=7", "5.12 r=4", "5.12 r=7", "5.17 r=4",
+                                          "5.18 r=5", "5.18 r=7"}));
 }
 
 TEST(Tables, of_integrals_and_dirac_weights_agree_with_the_exact_values) {
   for (const CheckedValue& value : table_5_15(data)) {
-    EXPECT_NEAR(value.ours, static_cast<double>(value.exact), static_cast<double>(1e-14L * std::abs(value.exact)))
+    EXPECT_NEAR(value.ours, static_cast<double>(value.exact),
+                static_cast<double>(1e-14L * std::abs(value.exact)))
         << value.row;
     EXPECT_TRUE(is_right(value.printed_exact, value.exact)) << value.row;
   }
   // 6 + 1e-10 is off by up to half an ulp of 6 as a double, which is 4e-6 of the gap.
   for (const CheckedValue& value : table_5_16(data)) {
-    EXPECT_NEAR(value.ours, static_cast<double>(value.exact), static_cast<double>(5e-6L * std::abs(value.exact)))
+    EXPECT_NEAR(value.ours, static_cast<double>(value.exact),
+                static_cast<double>(5e-6L * std::abs(value.exact)))
         << value.row << " " << value.column;
   }
 }
@@ -115,18 +123,20 @@ TEST(Tables, mark_the_three_slips_of_table_5_16) {
   for (const CheckedValue& value : table_5_16(data)) {
     if (value.printed_analytic.empty()) continue;
     const long double printed = std::stold(value.printed_analytic);
-    if (std::abs(printed - value.exact) > 1e-4L * std::abs(value.exact)) slips.insert(value.row + " " + value.column);
+    if (std::abs(printed - value.exact) > 1e-4L * std::abs(value.exact))
+      slips.insert(value.row + " " + value.column);
   }
   EXPECT_EQ(slips,
-            (std::set<std::string>{"12 11th integral", "16 10th derivative (left of the knot)", "6 + 10⁻¹⁰ product"}));
+            (std::set<std::string>{"12 11th integral", "16 10th derivative (left of the knot)",
+                                   "6 + 10⁻¹⁰ product"}));
 }
 
 TEST(Tables, are_carried_as_they_were_published) {
   struct Pair {
     const char *file, *carried, *published;
   };
-  constexpr const char *tables = "tables_5_3_to_5_20.csv", *integrals = "table_5_15.csv", *diracs = "table_5_16.csv",
-                       *matrices = "figures_5_50_to_5_57.csv";
+  constexpr const char *tables = "tables_5_3_to_5_20.csv", *integrals = "table_5_15.csv",
+                       *diracs = "table_5_16.csv", *matrices = "figures_5_50_to_5_57.csv";
   const std::filesystem::path reference = testing::foreign("reference");
   for (const char* file : {tables, integrals, diracs, matrices}) KNEAD_NEEDS(reference / file);
   // Numbers to 21 digits, what the thesis prints letter by letter.
@@ -143,7 +153,8 @@ TEST(Tables, are_carried_as_they_were_published) {
                            {matrices, "exact", "exact"},
                            {matrices, "printed_gauss", "thesis_gauss"},
                            {matrices, "printed_analytic", "thesis_analytic"}}) {
-    const auto ours = read_csv(data + "/" + pair.file), published = read_csv((reference / pair.file).string());
+    const auto ours = read_csv(data + "/" + pair.file),
+               published = read_csv((reference / pair.file).string());
     ASSERT_EQ(ours.size(), published.size()) << pair.file;
     const bool letters = std::string(pair.carried).starts_with("printed");
     for (std::size_t k = 0; k < ours.size(); ++k) {
@@ -155,7 +166,8 @@ TEST(Tables, are_carried_as_they_were_published) {
       if (letters) {
         EXPECT_EQ(here, there) << pair.file << " " << k;
       } else {
-        EXPECT_LE(std::abs(std::stold(here) - std::stold(there)), carried * std::abs(std::stold(there)))
+        EXPECT_LE(std::abs(std::stold(here) - std::stold(there)),
+                  carried * std::abs(std::stold(there)))
             << pair.file << " " << pair.carried << " " << k;
       }
     }

@@ -27,8 +27,9 @@ double worst(const KnotVector& knots, ThesisMethod method, Reuse reuse) {
     for (int i = 0; i < knots.count(); ++i) {
       for (int s = 0; s <= p && i + s < knots.count(); ++s) {
         size = std::max(size, std::abs((*terms[t])(i, i + s)));
-        difference = std::max(
-            difference, std::abs(result.upper[t][static_cast<std::size_t>(i * (p + 1) + s)] - (*terms[t])(i, i + s)));
+        difference = std::max(difference,
+                              std::abs(result.upper[t][static_cast<std::size_t>(i * (p + 1) + s)] -
+                                       (*terms[t])(i, i + s)));
       }
     }
     error = std::max(error, size > 0 ? difference / size : difference);
@@ -38,14 +39,16 @@ double worst(const KnotVector& knots, ThesisMethod method, Reuse reuse) {
 
 TEST(ThesisMethods, give_the_gramians) {
   for (int p = 1; p <= 6; ++p) {
-    for (const KnotVector& knots :
-         {testing::uniform_clamped(p, 1), testing::uniform_clamped(p, 2), testing::uniform_clamped(p, 12),
-          testing::clamped_knots(p, {0, 1, 1.5, 3, 3.25, 4, 6, 7})}) {
+    for (const KnotVector& knots : {testing::uniform_clamped(p, 1), testing::uniform_clamped(p, 2),
+                                    testing::uniform_clamped(p, 12),
+                                    testing::clamped_knots(p, {0, 1, 1.5, 3, 3.25, 4, 6, 7})}) {
       for (const Reuse reuse : {Reuse::all_in_one, Reuse::none}) {
         EXPECT_LE(worst(knots, ThesisMethod::gaussian, reuse), 1e-13) << p;
-        // The analytic method loses digits with the degree, as what it adds up grows: Σ|t|/|Σt| is 400 at p = 10
-        // already on uniform knots in the middle, and grows with the distance that a function is integrated over.
-        EXPECT_LE(worst(knots, ThesisMethod::analytic, reuse), 1e-15 * std::pow(12, p)) << p << " " << knots.count();
+        // The analytic method loses digits with the degree, as what it adds up grows: Σ|t|/|Σt| is
+        // 400 at p = 10 already on uniform knots in the middle, and grows with the distance that a
+        // function is integrated over.
+        EXPECT_LE(worst(knots, ThesisMethod::analytic, reuse), 1e-15 * std::pow(12, p))
+            << p << " " << knots.count();
       }
     }
   }
@@ -73,18 +76,22 @@ TEST(ThesisMethods, cost_a_cubic_span_what_can_be_counted_by_hand) {
     return thesis_gramians(testing::uniform_clamped(3, 21), method).work -
            thesis_gramians(testing::uniform_clamped(3, 20), method).work;
   };
-  // Gauss, one of four points: 4 + 3 differences of u and knots; triangle of 1 + 2 + 3 branches, each an addition (the
-  // length), a division, two products and, for all but the last of each level, one sum: 7 + 6·4 + 3 = 34. Derivatives
-  // 3 + (2 + 3) branches of a product, a division and, but for one of each of 3 levels, a difference: 8·2 + 5 = 21.
+  // Gauss, one of four points: 4 + 3 differences of u and knots; triangle of 1 + 2 + 3 branches,
+  // each an addition (the length), a division, two products and, for all but the last of each
+  // level, one sum: 7 + 6·4 + 3 = 34. Derivatives 3 + (2 + 3) branches of a product, a division
+  // and, but for one of each of 3 levels, a difference: 8·2 + 5 = 21.
   const Work gauss = per_span(ThesisMethod::gaussian);
   EXPECT_EQ(gauss.recursions.total(), 4 * (34 + 21));
-  // Four limits; three to shift each abscissa and weight; 3·4 weighted values and 4·10 products and sums.
+  // Four limits; three to shift each abscissa and weight; 3·4 weighted values and 4·10 products and
+  // sums.
   EXPECT_EQ(gauss.operations.total(), 4 + 4 * (34 + 21 + 3 + 12 + 80));
-  // Analytic: 4 + 7 differences; branches 1 + 2 + 3 + 4·4, of which the last four levels hand nothing to the left of
-  // the span (one product less each) and sum at all but one function; third derivative of 1 + 2 + 3 branches.
+  // Analytic: 4 + 7 differences; branches 1 + 2 + 3 + 4·4, of which the last four levels hand
+  // nothing to the left of the span (one product less each) and sum at all but one function; third
+  // derivative of 1 + 2 + 3 branches.
   const Work analytic = per_span(ThesisMethod::analytic);
   EXPECT_EQ(analytic.recursions.total(), 11 + 22 * 4 - 4 + (0 + 1 + 2 + 4 * 3) + 6 * 2 + 3);
-  // 4p − 3 = 9 levels of 4 products and 3 sums, 3 steps, 80 to assemble, 4 weights of a difference and a division.
+  // 4p − 3 = 9 levels of 4 products and 3 sums, 3 steps, 80 to assemble, 4 weights of a difference
+  // and a division.
   EXPECT_EQ(analytic.operations.total(), analytic.recursions.total() + 9 * 7 + 3 + 80 + 4 * 2);
 }
 
@@ -93,7 +100,8 @@ TEST(ThesisMethods, save_operations_over_gauss_as_the_thesis_says_and_the_recurr
     const auto total = [&](ThesisMethod method) {
       return thesis_gramians(testing::uniform_clamped(p, 200), method).work.operations.total();
     };
-    const long recurrence = count_operations(testing::uniform_clamped(p, 200), GramianMethod::recurrence).total();
+    const long recurrence =
+        count_operations(testing::uniform_clamped(p, 200), GramianMethod::recurrence).total();
     EXPECT_GT(2 * total(ThesisMethod::gaussian), 3 * total(ThesisMethod::analytic)) << p;
     EXPECT_GT(total(ThesisMethod::analytic), recurrence) << p;
   }

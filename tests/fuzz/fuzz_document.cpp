@@ -1,5 +1,5 @@
-// What a Knead document holds, to the engine: a file, the commands of its journal, a snapshot. The input is a file and
-// a script, a line "%%" between them.
+// What a Knead document holds, to the engine: a file, the commands of its journal, a snapshot. The
+// input is a file and a script, a line "%%" between them.
 #include "running.hpp"
 
 using namespace knead;
@@ -16,7 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Session session(Document::from(*source));
   if (fuzz::control_points(session) > 400) return 0;
   const auto untouched = session.save();
-  fuzz::check(untouched.has_value() && *untouched == file, "an untouched document is saved with other bytes");
+  fuzz::check(untouched.has_value() && *untouched == file,
+              "an untouched document is saved with other bytes");
   if (at != input.npos) fuzz::run(session, input.substr(at + 4), 6);
   const auto saved = session.save();
   if (!saved) fuzz::check_error(saved.error());
@@ -26,8 +27,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto same = restored->save();
   fuzz::check(same.has_value() == saved.has_value() && (!same || *same == *saved),
               "a restored session saves other bytes");
-  while (session.can_undo()) fuzz::check(session.execute(make_command(UndoCommand{})).has_value(), "undo");
+  while (session.can_undo())
+    fuzz::check(session.execute(make_command(UndoCommand{})).has_value(), "undo");
   const auto undone = session.save();
-  fuzz::check(undone.has_value() && *undone == file, "after everything was undone other bytes are saved");
+  fuzz::check(undone.has_value() && *undone == file,
+              "after everything was undone other bytes are saved");
   return 0;
 }

@@ -17,11 +17,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (saved) {
     const auto again = step::File::parse(*saved, "saved.step");
     fuzz::check(again.has_value(), "what was saved cannot be read");
-    fuzz::check(again->surfaces().size() == session.state().surfaces.size(), "another number of surfaces was saved");
+    fuzz::check(again->surfaces().size() == session.state().surfaces.size(),
+                "another number of surfaces was saved");
   } else {
     fuzz::check_error(saved.error());
   }
-  while (session.can_undo()) fuzz::check(session.execute(make_command(UndoCommand{})).has_value(), "undo");
+  while (session.can_undo())
+    fuzz::check(session.execute(make_command(UndoCommand{})).has_value(), "undo");
   fuzz::check(session.state().surfaces.empty(), "something is left after everything was undone");
   return 0;
 }

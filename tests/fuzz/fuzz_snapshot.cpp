@@ -1,4 +1,5 @@
-// Damaged snapshots whose checksum is right, which is no secret. What is restored can be saved, and goes on.
+// Damaged snapshots whose checksum is right, which is no secret. What is restored can be saved, and
+// goes on.
 #include <cstring>
 
 #include "running.hpp"
@@ -39,8 +40,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static_cast<void>(session->largest_displacement(static_cast<int>(k)));
     static_cast<void>(session->moved_control_points(static_cast<int>(k)));
   }
-  fuzz::run(*session, R"({"knead": 2, "commands": [{"do": "step"}, {"do": "refine"}, {"do": "step"}]})", 3);
-  while (session->can_undo()) fuzz::check(session->execute(make_command(UndoCommand{})).has_value(), "undo");
+  fuzz::run(*session,
+            R"({"knead": 2, "commands": [{"do": "step"}, {"do": "refine"}, {"do": "step"}]})", 3);
+  while (session->can_undo())
+    fuzz::check(session->execute(make_command(UndoCommand{})).has_value(), "undo");
   if (const auto saved = session->save(); !saved) fuzz::check_error(saved.error());
   return 0;
 }

@@ -36,7 +36,8 @@ inline void check_faces(const brep::Model& model) {
     for (const FaceMesh& f : meshes.faces) {
       check(f.points.size() == f.normals.size(), "as many normals as points");
       for (const auto& t : f.triangles) {
-        for (const auto k : t) check(k < f.points.size(), "a corner of a triangle that is no point: " + f.id);
+        for (const auto k : t)
+          check(k < f.points.size(), "a corner of a triangle that is no point: " + f.id);
       }
     }
   };
@@ -57,19 +58,22 @@ inline void read_and_write(std::string_view bytes, const std::string& name) {
   const auto source = open_source(std::string(bytes), name);
   check_memory(bytes.size(), "reading");
   if (!source) return check_error(source.error());
-  for (const SourceSurface& s : (*source)->surfaces()) check_finite(*s.surface, "a surface of the file");
+  for (const SourceSurface& s : (*source)->surfaces())
+    check_finite(*s.surface, "a surface of the file");
   for (const SourceCurve& c : (*source)->curves()) check_finite(*c.curve, "a curve of the file");
   for (const brep::UnreadableSurface& u : (*source)->unreadable()) check_error(u.reason);
   const auto same = (*source)->save(surfaces_of(**source, false));
   check(same.has_value() && *same == bytes, "an unchanged file is written with other bytes");
   if (const auto model = (*source)->model()) check_faces(*model);
-  for (const LeftOut& left : left_out_of_faces(**source)) check(left.count > 0 && !left.reason.empty(), sentence(left));
+  for (const LeftOut& left : left_out_of_faces(**source))
+    check(left.count > 0 && !left.reason.empty(), sentence(left));
   if ((*source)->surfaces().empty()) return;
   const auto written = (*source)->save(surfaces_of(**source, true));
   if (!written) return check_error(written.error());
   const auto again = open_source(*written, name);
   check(again.has_value(), "what was written cannot be read");
-  check((*again)->surfaces().size() == (*source)->surfaces().size(), "another number of surfaces was written");
+  check((*again)->surfaces().size() == (*source)->surfaces().size(),
+        "another number of surfaces was written");
 }
 
 }  // namespace knead::fuzz

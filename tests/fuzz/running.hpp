@@ -11,7 +11,8 @@
 
 namespace knead::fuzz {
 
-/// The command with numbers that a run has time for: a script may ask for much more, which is legal and slow.
+/// The command with numbers that a run has time for: a script may ask for much more, which is legal
+/// and slow.
 [[nodiscard]] inline std::optional<Command> small(const Command& command) {
   const auto at_most = [](auto& list, int most) {
     for (int& x : list) x = std::min(x, most);
@@ -51,7 +52,8 @@ namespace knead::fuzz {
     at_most(less.by, 1);
     return make_command(std::move(less));
   }
-  if (fields_of<LimitCommand>(command) != nullptr) return std::nullopt;  // kept in rounds that take seconds
+  if (fields_of<LimitCommand>(command) != nullptr)
+    return std::nullopt;  // kept in rounds that take seconds
   return command;
 }
 
@@ -66,8 +68,10 @@ inline void check_state(const Session& session) {
   for (const SceneSurface& s : session.state().surfaces) {
     check_finite(*s.current, "the present shape");
     check_finite(*s.rest, "the shape at rest");
-    check(s.current->net() == s.rest->net() && s.current->net() == s.reference->net(), "shapes of several nets");
-    check(s.velocity.rows() == 0 || s.velocity.rows() == s.current->size(), "velocities of another net");
+    check(s.current->net() == s.rest->net() && s.current->net() == s.reference->net(),
+          "shapes of several nets");
+    check(s.velocity.rows() == 0 || s.velocity.rows() == s.current->size(),
+          "velocities of another net");
   }
 }
 
@@ -78,7 +82,8 @@ inline void run(Session& session, std::string_view script, std::size_t most) {
   for (std::size_t k = 0; k < std::min(commands->size(), most); ++k) {
     const std::string json = to_json((*commands)[k]);
     const auto again = parse_command(json);
-    check(again.has_value() && to_json(*again) == json, "a command is not what it is written as: " + json);
+    check(again.has_value() && to_json(*again) == json,
+          "a command is not what it is written as: " + json);
     const auto command = small((*commands)[k]);
     if (!command || control_points(session) > 600) continue;
     const SessionState* before = &session.state();

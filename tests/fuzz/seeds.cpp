@@ -23,7 +23,8 @@ class Corpus {
 
   void add(const std::string& target, const std::string& bytes) {
     fs::create_directories(folder_ / target);
-    std::ofstream(folder_ / target / ("seed" + std::to_string(++count_)), std::ios::binary) << bytes;
+    std::ofstream(folder_ / target / ("seed" + std::to_string(++count_)), std::ios::binary)
+        << bytes;
   }
 
  private:
@@ -57,17 +58,21 @@ const std::vector<std::vector<std::string>> sheets = {
     {R"({"do": "new", "net": [4, 4]})", R"({"do": "points", "rows_u": [2], "by": [0, 0, 0.2]})"},
     {R"({"do": "new", "shape": "cylinder", "net": [7, 4]})"},
     {R"({"do": "new", "shape": "torus", "radius": 2})"},
-    {R"({"do": "new", "degree": [1, 2], "net": [2, 3]})", R"({"do": "new", "net": [4, 4], "position": [2, 0, 0]})"}};
+    {R"({"do": "new", "degree": [1, 2], "net": [2, 3]})",
+     R"({"do": "new", "net": [4, 4], "position": [2, 0, 0]})"}};
 
 /// Commands on whatever is selected.
 const std::vector<std::vector<std::string>> edits = {
-    {R"({"do": "tool", "name": "ball", "shape": "sphere", "radius": 0.2, "at": [0.5, 0.5], "mode": "collision"})",
-     R"({"do": "move", "tool": "ball", "by": [0, 0, 0.1]})", R"({"do": "step", "count": 2, "lambda": 20})",
-     R"({"do": "release"})"},
-    {R"({"do": "edge", "which": "u0", "hold": "free"})", R"({"do": "force", "at": [0.5, 0.5], "to": [0, 0, 1]})",
-     R"({"do": "step"})", R"({"do": "undo"})", R"({"do": "redo"})"},
+    {R"({"do": "tool", "name": "ball", "shape": "sphere", "radius": 0.2, "at": [0.5, 0.5], )"
+     R"("mode": "collision"})",
+     R"({"do": "move", "tool": "ball", "by": [0, 0, 0.1]})",
+     R"({"do": "step", "count": 2, "lambda": 20})", R"({"do": "release"})"},
+    {R"({"do": "edge", "which": "u0", "hold": "free"})",
+     R"({"do": "force", "at": [0.5, 0.5], "to": [0, 0, 1]})", R"({"do": "step"})",
+     R"({"do": "undo"})", R"({"do": "redo"})"},
     {R"({"do": "refine", "region": [[0, 0.5], [0, 1]]})", R"({"do": "elevate", "by": [1, 0]})",
-     R"({"do": "coarsen", "tolerance": 1e-9})", R"({"do": "drag", "at": [0.5, 0.5], "by": [0, 0, 0.1]})"},
+     R"({"do": "coarsen", "tolerance": 1e-9})",
+     R"({"do": "drag", "at": [0.5, 0.5], "by": [0, 0, 0.1]})"},
     {R"({"do": "material", "alpha": [1, 0, 1]})", R"({"do": "load", "pressure": 0.1})",
      R"({"do": "evolve", "mode": "dynamic"})", R"({"do": "step"})"},
     {R"({"do": "lattice", "net": [3, 3, 3], "degree": [2, 2, 2], "steps": 1})"}};
@@ -80,7 +85,8 @@ void readers(Corpus& corpus) {
     for (const Format& format : formats()) {
       if (format.save == nullptr) continue;
       const auto bytes = session.save_as(format);
-      if (bytes && (format.id == "step" || format.id == "iges")) corpus.add(std::string(format.id), *bytes);
+      if (bytes && (format.id == "step" || format.id == "iges"))
+        corpus.add(std::string(format.id), *bytes);
     }
   }
   corpus.add("step", content_of(fs::path(KNEAD_SOURCE_DIR) / "examples/figures/patches.step"));
@@ -98,9 +104,11 @@ void readers(Corpus& corpus) {
     corpus.add("packed", *compress(step_text(square + square_face.text()), packing, "a.stp"));
   }
   const fs::path texts = fs::path(KNEAD_SOURCE_DIR) / "tests/fuzz/corpus/text";
-  for (const char* ending : {".g2", ".xml", ".dat", ".csv", ".json"}) {  // in the order of fuzz_text.cpp
+  for (const char* ending :
+       {".g2", ".xml", ".dat", ".csv", ".json"}) {  // in the order of fuzz_text.cpp
     for (const auto& file : fs::directory_iterator(texts)) {
-      if (file.path().extension() == ending) corpus.add("text", std::string(1, kind) + content_of(file.path()));
+      if (file.path().extension() == ending)
+        corpus.add("text", std::string(1, kind) + content_of(file.path()));
     }
     ++kind;
   }
@@ -114,7 +122,8 @@ void sessions(Corpus& corpus) {
       corpus.add("script", script(all));
     }
     const std::string snapshot = after(commands).snapshot();
-    corpus.add("snapshot", snapshot.substr(snapshot.find('\n') + 9));  // without its name and checksum
+    corpus.add("snapshot",
+               snapshot.substr(snapshot.find('\n') + 9));  // without its name and checksum
     if (const auto saved = after(commands).save()) {
       for (const auto& more : edits) corpus.add("document", *saved + "\n%%\n" + script(more));
     }

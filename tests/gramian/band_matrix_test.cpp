@@ -34,7 +34,8 @@ TEST(BandMatrix, diagonals_hold_the_entries_of_their_offset) {
         const auto diagonal = matrix.diagonal(s);
         ASSERT_EQ(static_cast<int>(diagonal.size()), std::max(0, n - std::abs(s)));
         for (int k = 0; k < static_cast<int>(diagonal.size()); ++k) {
-          EXPECT_EQ(diagonal[static_cast<std::size_t>(k)], matrix(k + std::max(0, -s), k + std::max(0, s)));
+          EXPECT_EQ(diagonal[static_cast<std::size_t>(k)],
+                    matrix(k + std::max(0, -s), k + std::max(0, s)));
         }
       }
     }

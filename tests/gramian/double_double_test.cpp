@@ -40,7 +40,8 @@ TEST(DoubleDouble, keeps_100_bits_of_every_operation_differences_of_equals_inclu
     EXPECT_EQ(computed.high + computed.low, computed.high);
   };
   for (int k = 0; k < 2000; ++k) {
-    const DoubleDouble a = random_number(random), b = random_number(random), close = {a.high, 0.25 * a.low};
+    const DoubleDouble a = random_number(random), b = random_number(random),
+                       close = {a.high, 0.25 * a.low};
     expect_near(a + b, rational(a) + rational(b));
     expect_near(a - b, rational(a) - rational(b));
     expect_near(a - close, rational(a) - rational(close));

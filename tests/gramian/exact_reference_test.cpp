@@ -12,7 +12,8 @@ using testing::Quad;
 
 constexpr int tabulated[4][2] = {{0, 0}, {1, 0}, {1, 1}, {2, 2}};
 
-/// A thousandth of the tightest bound that is tested with them, 1e-14; 10 as an entry by itself too.
+/// A thousandth of the tightest bound that is tested with them, 1e-14; 10 as an entry by itself
+/// too.
 void expect_good_enough(const KnotVector& knots) {
   const int p = knots.degree();
   for (const auto& [a, b] : tabulated) {
@@ -21,13 +22,15 @@ void expect_good_enough(const KnotVector& knots) {
     for (int i = 0; i < quad.n; ++i) {
       for (int j = std::max(0, i - p); j <= std::min(quad.n - 1, i + p); ++j) {
         const mpq_class& truth = exact[quad.at(i, j)];
-        const Quad scale =
-            b == 0 && i != j && knots.clamped() ? testing::magnitude(quad.value(i, j)) : quad.absolute(i, j);
+        const Quad scale = b == 0 && i != j && knots.clamped()
+                               ? testing::magnitude(quad.value(i, j))
+                               : quad.absolute(i, j);
         if (scale == 0) {
           EXPECT_EQ(truth, 0) << a << b << ": " << i << ", " << j;
         } else if (scale > testing::smallest_compared) {
           const mpq_class error = abs(testing::rational(quad.value(i, j)) - truth);
-          EXPECT_LE(error, testing::rational(scale) * mpq_class(1e-17)) << a << b << ": " << i << ", " << j;
+          EXPECT_LE(error, testing::rational(scale) * mpq_class(1e-17))
+              << a << b << ": " << i << ", " << j;
         }
       }
     }
@@ -47,8 +50,8 @@ TEST(QuadReference, is_exact_enough_on_random_members_of_every_family) {
   for (const int p : {3, 5}) {
     for (std::size_t family = 0; family < testing::listed_families.size(); ++family) {
       const unsigned seed = static_cast<unsigned>(100 * p) + static_cast<unsigned>(family);
-      SCOPED_TRACE(std::string(testing::listed_families[family]) + ", p = " + std::to_string(p) + ", seed " +
-                   std::to_string(seed));
+      SCOPED_TRACE(std::string(testing::listed_families[family]) + ", p = " + std::to_string(p) +
+                   ", seed " + std::to_string(seed));
       std::mt19937_64 random(seed);
       expect_good_enough(testing::random_member(random, p, family));
     }
@@ -62,8 +65,8 @@ TEST(QuadReference, is_exact_enough_up_to_the_highest_degree) {
   expect_good_enough(testing::clamped_knots(15, {0, 1, 1.25, 3}, {0, 2, 1, 0}));
 }
 
-// ∫|N_i^(a) N_j^(b)| is taken at the p + 1 points that integrate the product without the bars; with them the sum is
-// close to the integral, which many points on many pieces of each span give.
+// ∫|N_i^(a) N_j^(b)| is taken at the p + 1 points that integrate the product without the bars; with
+// them the sum is close to the integral, which many points on many pieces of each span give.
 TEST(QuadReference, measures_errors_beside_the_true_absolute_integrals) {
   for (const int p : {1, 2, 3, 5, 8, 12}) {
     const KnotVector knots = testing::thesis_knots(p, 1);
@@ -81,8 +84,9 @@ TEST(QuadReference, measures_errors_beside_the_true_absolute_integrals) {
                        f_b = testing::quad_span_basis(knots, p, b, s, u);
             for (int i = 0; i <= p; ++i) {
               for (int j = 0; j <= p; ++j) {
-                fine[quad.at(s - p + i, s - p + j)] += testing::magnitude(
-                    h * rule.weight[g] * f[static_cast<std::size_t>(i)] * f_b[static_cast<std::size_t>(j)]);
+                fine[quad.at(s - p + i, s - p + j)] +=
+                    testing::magnitude(h * rule.weight[g] * f[static_cast<std::size_t>(i)] *
+                                       f_b[static_cast<std::size_t>(j)]);
               }
             }
           }

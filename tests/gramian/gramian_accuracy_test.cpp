@@ -41,7 +41,8 @@ TEST_P(OfDegree, gauss_is_right_to_1e_14_of_the_absolute_integral_on_every_famil
       for (int b = 0; b <= 2; ++b) {
         const testing::QuadGramian exact = testing::quad_gramian(knots, a, b);
         for (const GramianMethod method : {GramianMethod::gauss, GramianMethod::gauss_reduced}) {
-          EXPECT_LE(worst_error(*gramian(knots, a, b, method), exact), 1e-14) << name << ", G" << a << b;
+          EXPECT_LE(worst_error(*gramian(knots, a, b, method), exact), 1e-14)
+              << name << ", G" << a << b;
         }
       }
     }
@@ -56,19 +57,21 @@ void expect_promised_accuracy(const KnotVector& knots) {
   const int p = knots.degree();
   const double bound = promised_bound(p);
   const GramianSet set = *gramians(knots, GramianMethod::recurrence);
-  const testing::QuadGramian g00 = testing::quad_gramian(knots, 0, 0), g10 = testing::quad_gramian(knots, 1, 0);
+  const testing::QuadGramian g00 = testing::quad_gramian(knots, 0, 0),
+                             g10 = testing::quad_gramian(knots, 1, 0);
   EXPECT_LE(worst_error(set.g00, g00), 1e-14) << "G00";
   EXPECT_LE(worst_error(set.g11, testing::quad_gramian(knots, 1, 1)), bound) << "G11";
   EXPECT_LE(worst_error(set.g22, testing::quad_gramian(knots, 2, 2)), bound) << "G22";
   EXPECT_LE(worst_error(set.g10, g10), 1e-14) << "G10";
-  // Entries of 00 are integrals of non-negative functions: beside the absolute integral is beside the entry itself.
-  // Those of 10 are promised entry by entry where no unclamped end cuts them.
+  // Entries of 00 are integrals of non-negative functions: beside the absolute integral is beside
+  // the entry itself. Those of 10 are promised entry by entry where no unclamped end cuts them.
   if (!knots.clamped()) return;
   for (int i = 0; i < g10.n; ++i) {
     for (int j = std::max(0, i - p); j <= std::min(g10.n - 1, i + p); ++j) {
       if (i == j || testing::magnitude(g10.value(i, j)) < testing::smallest_compared) continue;
       const Quad error = testing::magnitude(Quad(set.g10(i, j)) - g10.value(i, j));
-      EXPECT_LE(static_cast<double>(error / testing::magnitude(g10.value(i, j))), 1e-14) << "G10 " << i << " " << j;
+      EXPECT_LE(static_cast<double>(error / testing::magnitude(g10.value(i, j))), 1e-14)
+          << "G10 " << i << " " << j;
     }
   }
 }
@@ -98,13 +101,14 @@ TEST_P(OfDegree, recurrence_is_as_exact_as_promised_on_random_members_of_every_f
   for (std::size_t family = 0; family < testing::listed_families.size(); ++family) {
     for (unsigned k = 0; k < count; ++k) {
       const unsigned seed = first + 1000 * static_cast<unsigned>(family) + k;
-      SCOPED_TRACE(std::string(testing::listed_families[family]) + ", seed " + std::to_string(seed));
+      SCOPED_TRACE(std::string(testing::listed_families[family]) + ", seed " +
+                   std::to_string(seed));
       std::mt19937_64 random(seed);
       expect_promised_accuracy(testing::random_member(random, p, family));
     }
   }
-  std::cout << testing::listed_families.size() << " families, seeds " << first << " + 1000 family + 0 … " << count - 1
-            << "\n";
+  std::cout << testing::listed_families.size() << " families, seeds " << first
+            << " + 1000 family + 0 … " << count - 1 << "\n";
 }
 
 // The reference is made for windows of 4p + 4 knots: a function knows no knots but its own.
@@ -114,14 +118,18 @@ TEST_P(OfDegree, recurrence_is_as_exact_as_promised_on_thousands_of_spans) {
   std::mt19937_64 random(static_cast<unsigned>(p));
   std::cout << "seed " << p << "\n";
   std::vector<double> lengths(spans);
-  for (double& length : lengths) length = std::pow(10.0, std::uniform_real_distribution<double>(-3, 3)(random));
+  for (double& length : lengths)
+    length = std::pow(10.0, std::uniform_real_distribution<double>(-3, 3)(random));
   const KnotVector knots = testing::clamped_knots(p, testing::breaks_of(lengths));
   const GramianSet set = *gramians(knots, GramianMethod::recurrence);
   const auto all = knots.knots();
   for (int window = 0; window < 20; ++window) {
     const int size = 4 * p + 4, last = static_cast<int>(all.size()) - size;
-    const int first = window == 0 ? 0 : window == 1 ? last : std::uniform_int_distribution<int>(0, last)(random);
-    const KnotVector part = testing::make_knots(p, {all.begin() + first, all.begin() + first + size});
+    const int first = window == 0   ? 0
+                      : window == 1 ? last
+                                    : std::uniform_int_distribution<int>(0, last)(random);
+    const KnotVector part =
+        testing::make_knots(p, {all.begin() + first, all.begin() + first + size});
     const auto worst = [&](const BandMatrix& matrix, int a, int b) {
       const testing::QuadGramian exact = testing::quad_gramian(part, a, b);
       double error = 0;
@@ -130,7 +138,8 @@ TEST_P(OfDegree, recurrence_is_as_exact_as_promised_on_thousands_of_spans) {
         for (int j = std::max(p, i - p); j <= std::min(part.count() - p - 1, i + p); ++j) {
           const Quad difference = Quad(matrix(first + i, first + j)) - exact.value(i, j);
           // 10 entry by entry but for the diagonal, which vanishes.
-          const Quad scale = a + b == 1 && i != j ? testing::magnitude(exact.value(i, j)) : exact.absolute(i, j);
+          const Quad scale =
+              a + b == 1 && i != j ? testing::magnitude(exact.value(i, j)) : exact.absolute(i, j);
           if (scale == 0) continue;
           error = std::max(error, static_cast<double>(testing::magnitude(difference) / scale));
         }
@@ -144,8 +153,8 @@ TEST_P(OfDegree, recurrence_is_as_exact_as_promised_on_thousands_of_spans) {
   }
 }
 
-// The formula is exact; what is lost is lost in rounding, about a digit per degree beside the largest entry.
-// From degree 8 on rounding leaves too little to be told from a wrong formula.
+// The formula is exact; what is lost is lost in rounding, about a digit per degree beside the
+// largest entry. From degree 8 on rounding leaves too little to be told from a wrong formula.
 class OfLowDegree : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Degrees, OfLowDegree, ::testing::Range(1, 8));
 
@@ -156,7 +165,8 @@ TEST_P(OfLowDegree, analytic_is_right_on_ordinary_knots_of_every_multiplicity) {
     for (int a = 0; a <= p; ++a) {
       for (int b = 0; b <= p; ++b) {
         const BandMatrix matrix = *gramian(family.knots, a, b, GramianMethod::analytic);
-        EXPECT_LE(worst_error(matrix, testing::quad_gramian(family.knots, a, b), true), 1e-14 * std::pow(10, p - 1))
+        EXPECT_LE(worst_error(matrix, testing::quad_gramian(family.knots, a, b), true),
+                  1e-14 * std::pow(10, p - 1))
             << family.name << ", G" << a << b;
       }
     }

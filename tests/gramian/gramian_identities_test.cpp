@@ -17,9 +17,12 @@ constexpr GramianMethod stable_methods[] = {GramianMethod::gauss, GramianMethod:
                                             GramianMethod::recurrence};
 constexpr int terms[5][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 2}};
 
-/// Knots that stay exact under maps by small integers: multiples of 1/4, of any multiplicity, clamped or not.
+/// Knots that stay exact under maps by small integers: multiples of 1/4, of any multiplicity,
+/// clamped or not.
 KnotVector quarter_knots(std::mt19937_64& random, int p) {
-  const auto integer = [&](int a, int b) { return std::uniform_int_distribution<int>(a, b)(random); };
+  const auto integer = [&](int a, int b) {
+    return std::uniform_int_distribution<int>(a, b)(random);
+  };
   std::vector<double> breaks{integer(-8, 8) / 4.0};
   std::vector<int> multiplicity{1};
   for (int k = integer(1, 8); k > 0; --k) {
@@ -51,11 +54,15 @@ TEST(Gramian, follows_affine_maps_of_the_knots) {
       const KnotVector there = testing::make_knots(p, mapped);
       for (const GramianMethod method : stable_methods) {
         for (const auto& [a, b] : terms) {
-          const MatrixXd before = gramian(knots, a, b, method)->dense(), after = gramian(there, a, b, method)->dense();
-          const MatrixXd rows = gramian(knots, a, a, method)->dense(), columns = gramian(knots, b, b, method)->dense();
-          const MatrixXd scale = rows.diagonal().cwiseSqrt() * columns.diagonal().cwiseSqrt().transpose();
+          const MatrixXd before = gramian(knots, a, b, method)->dense(),
+                         after = gramian(there, a, b, method)->dense();
+          const MatrixXd rows = gramian(knots, a, a, method)->dense(),
+                         columns = gramian(knots, b, b, method)->dense();
+          const MatrixXd scale =
+              rows.diagonal().cwiseSqrt() * columns.diagonal().cwiseSqrt().transpose();
           const MatrixXd error = (after * std::pow(c, a + b - 1) - before).cwiseAbs();
-          EXPECT_LE((error - 1e-13 * scale).maxCoeff(), 0) << name(method) << " " << a << b << ", seed " << seed;
+          EXPECT_LE((error - 1e-13 * scale).maxCoeff(), 0)
+              << name(method) << " " << a << b << ", seed " << seed;
         }
       }
     }
@@ -87,14 +94,15 @@ Refinement insert(const KnotVector& x, double u, int s) {
   return {testing::make_knots(p, std::move(knots)), std::move(r)};
 }
 
-void expect_refined(const KnotVector& knots, double u, int s, GramianMethod method, double tolerance) {
+void expect_refined(const KnotVector& knots, double u, int s, GramianMethod method,
+                    double tolerance) {
   const Refinement fine = insert(knots, u, s);
   for (const auto& [a, b] : terms) {
     const MatrixXd before = gramian(knots, a, b, method)->dense();
     const MatrixXd after = gramian(fine.knots, a, b, method)->dense();
     const MatrixXd back = fine.matrix.transpose() * after * fine.matrix;
-    // Each sum beside the sizes that its terms may have (Cauchy and Schwarz): where knots lie close these are large and
-    // cancel.
+    // Each sum beside the sizes that its terms may have (Cauchy and Schwarz): where knots lie close
+    // these are large and cancel.
     MatrixXd size = gramian(fine.knots, a, a, method)->dense().diagonal().cwiseSqrt() *
                     gramian(fine.knots, b, b, method)->dense().diagonal().cwiseSqrt().transpose();
     if (method == GramianMethod::analytic) size.setConstant(size.maxCoeff());
@@ -109,8 +117,8 @@ TEST(Gramian, of_the_coarse_basis_comes_from_that_of_a_refined_one) {
   for (const int p : testing::checked_degrees) {
     for (std::size_t family = 0; family < testing::listed_families.size(); ++family) {
       const unsigned seed = static_cast<unsigned>(1000 * p) + static_cast<unsigned>(family);
-      SCOPED_TRACE(std::string(testing::listed_families[family]) + ", p = " + std::to_string(p) + ", seed " +
-                   std::to_string(seed));
+      SCOPED_TRACE(std::string(testing::listed_families[family]) + ", p = " + std::to_string(p) +
+                   ", seed " + std::to_string(seed));
       std::mt19937_64 random(seed);
       const KnotVector knots = testing::random_member(random, p, family);
       for (const GramianMethod method : stable_methods) {
@@ -120,7 +128,8 @@ TEST(Gramian, of_the_coarse_basis_comes_from_that_of_a_refined_one) {
         for (const int s : spans) {
           const double t = std::uniform_real_distribution<double>(0.01, 0.99)(random);
           const double inside = knots[s] + t * (knots[s + 1] - knots[s]);
-          if (knots[s] < inside && inside < knots[s + 1]) expect_refined(knots, inside, s, method, 1e-13);
+          if (knots[s] < inside && inside < knots[s + 1])
+            expect_refined(knots, inside, s, method, 1e-13);
           if (s > p && knots.multiplicity(knots[s]) <= p && knots[s] > knots.domain().lower) {
             expect_refined(knots, knots[s], s, method, 1e-13);
           }

@@ -15,7 +15,8 @@ bool same_bits(const BandMatrix& a, const BandMatrix& b) {
   for (int s = -a.half_bandwidth(); s <= a.half_bandwidth(); ++s) {
     for (std::size_t k = 0; k < a.diagonal(s).size(); ++k) {
       const double x = a.diagonal(s)[k], y = b.diagonal(s)[k];
-      if (!(x == 0 && y == 0) && std::bit_cast<std::uint64_t>(x) != std::bit_cast<std::uint64_t>(y)) return false;
+      if (!(x == 0 && y == 0) && std::bit_cast<std::uint64_t>(x) != std::bit_cast<std::uint64_t>(y))
+        return false;
     }
   }
   return true;
@@ -43,12 +44,14 @@ TEST(GramianKernels, give_the_same_bits_on_every_instruction_set) {
       expect_same_on_all(knots, GramianMethod::gauss);
       expect_same_on_all(knots, GramianMethod::gauss_reduced);
     }
-    for (int k = 0; k < 20; ++k) expect_same_on_all(testing::random_knots(random, p), GramianMethod::recurrence);
+    for (int k = 0; k < 20; ++k)
+      expect_same_on_all(testing::random_knots(random, p), GramianMethod::recurrence);
   }
 }
 
 TEST(GramianKernels, copy_rows_of_equal_spans_only_where_they_are_equal) {
-  // Long runs of equal spans, some of them broken by another length or by a repeated knot at every place of a vector.
+  // Long runs of equal spans, some of them broken by another length or by a repeated knot at every
+  // place of a vector.
   for (int p = 1; p <= 9; ++p) {
     for (int place = 60; place < 80; ++place) {
       std::vector<double> breaks;
@@ -60,9 +63,12 @@ TEST(GramianKernels, copy_rows_of_equal_spans_only_where_they_are_equal) {
       for (const InstructionSet set : available_instruction_sets()) {
         GramianSet ours;
         recompute_gramians(knots, GramianMethod::recurrence, ours, set);
-        EXPECT_LE((gauss.g00.dense() - ours.g00.dense()).cwiseAbs().maxCoeff(), 1e-14) << p << " " << place;
-        EXPECT_LE((gauss.g10.dense() - ours.g10.dense()).cwiseAbs().maxCoeff(), 1e-14) << p << " " << place;
-        EXPECT_LE((gauss.g22.dense() - ours.g22.dense()).cwiseAbs().maxCoeff(), 1e-12) << p << " " << place;
+        EXPECT_LE((gauss.g00.dense() - ours.g00.dense()).cwiseAbs().maxCoeff(), 1e-14)
+            << p << " " << place;
+        EXPECT_LE((gauss.g10.dense() - ours.g10.dense()).cwiseAbs().maxCoeff(), 1e-14)
+            << p << " " << place;
+        EXPECT_LE((gauss.g22.dense() - ours.g22.dense()).cwiseAbs().maxCoeff(), 1e-12)
+            << p << " " << place;
       }
     }
   }
@@ -79,8 +85,10 @@ TEST(GramianKernels, do_not_look_for_equal_spans_before_the_first_knot) {
       for (const InstructionSet set : available_instruction_sets()) {
         GramianSet ours;
         recompute_gramians(knots, GramianMethod::recurrence, ours, set);
-        EXPECT_LE((gauss.g00.dense() - ours.g00.dense()).cwiseAbs().maxCoeff(), 1e-14) << p << " " << count;
-        EXPECT_LE((gauss.g22.dense() - ours.g22.dense()).cwiseAbs().maxCoeff(), 1e-12) << p << " " << count;
+        EXPECT_LE((gauss.g00.dense() - ours.g00.dense()).cwiseAbs().maxCoeff(), 1e-14)
+            << p << " " << count;
+        EXPECT_LE((gauss.g22.dense() - ours.g22.dense()).cwiseAbs().maxCoeff(), 1e-12)
+            << p << " " << count;
       }
     }
   }

@@ -15,10 +15,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr GramianMethod all_methods[] = {GramianMethod::gauss, GramianMethod::gauss_reduced, GramianMethod::analytic,
-                                         GramianMethod::recurrence};
+constexpr GramianMethod all_methods[] = {GramianMethod::gauss, GramianMethod::gauss_reduced,
+                                         GramianMethod::analytic, GramianMethod::recurrence};
 
-/// Every family with every method that is fit for it, and the accuracy that may be asked of the method.
+/// Every family with every method that is fit for it, and the accuracy that may be asked of the
+/// method.
 template <class Check>
 void for_all_methods(Check check) {
   for (const int p : testing::checked_degrees) {
@@ -35,9 +36,11 @@ void for_all_methods(Check check) {
 
 using testing::largest;
 
-/// The largest entry of a difference of two G^ab, each beside sqrt(G^aa_ii G^bb_jj), which by Cauchy and Schwarz bounds
-/// G^ab_ij and is the size of what may have cancelled in it (for a lossy method beside the largest of these).
-double largest_beside(const MatrixXd& difference, const KnotVector& knots, int a, int b, GramianMethod method) {
+/// The largest entry of a difference of two G^ab, each beside sqrt(G^aa_ii G^bb_jj), which by
+/// Cauchy and Schwarz bounds G^ab_ij and is the size of what may have cancelled in it (for a lossy
+/// method beside the largest of these).
+double largest_beside(const MatrixXd& difference, const KnotVector& knots, int a, int b,
+                      GramianMethod method) {
   const VectorXd rows = gramian(knots, a, a, method)->dense().diagonal().cwiseSqrt();
   const VectorXd columns = gramian(knots, b, b, method)->dense().diagonal().cwiseSqrt();
   MatrixXd size = rows * columns.transpose();
@@ -54,7 +57,8 @@ TEST(Gramian, is_symmetric_and_transposes_with_its_orders) {
     for (int a = 0; a <= 2; ++a) {
       EXPECT_EQ(gramian(knots, a, a, method)->symmetry(), BandSymmetry::symmetric);
       for (int b = 0; b < a; ++b) {
-        const MatrixXd ab = gramian(knots, a, b, method)->dense(), ba = gramian(knots, b, a, method)->dense();
+        const MatrixXd ab = gramian(knots, a, b, method)->dense(),
+                       ba = gramian(knots, b, a, method)->dense();
         EXPECT_LE(largest_beside(ab - ba.transpose(), knots, a, b, method), tolerance) << a << b;
       }
     }
@@ -93,7 +97,8 @@ TEST(Gramian, of_second_derivatives_annihilates_straight_lines) {
     if (knots.degree() < 2) return;
     const MatrixXd g22 = gramian(knots, 2, 2, method)->dense();
     VectorXd line(knots.count());
-    for (int i = 0; i < knots.count(); ++i) {  // Greville abscissae from that of N_0, each a sum of differences
+    for (int i = 0; i < knots.count();
+         ++i) {  // Greville abscissae from that of N_0, each a sum of differences
       double sum = 0;
       for (int k = 1; k <= knots.degree(); ++k) sum += knots[i + k] - knots[k];
       line[i] = sum / knots.degree();
@@ -118,7 +123,8 @@ TEST(Gramian, of_equal_orders_is_positive_semidefinite) {
     for (int a = 0; a <= 2; ++a) {
       const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gramian(knots, a, a, method)->dense(),
                                                           Eigen::EigenvaluesOnly);
-      EXPECT_GE(eigen.eigenvalues().minCoeff(), -tolerance * std::max(0.0, eigen.eigenvalues().maxCoeff()));
+      EXPECT_GE(eigen.eigenvalues().minCoeff(),
+                -tolerance * std::max(0.0, eigen.eigenvalues().maxCoeff()));
     }
   });
 }
@@ -131,12 +137,15 @@ TEST(Gramian, scales_with_the_knots_to_the_last_bit_for_powers_of_two) {
     for (int a = 0; a <= 2; ++a) {
       for (int b = 0; b <= 2; ++b) {
         const MatrixXd narrow = gramian(knots, a, b, method)->dense();
-        if (knots.degree() > 7 && narrow.cwiseAbs().minCoeff() < 1e-280) continue;  // denormal numbers do not scale
+        if (knots.degree() > 7 && narrow.cwiseAbs().minCoeff() < 1e-280)
+          continue;  // denormal numbers do not scale
         // Of an entry that vanishes between repeated knots their splitting by 2^-300 may be left.
         const auto settled = [](const MatrixXd& matrix) {
           return MatrixXd((matrix.array().abs() > 1e-80 * largest(matrix)).select(matrix, 0));
         };
-        EXPECT_EQ(settled(gramian(wide, a, b, method)->dense()), settled(narrow * std::pow(4, 1 - a - b))) << a << b;
+        EXPECT_EQ(settled(gramian(wide, a, b, method)->dense()),
+                  settled(narrow * std::pow(4, 1 - a - b)))
+            << a << b;
       }
     }
   });
@@ -180,8 +189,10 @@ TEST(Gramian, of_first_derivatives_comes_from_the_one_of_lower_degree) {
   for_all_methods([](const KnotVector& knots, GramianMethod method, double tolerance) {
     const int n = knots.count(), p = knots.degree();
     if (p < 2 || knots.max_interior_multiplicity() > p) return;
-    // The inner knots are those of degree p − 1 with functions N_1 … N_{n-1}; N_0 and N_n live outside the domain.
-    const auto inner = KnotVector::create(p - 1, {knots.knots().begin() + 1, knots.knots().end() - 1});
+    // The inner knots are those of degree p − 1 with functions N_1 … N_{n-1}; N_0 and N_n live
+    // outside the domain.
+    const auto inner =
+        KnotVector::create(p - 1, {knots.knots().begin() + 1, knots.knots().end() - 1});
     ASSERT_TRUE(inner.has_value());
     const MatrixXd lower = gramian(*inner, 0, 0, method)->dense();
     MatrixXd difference = MatrixXd::Zero(n - 1, n);
@@ -190,7 +201,8 @@ TEST(Gramian, of_first_derivatives_comes_from_the_one_of_lower_degree) {
       if (length > 0) difference(k - 1, k) = p / length, difference(k - 1, k - 1) = -p / length;
     }
     const MatrixXd g11 = gramian(knots, 1, 1, method)->dense();
-    EXPECT_LE(largest(difference.transpose() * lower * difference - g11), 10 * tolerance * largest(g11));
+    EXPECT_LE(largest(difference.transpose() * lower * difference - g11),
+              10 * tolerance * largest(g11));
   });
 }
 

@@ -1,5 +1,5 @@
-// The published tables: thesis Tables 5.3 to 5.14 and 5.17 to 5.20 and Figs. 5.50 to 5.57, against their exact
-// values.
+// The published tables: thesis Tables 5.3 to 5.14 and 5.17 to 5.20 and Figs. 5.50 to 5.57, against
+// their exact values.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,9 @@ struct TableEntry {
   int degree, r;
   bool vanishes;  ///< G10 on the diagonal, exactly zero; its error is measured beside 1
   double exact, value;
-  [[nodiscard]] double error() const { return std::abs(value - exact) / (vanishes ? 1 : std::abs(exact)); }
+  [[nodiscard]] double error() const {
+    return std::abs(value - exact) / (vanishes ? 1 : std::abs(exact));
+  }
 };
 
 std::vector<TableEntry> table_entries(GramianMethod method) {
@@ -31,8 +33,10 @@ std::vector<TableEntry> table_entries(GramianMethod method) {
   for (const auto& row : figures::read_csv(published + "tables_5_3_to_5_20.csv")) {
     const std::string& table = row.at("table");
     const int p = std::stoi(row.at("degree")), r = std::stoi(row.at("r"));
-    const bool normalised = std::stoi(table.substr(2)) >= 17;  // these tables divide every knot by 13
-    const GramianSet set = *gramians(testing::thesis_knots(p, r, normalised ? 1.0 / 13 : 1.0), method);
+    // These tables divide every knot by 13.
+    const bool normalised = std::stoi(table.substr(2)) >= 17;
+    const GramianSet set =
+        *gramians(testing::thesis_knots(p, r, normalised ? 1.0 / 13 : 1.0), method);
     entries.push_back({table, p, r, row.at("term") == "G10", std::stod(row.at("exact")),
                        term(set, row.at("term"))(std::stoi(row.at("i")), std::stoi(row.at("j")))});
   }
@@ -42,7 +46,8 @@ std::vector<TableEntry> table_entries(GramianMethod method) {
 TEST(ThesisTables, gauss_gives_every_exact_entry_to_the_last_digits) {
   const auto entries = table_entries(GramianMethod::gauss);
   ASSERT_FALSE(entries.empty());
-  for (const auto& entry : entries) EXPECT_LE(entry.error(), 1e-14) << entry.table << ", r = " << entry.r;
+  for (const auto& entry : entries)
+    EXPECT_LE(entry.error(), 1e-14) << entry.table << ", r = " << entry.r;
 }
 
 // Its rounding errors are divided by the distance 10^-r of the two knots, as thesis § 5.9.2 found.
@@ -50,7 +55,8 @@ TEST(ThesisTables, analytic_gives_every_exact_entry_but_loses_up_to_a_digit_with
   const auto entries = table_entries(GramianMethod::analytic);
   ASSERT_FALSE(entries.empty());
   for (const auto& entry : entries) {
-    EXPECT_LE(entry.error(), 1e-14 + 1e-15 * std::pow(10, entry.r)) << entry.table << ", r = " << entry.r;
+    EXPECT_LE(entry.error(), 1e-14 + 1e-15 * std::pow(10, entry.r))
+        << entry.table << ", r = " << entry.r;
   }
 }
 

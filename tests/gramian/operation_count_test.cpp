@@ -30,16 +30,19 @@ TEST(OperationCount, of_reduced_gauss_is_that_of_the_points_that_the_terms_need)
 
 TEST(OperationCount, of_a_cubic_row_is_that_of_the_formulas) {
   EXPECT_NEAR(per_row(3, GramianMethod::recurrence), 135, 15);
-  const OperationCount count = count_operations(testing::uniform_clamped(3, 300), GramianMethod::recurrence);
+  const OperationCount count =
+      count_operations(testing::uniform_clamped(3, 300), GramianMethod::recurrence);
   EXPECT_NEAR(static_cast<double>(count.divisions), 303 + 2, 4);  // one to a row
 }
 
 TEST(OperationCount, grows_linearly_with_the_number_of_spans) {
-  for (const GramianMethod method : {GramianMethod::gauss, GramianMethod::analytic, GramianMethod::recurrence}) {
+  for (const GramianMethod method :
+       {GramianMethod::gauss, GramianMethod::analytic, GramianMethod::recurrence}) {
     const long a = count_operations(testing::uniform_clamped(4, 128), method).total();
     const long b = count_operations(testing::uniform_clamped(4, 256), method).total();
     const long c = count_operations(testing::uniform_clamped(4, 512), method).total();
-    EXPECT_NEAR(static_cast<double>(c - b), 2.0 * static_cast<double>(b - a), 0.001 * static_cast<double>(c));
+    EXPECT_NEAR(static_cast<double>(c - b), 2.0 * static_cast<double>(b - a),
+                0.001 * static_cast<double>(c));
   }
 }
 

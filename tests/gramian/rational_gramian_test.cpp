@@ -40,7 +40,8 @@ double rounding(const Eigen::MatrixXd& aa, const Eigen::MatrixXd& bb) {
   return 1e-13 * std::sqrt(largest(aa) * largest(bb));
 }
 
-void expect_within_bound(const KnotVector& knots, const std::vector<double>& weights, double tolerance) {
+void expect_within_bound(const KnotVector& knots, const std::vector<double>& weights,
+                         double tolerance) {
   Eigen::MatrixXd exact[3];
   for (int a = 0; a <= 2; ++a) exact[a] = quad_rational(knots, weights, a, a);
   for (int a = 0; a <= 2; ++a) {
@@ -48,8 +49,10 @@ void expect_within_bound(const KnotVector& knots, const std::vector<double>& wei
       const auto result = rational_gramian(knots, weights, a, b, tolerance);
       ASSERT_TRUE(result.has_value()) << result.error().message();
       const Eigen::MatrixXd reference = a == b ? exact[a] : quad_rational(knots, weights, a, b);
-      const double size = (exact[a].diagonal().cwiseProduct(exact[b].diagonal())).cwiseSqrt().maxCoeff();
-      EXPECT_LE(largest(result->matrix.dense() - reference), result->error_bound + rounding(exact[a], exact[b]))
+      const double size =
+          (exact[a].diagonal().cwiseProduct(exact[b].diagonal())).cwiseSqrt().maxCoeff();
+      EXPECT_LE(largest(result->matrix.dense() - reference),
+                result->error_bound + rounding(exact[a], exact[b]))
           << a << b;
       EXPECT_LE(result->error_bound, 1.01 * tolerance * size) << a << b;
     }
@@ -79,7 +82,8 @@ TEST(RationalGramian, with_equal_weights_is_the_polynomial_one) {
         const auto result = rational_gramian(family.knots, weights, a, a, 1e-12);
         ASSERT_TRUE(result.has_value());
         const Eigen::MatrixXd expected = gramian(family.knots, a, a)->dense();
-        EXPECT_LE(largest(result->matrix.dense() - expected), result->error_bound + 1e-12 * largest(expected))
+        EXPECT_LE(largest(result->matrix.dense() - expected),
+                  result->error_bound + 1e-12 * largest(expected))
             << family.name << a;
       }
     }
@@ -90,7 +94,9 @@ TEST(RationalGramian, keeps_its_bound_for_weights_from_1e_minus_3_to_1e3) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+    const auto uniform = [&](double a, double b) {
+      return std::uniform_real_distribution<double>(a, b)(random);
+    };
     const int p = 1 + static_cast<int>(seed % 5);
     std::vector<double> lengths(static_cast<std::size_t>(1 + seed % 4));
     for (double& length : lengths) length = uniform(0.3, 2);
@@ -103,7 +109,8 @@ TEST(RationalGramian, keeps_its_bound_for_weights_from_1e_minus_3_to_1e3) {
 
 TEST(RationalGramian, halves_spans_where_the_denominator_varies_much) {
   const KnotVector knots = testing::clamped_knots(3, {0, 1});
-  EXPECT_GT(rational_gramian(knots, std::vector<double>{1e-3, 1e3, 1e-3, 1e3}, 0, 0, 1e-10)->pieces, 1);
+  EXPECT_GT(rational_gramian(knots, std::vector<double>{1e-3, 1e3, 1e-3, 1e3}, 0, 0, 1e-10)->pieces,
+            1);
 }
 
 TEST(ClosedFormGramian, of_a_circle_has_logarithms_and_arctangents_and_no_span_that_is_integrated) {
@@ -149,11 +156,12 @@ TEST(ClosedFormGramian, with_equal_weights_is_the_polynomial_one) {
   const auto made = closed_form_rational_gramian(knots, weights, 1, 1, 1e-12);
   ASSERT_TRUE(made);
   EXPECT_EQ(made->closed, 3);
-  EXPECT_LE(largest(made->matrix.dense() - gramian(knots, 1, 1)->dense()), 1e-13 * largest(made->matrix.dense()));
+  EXPECT_LE(largest(made->matrix.dense() - gramian(knots, 1, 1)->dense()),
+            1e-13 * largest(made->matrix.dense()));
 }
 
-/// Surfaces of revolution: their weights are products, so their functions are products and their Gramians Kronecker
-/// products of those of the curves.
+/// Surfaces of revolution: their weights are products, so their functions are products and their
+/// Gramians Kronecker products of those of the curves.
 void expect_product(const std::array<KnotVector, 2>& knots, const std::vector<double>& wu,
                     const std::vector<double>& wv) {
   std::vector<double> weights;
@@ -166,7 +174,8 @@ void expect_product(const std::array<KnotVector, 2>& knots, const std::vector<do
   for (const auto& [a, b] : pairs) {
     const auto result = rational_gramian(knots, weights, a, b, 1e-8);
     ASSERT_TRUE(result.has_value()) << result.error().message();
-    const Eigen::MatrixXd u = quad_rational(knots[0], wu, a[0], b[0]), v = quad_rational(knots[1], wv, a[1], b[1]);
+    const Eigen::MatrixXd u = quad_rational(knots[0], wu, a[0], b[0]),
+                          v = quad_rational(knots[1], wv, a[1], b[1]);
     double worst = 0, size = 0;
     const Eigen::MatrixXd matrix(result->matrix);
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -191,9 +200,11 @@ TEST(RationalGramian, of_cylinder_sphere_and_torus_are_products_of_circles) {
 TEST(RationalGramian, of_a_surface_sums_to_its_parameter_area_whatever_the_weights) {
   std::mt19937_64 random(7);
   for (int k = 0; k < 3; ++k) {
-    const std::array<KnotVector, 2> knots{testing::clamped_knots(2, {0, 1, 3}), testing::clamped_knots(3, {0, 2})};
+    const std::array<KnotVector, 2> knots{testing::clamped_knots(2, {0, 1, 3}),
+                                          testing::clamped_knots(3, {0, 2})};
     std::vector<double> weights(static_cast<std::size_t>(knots[0].count() * knots[1].count()));
-    for (double& weight : weights) weight = std::pow(10, std::uniform_real_distribution<double>(-1, 1)(random));
+    for (double& weight : weights)
+      weight = std::pow(10, std::uniform_real_distribution<double>(-1, 1)(random));
     const auto mass = rational_gramian(knots, weights, {0, 0}, {0, 0}, 1e-9);
     ASSERT_TRUE(mass.has_value());
     const double count = static_cast<double>(mass->matrix.rows());
@@ -209,8 +220,11 @@ TEST(ConstantDenominatorGramian, errs_by_a_fifth_to_a_half_on_a_circle) {
   const std::array<double, 3> errors = {0.18, 0.48, 0.52};  // of the largest entry, by order
   for (int a = 0; a < 3; ++a) {
     const Eigen::MatrixXd exact = quad_rational(circle_knots(), circle_weights(), a, a);
-    const Eigen::MatrixXd approximate = constant_denominator_gramian(circle_knots(), circle_weights(), a, a)->dense();
-    EXPECT_NEAR(largest(approximate - exact) / largest(exact), errors[static_cast<std::size_t>(a)], 0.01) << a;
+    const Eigen::MatrixXd approximate =
+        constant_denominator_gramian(circle_knots(), circle_weights(), a, a)->dense();
+    EXPECT_NEAR(largest(approximate - exact) / largest(exact), errors[static_cast<std::size_t>(a)],
+                0.01)
+        << a;
   }
 }
 
@@ -218,7 +232,8 @@ TEST(ConstantDenominatorGramian, is_exact_where_the_denominator_is_constant) {
   const KnotVector knots = testing::thesis_knots(3, 2);
   const std::vector<double> weights(static_cast<std::size_t>(knots.count()), 0.25);
   const Eigen::MatrixXd expected = gramian(knots, 1, 1)->dense();
-  EXPECT_LE(largest(constant_denominator_gramian(knots, weights, 1, 1)->dense() - expected), 1e-13 * largest(expected));
+  EXPECT_LE(largest(constant_denominator_gramian(knots, weights, 1, 1)->dense() - expected),
+            1e-13 * largest(expected));
 }
 
 TEST(RationalGramian, refuses_what_it_cannot_mean) {
@@ -227,7 +242,8 @@ TEST(RationalGramian, refuses_what_it_cannot_mean) {
   EXPECT_EQ(rational_gramian(knots, good, 3, 0, 1e-6).error().kind, ErrorKind::usage);
   EXPECT_EQ(rational_gramian(knots, good, 0, 0, 0).error().kind, ErrorKind::usage);
   EXPECT_EQ(rational_gramian(knots, good, 0, 0, NAN).error().kind, ErrorKind::usage);
-  EXPECT_EQ(rational_gramian(knots, std::vector<double>{1}, 0, 0, 1e-6).error().kind, ErrorKind::input);
+  EXPECT_EQ(rational_gramian(knots, std::vector<double>{1}, 0, 0, 1e-6).error().kind,
+            ErrorKind::input);
   for (const double bad : {0.0, -1.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
     const auto refused = rational_gramian(knots, std::vector<double>{1, bad}, 0, 0, 1e-6);
     ASSERT_FALSE(refused.has_value());

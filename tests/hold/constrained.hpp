@@ -32,7 +32,8 @@ inline Points random_member(const Surface& s, const ConstraintList& list, unsign
   return x + size_of(s) * space.feasible(Points::Zero(s.size(), 3));
 }
 
-/// The displacement field as a surface of its own: same knots and weights, displacements for control points.
+/// The displacement field as a surface of its own: same knots and weights, displacements for
+/// control points.
 inline Surface field(const Surface& rest, const Points& displacement) {
   return *rest.with_control_points(displacement);
 }
@@ -42,7 +43,8 @@ inline Surface moved(const Surface& rest, const Points& displacement) {
 }
 
 /// `order`-th derivative in `direction` along the line u = c or v = c, at `samples` parameters.
-inline Points on_line(const Surface& s, int direction, double c, int order, Side side, int samples = 41) {
+inline Points on_line(const Surface& s, int direction, double c, int order, Side side,
+                      int samples = 41) {
   Parameters<2> at(samples, 2);
   const Interval other = s.knots(1 - direction).domain();
   for (int k = 0; k < samples; ++k) {
@@ -72,10 +74,11 @@ inline double crease(const Surface& s, int direction, double c, int samples = 41
   return angle;
 }
 
-/// Reliefs over all pairings of knot families with each other (every family occurs in u and in v), with and without
-/// weights. Families with spans that differ by many decades are left out unless `all`: derivatives there lose what
-/// spans differ by.
-inline std::vector<std::pair<std::string, Surface>> reliefs(int p, int q, bool all, double weight_spread) {
+/// Reliefs over all pairings of knot families with each other (every family occurs in u and in v),
+/// with and without weights. Families with spans that differ by many decades are left out unless
+/// `all`: derivatives there lose what spans differ by.
+inline std::vector<std::pair<std::string, Surface>> reliefs(int p, int q, bool all,
+                                                            double weight_spread) {
   std::vector<NamedKnots> u = knot_families(p), v = knot_families(q);
   if (!all) {
     std::erase_if(u, [](const NamedKnots& k) { return !k.ordinary(); });
@@ -86,7 +89,8 @@ inline std::vector<std::pair<std::string, Surface>> reliefs(int p, int q, bool a
     const NamedKnots &a = u[k % u.size()], &b = v[(5 * k + 3) % v.size()];
     const auto seed = static_cast<unsigned>(k);
     result.emplace_back(a.name + " x " + b.name, relief(a.knots, b.knots, seed));
-    result.emplace_back(a.name + " x " + b.name + " rational", relief(a.knots, b.knots, seed, 0.1, weight_spread));
+    result.emplace_back(a.name + " x " + b.name + " rational",
+                        relief(a.knots, b.knots, seed, 0.1, weight_spread));
   }
   return result;
 }

@@ -9,20 +9,22 @@ namespace {
 
 using namespace testing;
 
-/// |D| along the polyline, the largest of many samples, less what the rounding of (u, v) itself moves.
+/// |D| along the polyline, the largest of many samples, less what the rounding of (u, v) itself
+/// moves.
 double largest_on(const Surface& displacement, const Parameters<2>& polyline) {
   double most = 0;
   for (Eigen::Index k = 0; k + 1 < polyline.rows(); ++k) {
     Parameters<2> at(400, 2);
-    for (int t = 0; t < 400; ++t) at.row(t) = polyline.row(k) + (t / 399.0) * (polyline.row(k + 1) - polyline.row(k));
+    for (int t = 0; t < 400; ++t)
+      at.row(t) = polyline.row(k) + (t / 399.0) * (polyline.row(k + 1) - polyline.row(k));
     for (int d = 0; d < 2; ++d) {
       const Interval domain = displacement.knots(d).domain();
       at.col(d) = at.col(d).cwiseMax(domain.lower).cwiseMin(domain.upper);
     }
     const auto e = evaluate(displacement, at, 1);
     for (int t = 0; t < 400; ++t) {
-      const double slip =
-          2e-16 * (std::abs(at(t, 0)) * e->at({1, 0}).row(t).norm() + std::abs(at(t, 1)) * e->at({0, 1}).row(t).norm());
+      const double slip = 2e-16 * (std::abs(at(t, 0)) * e->at({1, 0}).row(t).norm() +
+                                   std::abs(at(t, 1)) * e->at({0, 1}).row(t).norm());
       most = std::max(most, e->points().row(t).norm() - slip);
     }
   }
@@ -52,7 +54,9 @@ TEST(KeepCurve, HoldsEveryPointToTheBoundItStates) {
       EXPECT_LE(kept->bound, tolerance * 1.0001) << name;
       for (unsigned seed = 1; seed <= 2; ++seed) {
         const Points x = random_member(s, list, seed);
-        EXPECT_LT(largest_on(field(s, x), polyline), kept->bound * x.rowwise().norm().maxCoeff() + 1e-11) << name;
+        EXPECT_LT(largest_on(field(s, x), polyline),
+                  kept->bound * x.rowwise().norm().maxCoeff() + 1e-11)
+            << name;
         ++count;
       }
     }
@@ -104,7 +108,8 @@ TEST(KeepCurve, FollowsASplineInTheParameterDomain) {
   std::vector<double> t;
   for (int k = 0; k <= 300; ++k) t.push_back(k / 150.0);
   const Parameters<2> at = evaluate_grid<1>(*curve, {t})->points().leftCols<2>();
-  // A polyline that stays within δ of the curve misses it by δ |grad D|: here by a few of the chords' 1e-4.
+  // A polyline that stays within δ of the curve misses it by δ |grad D|: here by a few of the
+  // chords' 1e-4.
   EXPECT_LT(evaluate(field(s, x), at)->points().rowwise().norm().maxCoeff(), 1e-2);
 }
 

@@ -24,7 +24,8 @@ double out_of_plane(const Points& directions) {
   }
   double angle = 0;
   for (Eigen::Index k = 0; k < directions.rows(); ++k) {
-    angle = std::max(angle, std::abs(normal.normalized().dot(directions.row(k).transpose().normalized())));
+    angle = std::max(angle,
+                     std::abs(normal.normalized().dot(directions.row(k).transpose().normalized())));
   }
   return angle;
 }
@@ -55,10 +56,12 @@ TEST(KeepPoles, SphereKeepsATangentPlaneAtItsPoles) {
       const double v = upper ? 2 : 0;
       const Points pole = on_line(after, 1, v, 0, Side::right);
       EXPECT_LT((pole.rowwise() - pole.row(0)).cwiseAbs().maxCoeff(), 1e-14);
-      EXPECT_GT((pole.row(0) - on_line(s, 1, v, 0, Side::right).row(0)).norm(), 1e-4) << "the pole moves";
+      EXPECT_GT((pole.row(0) - on_line(s, 1, v, 0, Side::right).row(0)).norm(), 1e-4)
+          << "the pole moves";
     }
   }
-  EXPECT_GT(out_of_plane(meridians(moved(s, 0.2 * random_points(s.size(), 1)), true)), 1e-2);  // the test can fail
+  EXPECT_GT(out_of_plane(meridians(moved(s, 0.2 * random_points(s.size(), 1)), true)),
+            1e-2);  // the test can fail
 }
 
 TEST(KeepPoles, ComposeWithSmoothLines) {
@@ -99,8 +102,8 @@ TEST(KeepPoles, AnyWeightsAnyRing) {
       for (int i = 0; i < 2; ++i) {
         for (int j = 0; j < v.count(); ++j) {
           const double turn = 5.0 * j / v.count();
-          points.row(i * v.count() + j) =
-              Point(1, 2, 3) + i * (std::cos(turn) * Point(1, 0, 0.3) + std::sin(turn) * Point(0, 2, -0.4));
+          points.row(i * v.count() + j) = Point(1, 2, 3) + i * (std::cos(turn) * Point(1, 0, 0.3) +
+                                                                std::sin(turn) * Point(0, 2, -0.4));
         }
       }
       std::vector<double> weights;
@@ -112,7 +115,8 @@ TEST(KeepPoles, AnyWeightsAnyRing) {
       ASSERT_TRUE(poles);
       ASSERT_EQ(poles->size(), 1u);
       EXPECT_EQ((*poles)[0].rank, 2);
-      const Points directions = on_line(moved(s, 0.1 * random_member(s, list, seed)), 0, 0, 1, Side::right, 50);
+      const Points directions =
+          on_line(moved(s, 0.1 * random_member(s, list, seed)), 0, 0, 1, Side::right, 50);
       EXPECT_LT(out_of_plane(directions), 1e-10);
     }
   }

@@ -8,7 +8,8 @@ namespace {
 using namespace testing;
 using State = SmoothLine::State;
 
-std::vector<SmoothLine> smooth(const Surface& s, ConstraintList& list, const SmoothOptions& options = {}) {
+std::vector<SmoothLine> smooth(const Surface& s, ConstraintList& list,
+                               const SmoothOptions& options = {}) {
   auto lines = keep_smooth(s, options, list);
   if (!lines) ADD_FAILURE() << lines.error().message();
   return lines ? *lines : std::vector<SmoothLine>{};
@@ -27,10 +28,11 @@ void expect_no_crease(const Surface& s, const std::string& name, double toleranc
   }
 }
 
-/// A surface that is smooth across c = 1 with derivatives in the ratio λ: the knots of a smooth one inserted p times
-/// there, one side then stretched about the line by the knots.
+/// A surface that is smooth across c = 1 with derivatives in the ratio λ: the knots of a smooth one
+/// inserted p times there, one side then stretched about the line by the knots.
 Surface stretched(int p, int q, double ratio, int multiplicity, double spread, bool in_v) {
-  // Two Bézier pieces in u; the first ring right of the line mirrors the left one with the ratio of the spans and λ.
+  // Two Bézier pieces in u; the first ring right of the line mirrors the left one with the ratio of
+  // the spans and λ.
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> value(-1, 1);
   const KnotVector u = clamped_knots(p, {0, 1, 3}, {0, multiplicity, 0}), v = uniform_clamped(q, 3);
@@ -47,16 +49,17 @@ Surface stretched(int p, int q, double ratio, int multiplicity, double spread, b
       if (i == right) points.row(k) = points.row(left * n + j);
       if (i == right + 1) {
         // w_{R+1} (P_{R+1} − P_R)/h⁺ = λ w_{L−1} (P_L − P_{L−1})/h⁻ with spans 2 and 1.
-        const double factor =
-            ratio * 2 * row_weight[static_cast<std::size_t>(left - 1)] / row_weight[static_cast<std::size_t>(i)];
-        points.row(k) =
-            points.row(right * n + j) + factor * (points.row(left * n + j) - points.row((left - 1) * n + j));
+        const double factor = ratio * 2 * row_weight[static_cast<std::size_t>(left - 1)] /
+                              row_weight[static_cast<std::size_t>(i)];
+        points.row(k) = points.row(right * n + j) +
+                        factor * (points.row(left * n + j) - points.row((left - 1) * n + j));
       }
     }
   }
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < n; ++j)
-      weights.push_back(row_weight[static_cast<std::size_t>(i)] * column_weight[static_cast<std::size_t>(j)]);
+      weights.push_back(row_weight[static_cast<std::size_t>(i)] *
+                        column_weight[static_cast<std::size_t>(j)]);
   }
   if (spread == 1) weights.clear();
   if (!in_v) return make_surface(u, v, points, weights);
@@ -66,7 +69,8 @@ Surface stretched(int p, int q, double ratio, int multiplicity, double spread, b
     for (int j = 0; j < n; ++j) {
       turned.row(j * m + i) = points.row(i * n + j);
       if (!weights.empty())
-        turned_weights[static_cast<std::size_t>(j * m + i)] = weights[static_cast<std::size_t>(i * n + j)];
+        turned_weights[static_cast<std::size_t>(j * m + i)] =
+            weights[static_cast<std::size_t>(i * n + j)];
     }
   }
   return make_surface(v, u, turned, turned_weights);
@@ -106,8 +110,9 @@ TEST(KeepSmooth, HoldsAnyRatioOfDerivativesAnyProportionalWeightsBothMultiplicit
         for (const int multiplicity : {p, p + 1}) {
           for (const bool in_v : {false, true}) {
             const Surface s = stretched(p, q, ratio, multiplicity, spread, in_v);
-            const std::string name = "p=" + std::to_string(p) + " ratio " + std::to_string(ratio) + " spread " +
-                                     std::to_string(spread) + " multiplicity " + std::to_string(multiplicity);
+            const std::string name = "p=" + std::to_string(p) + " ratio " + std::to_string(ratio) +
+                                     " spread " + std::to_string(spread) + " multiplicity " +
+                                     std::to_string(multiplicity);
             ConstraintList list(s.size());
             const auto lines = smooth(s, list);
             ASSERT_EQ(lines.size(), q == 1 ? 3u : 1u) << name;
@@ -119,7 +124,9 @@ TEST(KeepSmooth, HoldsAnyRatioOfDerivativesAnyProportionalWeightsBothMultiplicit
               const Points x = random_member(s, list, seed);
               EXPECT_LT(crease(moved(s, 0.1 * x), d, 1), 1e-9) << name;
               const Surface f = field(s, x);
-              EXPECT_LT((on_line(f, d, 1, 0, Side::left) - on_line(f, d, 1, 0, Side::right)).cwiseAbs().maxCoeff(),
+              EXPECT_LT((on_line(f, d, 1, 0, Side::left) - on_line(f, d, 1, 0, Side::right))
+                            .cwiseAbs()
+                            .maxCoeff(),
                         1e-12)
                   << name;
             }
@@ -166,7 +173,8 @@ TEST(KeepSmooth, LeavesLinesThatOnlyACreaseCanBend) {
 }
 
 TEST(KeepSmooth, AsksNothingWhereTheBasisIsSmooth) {
-  const Surface s = relief(clamped_knots(3, {0, 1, 2, 3}, {4, 1, 2, 4}), uniform_unclamped(2, 5), 3);
+  const Surface s =
+      relief(clamped_knots(3, {0, 1, 2, 3}, {4, 1, 2, 4}), uniform_unclamped(2, 5), 3);
   ConstraintList list(s.size());
   EXPECT_TRUE(smooth(s, list).empty());
   EXPECT_TRUE(list.constraints.empty());

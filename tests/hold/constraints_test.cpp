@@ -16,11 +16,12 @@ double end_of(const Surface& s, SurfaceEdge edge) {
   return edge_at_end(edge) ? domain.upper : domain.lower;
 }
 
-/// Σ |R^(k) X| is what rounding of the derivative is relative to: the sizes of basis derivatives and weights there.
+/// Σ |R^(k) X| is what rounding of the derivative is relative to: the sizes of basis derivatives
+/// and weights there.
 double derivative_scale(const Surface& s, SurfaceEdge edge, int order) {
   const KnotVector& knots = s.knots(edge_across(edge));
-  const auto span =
-      edge_at_end(edge) ? knots.find_span(knots.domain().upper, Side::left) : knots.find_span(knots.domain().lower);
+  const auto span = edge_at_end(edge) ? knots.find_span(knots.domain().upper, Side::left)
+                                      : knots.find_span(knots.domain().lower);
   std::vector<double> n(static_cast<std::size_t>((order + 1) * (knots.degree() + 1)));
   basis_derivatives(knots, span, end_of(s, edge), order, n.data());
   double sum = 0;
@@ -36,8 +37,9 @@ TEST(HoldEdge, KeepsPositionOnEveryKindOfSurfaceHoweverWildTheWeights) {
         ConstraintList list(s.size());
         ASSERT_TRUE(hold_edge(s, edge, 0, list));
         const Points x = random_member(s, list, 7);
-        const double most =
-            on_line(field(s, x), edge_across(edge), end_of(s, edge), 0, Side::right).cwiseAbs().maxCoeff();
+        const double most = on_line(field(s, x), edge_across(edge), end_of(s, edge), 0, Side::right)
+                                .cwiseAbs()
+                                .maxCoeff();
         EXPECT_LT(most, 1e-12) << name << ", " << edge_name(edge);
       }
     }
@@ -54,8 +56,11 @@ TEST(HoldEdge, KeepsTangentPlanesAndCurvatures) {
           const Points x = random_member(s, list, 8);
           for (int k = 0; k <= order; ++k) {
             const double most =
-                on_line(field(s, x), edge_across(edge), end_of(s, edge), k, Side::right).cwiseAbs().maxCoeff();
-            EXPECT_LT(most, 1e-11 * derivative_scale(s, edge, std::min(k, s.knots(edge_across(edge)).degree())))
+                on_line(field(s, x), edge_across(edge), end_of(s, edge), k, Side::right)
+                    .cwiseAbs()
+                    .maxCoeff();
+            EXPECT_LT(most, 1e-11 * derivative_scale(
+                                        s, edge, std::min(k, s.knots(edge_across(edge)).degree())))
                 << name << ", " << edge_name(edge) << ", derivative " << k << " of " << order;
           }
         }
@@ -101,8 +106,10 @@ TEST(HoldIsoline, KeepsTheLineFromBothSides) {
           ConstraintList list(s.size());
           ASSERT_TRUE(hold_isoline(s, d, c, 0, list));
           const Surface f = field(s, random_member(s, list, 9));
-          EXPECT_LT(on_line(f, d, c, 0, Side::left).cwiseAbs().maxCoeff(), 1e-12) << name << " at " << c;
-          EXPECT_LT(on_line(f, d, c, 0, Side::right).cwiseAbs().maxCoeff(), 1e-12) << name << " at " << c;
+          EXPECT_LT(on_line(f, d, c, 0, Side::left).cwiseAbs().maxCoeff(), 1e-12)
+              << name << " at " << c;
+          EXPECT_LT(on_line(f, d, c, 0, Side::right).cwiseAbs().maxCoeff(), 1e-12)
+              << name << " at " << c;
         }
       }
     }
@@ -119,7 +126,8 @@ TEST(PinPoint, PutsTheSurfacePointWhereItIsAskedTo) {
       at << (at_corner ? u.upper : std::lerp(u.lower, u.upper, share(random))),
           (at_corner ? v.lower : std::lerp(v.lower, v.upper, share(random)));
       const Point rest = evaluate(s, at)->points().row(0);
-      for (const std::optional<Point>& place : {std::optional<Point>(), std::optional(Point(0.3, -0.2, 0.7))}) {
+      for (const std::optional<Point>& place :
+           {std::optional<Point>(), std::optional(Point(0.3, -0.2, 0.7))}) {
         ConstraintList list(s.size());
         ASSERT_TRUE(pin_point(s, at(0, 0), at(0, 1), place, list));
         const Point now = evaluate(moved(s, random_member(s, list, 4)), at)->points().row(0);
@@ -161,14 +169,15 @@ TEST(FreezeRegion, NoPointOfItMovesAndTheRestDoes) {
   }
   const Surface s = relief(uniform_clamped(3, 8), uniform_clamped(2, 8), 5);
   ConstraintList list(s.size());
-  ASSERT_TRUE(freeze_region(s, {2, 3}, {3.5, 4.5}, list));  // knots are taken as they are: one span by two
+  ASSERT_TRUE(
+      freeze_region(s, {2, 3}, {3.5, 4.5}, list));  // knots are taken as they are: one span by two
   EXPECT_EQ(std::ranges::count(list.held, true), 4 * 4);
 }
 
 TEST(Constraints, OfAllKindsTogetherHold) {
   for (const double spread : {1.0, 10.0}) {
-    const Surface s =
-        relief(clamped_knots(3, {0, 1, 2, 3, 4, 5}, {4, 1, 3, 1, 2, 4}), uniform_unclamped(3, 7), 11, 0.1, spread);
+    const Surface s = relief(clamped_knots(3, {0, 1, 2, 3, 4, 5}, {4, 1, 3, 1, 2, 4}),
+                             uniform_unclamped(3, 7), 11, 0.1, spread);
     ConstraintList list(s.size());
     ASSERT_TRUE(hold_edge(s, SurfaceEdge::u0, 2, list));
     ASSERT_TRUE(hold_edge(s, SurfaceEdge::v1, 1, list));
@@ -182,12 +191,16 @@ TEST(Constraints, OfAllKindsTogetherHold) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
       const Points x = random_member(s, list, seed);
       const Surface f = field(s, x);
-      for (int k = 0; k <= 2; ++k) EXPECT_LT(on_line(f, 0, 0, k, Side::right).cwiseAbs().maxCoeff(), 1e-10);
-      for (int k = 0; k <= 1; ++k) EXPECT_LT(on_line(f, 1, 10, k, Side::right).cwiseAbs().maxCoeff(), 1e-10);
+      for (int k = 0; k <= 2; ++k)
+        EXPECT_LT(on_line(f, 0, 0, k, Side::right).cwiseAbs().maxCoeff(), 1e-10);
+      for (int k = 0; k <= 1; ++k)
+        EXPECT_LT(on_line(f, 1, 10, k, Side::right).cwiseAbs().maxCoeff(), 1e-10);
       EXPECT_LT(on_line(f, 1, 5.5, 0, Side::right).cwiseAbs().maxCoeff(), 1e-10);
       Parameters<2> at(1, 2);
       at << 3.3, 8.1;
-      EXPECT_LT((evaluate(moved(s, x), at)->points().row(0).transpose() - Point(0.5, 0.5, 0.5)).norm(), 1e-10);
+      EXPECT_LT(
+          (evaluate(moved(s, x), at)->points().row(0).transpose() - Point(0.5, 0.5, 0.5)).norm(),
+          1e-10);
     }
   }
 }
@@ -211,7 +224,8 @@ TEST(Constraints, HoldOnRandomSurfaces) {
     ASSERT_TRUE(pin_point(s, at(0, 0), at(0, 1), {}, list));
     const Surface f = field(s, random_member(s, list, static_cast<unsigned>(round)));
     EXPECT_LT(on_line(f, 0, c, 0, Side::right).cwiseAbs().maxCoeff(), 1e-10) << "round " << round;
-    EXPECT_LT(on_line(f, 1, v.domain().lower, 0, Side::right).cwiseAbs().maxCoeff(), 1e-10) << "round " << round;
+    EXPECT_LT(on_line(f, 1, v.domain().lower, 0, Side::right).cwiseAbs().maxCoeff(), 1e-10)
+        << "round " << round;
     EXPECT_LT(evaluate(f, at)->points().norm(), 1e-10) << "round " << round;
   }
 }
@@ -226,22 +240,24 @@ TEST(Constraints, ThatContradictAreNamed) {
   ConstraintList twice(s.size());
   ASSERT_TRUE(pin_point(s, 1.5, 4.5, Point(0, 0, 1), twice));
   ASSERT_TRUE(pin_point(s, 1.5, 4.5, Point(0, 0, 2), twice));
-  EXPECT_NE(
-      message(twice).find("pin at (1.5, 4.5) to (0, 0, 2): the constraint contradicts pin at (1.5, 4.5) to (0, 0, 1)"),
-      std::string::npos)
+  EXPECT_NE(message(twice).find("pin at (1.5, 4.5) to (0, 0, 2): the constraint contradicts pin at "
+                                "(1.5, 4.5) to (0, 0, 1)"),
+            std::string::npos)
       << message(twice);
   ConstraintList frozen(s.size());
   ASSERT_TRUE(freeze_region(s, {1, 2}, {4, 5}, frozen));
   ASSERT_TRUE(pin_point(s, 1.5, 4.5, {}, frozen));
   EXPECT_EQ(message(frozen), "none");
   ASSERT_TRUE(pin_point(s, 1.5, 4.5, Point(0, 0, 1), frozen));
-  EXPECT_NE(message(frozen).find("to (0, 0, 1): the constraint contradicts frozen [1, 2] x [4, 5] by"),
-            std::string::npos)
+  EXPECT_NE(
+      message(frozen).find("to (0, 0, 1): the constraint contradicts frozen [1, 2] x [4, 5] by"),
+      std::string::npos)
       << message(frozen);
   ConstraintList edge(s.size());
   ASSERT_TRUE(hold_edge(s, SurfaceEdge::v0, 0, edge));
   ASSERT_TRUE(pin_point(s, 2.25, 3, Point(0, 0, 1), edge));
-  EXPECT_NE(message(edge).find("the constraint contradicts edge v0"), std::string::npos) << message(edge);
+  EXPECT_NE(message(edge).find("the constraint contradicts edge v0"), std::string::npos)
+      << message(edge);
 }
 
 TEST(Constraints, HoldThePresentWhenAsked) {
@@ -256,7 +272,8 @@ TEST(Constraints, HoldThePresentWhenAsked) {
   EXPECT_LT((space->feasible(present) - present).cwiseAbs().maxCoeff(), 1e-14);
   const Points x = space->feasible(random_points(s.size(), 15));
   for (int k = 0; k <= 1; ++k) {
-    EXPECT_LT((on_line(field(s, x), 0, 3, k, Side::right) - on_line(field(s, present), 0, 3, k, Side::right))
+    EXPECT_LT((on_line(field(s, x), 0, 3, k, Side::right) -
+               on_line(field(s, present), 0, 3, k, Side::right))
                   .cwiseAbs()
                   .maxCoeff(),
               1e-12);

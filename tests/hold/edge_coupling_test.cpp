@@ -18,7 +18,8 @@ Surface sheet_from(int columns, double x0) {
   const auto u = KnotVector::clamped_uniform(3, 7), v = KnotVector::clamped_uniform(3, columns);
   Points points(7 * columns, 3);
   for (int i = 0; i < 7; ++i) {
-    for (int j = 0; j < columns; ++j) points.row(i * columns + j) << x0 + u->greville(i), v->greville(j), 0;
+    for (int j = 0; j < columns; ++j)
+      points.row(i * columns + j) << x0 + u->greville(i), v->greville(j), 0;
   }
   return *Surface::create({*u, *v}, points);
 }
@@ -48,7 +49,8 @@ int free_count(const Pair& pair, const EdgeCoupling& coupling) {
   return ConstraintSpace::create(pair.rows.back(), coupling.constraints)->free_count();
 }
 
-/// The largest distance between both patches along a curve, in displacements of at most 1 that obey the conditions.
+/// The largest distance between both patches along a curve, in displacements of at most 1 that obey
+/// the conditions.
 double largest_parting(const Pair& pair, const EdgeCoupling& coupling, const CoupledEdge& along) {
   const auto space = ConstraintSpace::create(pair.rows.back(), coupling.constraints);
   std::mt19937 random(7);
@@ -68,8 +70,8 @@ double largest_parting(const Pair& pair, const EdgeCoupling& coupling, const Cou
   return largest;
 }
 
-/// A curve that is the same in space for both sheets, the second from x = 1 on, or from 0.5 on if it runs inside; with
-/// directions that are one vector there, that of x.
+/// A curve that is the same in space for both sheets, the second from x = 1 on, or from 0.5 on if
+/// it runs inside; with directions that are one vector there, that of x.
 CoupledEdge smooth_edge(int count, bool inside) {
   CoupledEdge result = edge(count, inside);
   for (SharedPoint& point : result.points) {
@@ -80,9 +82,10 @@ CoupledEdge smooth_edge(int count, bool inside) {
   return result;
 }
 
-/// The largest angle between normals at the points of the curve, and the largest turn of a normal, in feasible
-/// displacements by up to 0.3, along all axes, of sheets that lie in one plane.
-std::array<double, 2> largest_kink(const Pair& pair, const EdgeCoupling& coupling, const CoupledEdge& along) {
+/// The largest angle between normals at the points of the curve, and the largest turn of a normal,
+/// in feasible displacements by up to 0.3, along all axes, of sheets that lie in one plane.
+std::array<double, 2> largest_kink(const Pair& pair, const EdgeCoupling& coupling,
+                                   const CoupledEdge& along) {
   const auto space = ConstraintSpace::create(pair.rows.back(), coupling.constraints);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> number(-1, 1);
@@ -99,7 +102,8 @@ std::array<double, 2> largest_kink(const Pair& pair, const EdgeCoupling& couplin
       return Point(Point(jet->at({1, 0}).row(0)).cross(Point(jet->at({0, 1}).row(0))).normalized());
     };
     for (const SharedPoint& p : along.points) {
-      const Point a = normal(pair.a, 0, p[0].second), b = normal(pair.b, pair.a.size(), p[1].second);
+      const Point a = normal(pair.a, 0, p[0].second),
+                  b = normal(pair.b, pair.a.size(), p[1].second);
       largest[0] = std::max(largest[0], std::atan2(a.cross(b).norm(), a.dot(b)));
       largest[1] = std::max(largest[1], std::acos(std::clamp(a.z(), -1.0, 1.0)));
     }
@@ -112,7 +116,8 @@ TEST(EdgeCoupling, DerivativesThatAgreeKeepTangentPlanesCommonInLargeDisplacemen
       over{sheet_from(17, 0), sheet_from(21, 0.5)};
   for (const auto& [pair, inside] : {std::pair{&equal, false}, {&other, false}, {&over, true}}) {
     const CoupledEdge along = smooth_edge(inside ? 320 : 160, inside);
-    const auto coupling = couple_edges(pair->patches, pair->rows, std::array{along}, {}, {}, {1e-8, 1e-8});
+    const auto coupling =
+        couple_edges(pair->patches, pair->rows, std::array{along}, {}, {}, {1e-8, 1e-8});
     ASSERT_TRUE(coupling) << coupling.error().message();
     const auto [kink, turn] = largest_kink(*pair, *coupling, along);
     EXPECT_LE(kink, 1e-5);
@@ -120,7 +125,8 @@ TEST(EdgeCoupling, DerivativesThatAgreeKeepTangentPlanesCommonInLargeDisplacemen
     // Without them they do not agree.
     CoupledEdge sharp = along;
     sharp.across.clear();
-    const auto position = couple_edges(pair->patches, pair->rows, std::array{sharp}, {}, {}, {1e-8, 1e-8});
+    const auto position =
+        couple_edges(pair->patches, pair->rows, std::array{sharp}, {}, {}, {1e-8, 1e-8});
     EXPECT_GE(largest_kink(*pair, *position, along)[0], 0.1);
     if (pair == &equal) {
       EXPECT_EQ(free_count(*pair, *coupling), pair->rows.back() - 18);
@@ -131,7 +137,8 @@ TEST(EdgeCoupling, DerivativesThatAgreeKeepTangentPlanesCommonInLargeDisplacemen
 TEST(EdgeCoupling, EqualNetsLoseNothingByRoundingInTheParameters) {
   const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
   for (const double noise : {0.0, 1e-10, 1e-8}) {
-    const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false, noise)}, {}, {}, {1e-6});
+    const auto coupling =
+        couple_edges(pair.patches, pair.rows, std::array{edge(64, false, noise)}, {}, {}, {1e-6});
     ASSERT_TRUE(coupling) << coupling.error().message();
     EXPECT_EQ(free_count(pair, *coupling), pair.rows.back() - 9) << noise;
     EXPECT_LE(largest_parting(pair, *coupling, edge(200, false)), 1e-5);
@@ -145,8 +152,8 @@ TEST(EdgeCoupling, WhatSeamsKeepTogetherGetsNoConditions) {
   const auto seams = couple_seams(pair.patches, pair.rows, found->seams);
   ASSERT_TRUE(seams);
   ASSERT_FALSE(seams->constraints.empty());
-  const auto coupling =
-      couple_edges(pair.patches, pair.rows, std::array{edge(64, false, 1e-9)}, seams->constraints, {}, {1e-6});
+  const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false, 1e-9)},
+                                     seams->constraints, {}, {1e-6});
   ASSERT_TRUE(coupling);
   EXPECT_TRUE(coupling->constraints.empty());
 }
@@ -156,14 +163,16 @@ TEST(EdgeCoupling, OtherNetsPartByNoMoreThanTheToleranceAndKeepSomeFreedom) {
   for (const bool inside : {false, true}) {
     int before = 0;
     for (const double tolerance : {1e-6, 1e-3, 1e-2, 0.1}) {
-      const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(160, inside)}, {}, {}, {tolerance});
+      const auto coupling =
+          couple_edges(pair.patches, pair.rows, std::array{edge(160, inside)}, {}, {}, {tolerance});
       ASSERT_TRUE(coupling) << coupling.error().message();
       EXPECT_LE(coupling->bound, tolerance);
       EXPECT_LE(largest_parting(pair, *coupling, edge(160, inside)), coupling->bound + 1e-13);
       EXPECT_GE(free_count(pair, *coupling), before);
       before = free_count(pair, *coupling);
     }
-    EXPECT_GE(before, pair.rows.back() - 25);  // with 17 or 21 functions along the curve on either side
+    EXPECT_GE(before,
+              pair.rows.back() - 25);  // with 17 or 21 functions along the curve on either side
   }
 }
 
@@ -171,9 +180,11 @@ TEST(EdgeCoupling, HeldControlPointsStay) {
   const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
   std::vector<bool> held(static_cast<std::size_t>(pair.rows.back()), false);
   std::fill_n(held.begin(), pair.a.size(), true);
-  const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false)}, {}, held, {1e-6});
+  const auto coupling =
+      couple_edges(pair.patches, pair.rows, std::array{edge(64, false)}, {}, held, {1e-6});
   ASSERT_TRUE(coupling);
-  EXPECT_EQ(ConstraintSpace::create(pair.rows.back(), coupling->constraints, held)->free_count(), pair.b.size() - 9);
+  EXPECT_EQ(ConstraintSpace::create(pair.rows.back(), coupling->constraints, held)->free_count(),
+            pair.b.size() - 9);
 }
 
 /// Sheets side by side in a row, each with other knots than the one before.
@@ -233,12 +244,15 @@ TEST(EdgeCoupling, EdgeWithoutConditionsCouplesNothing) {
   const CoupledEdge without_points{"edge", {}, {{}}};
   CoupledEdge without_planes = edge(8, false);
   without_planes.across.assign(without_planes.points.size(), {});
-  const auto none = couple_edges(pair.patches, pair.rows, std::array{without_points}, {}, {}, {1e-6});
+  const auto none =
+      couple_edges(pair.patches, pair.rows, std::array{without_points}, {}, {}, {1e-6});
   ASSERT_TRUE(none) << none.error().message();
   EXPECT_TRUE(none->constraints.empty());
   EXPECT_EQ(none->bound, 0);
-  const auto sharp = couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, {}, {1e-6});
-  const auto plain = couple_edges(pair.patches, pair.rows, std::array{without_planes}, {}, {}, {1e-6});
+  const auto sharp =
+      couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, {}, {1e-6});
+  const auto plain =
+      couple_edges(pair.patches, pair.rows, std::array{without_planes}, {}, {}, {1e-6});
   ASSERT_TRUE(sharp && plain);
   EXPECT_EQ(free_count(pair, *plain), free_count(pair, *sharp));
 }
@@ -246,7 +260,8 @@ TEST(EdgeCoupling, EdgeWithoutConditionsCouplesNothing) {
 TEST(EdgeCoupling, EdgeBetweenHeldPatchesCouplesNothing) {
   const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
   const std::vector<bool> held(static_cast<std::size_t>(pair.rows.back()), true);
-  const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, held, {1e-6});
+  const auto coupling =
+      couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, held, {1e-6});
   ASSERT_TRUE(coupling) << coupling.error().message();
   EXPECT_TRUE(coupling->constraints.empty());
 }
@@ -254,7 +269,8 @@ TEST(EdgeCoupling, EdgeBetweenHeldPatchesCouplesNothing) {
 TEST(EdgeCoupling, WhatCannotBeIsAnError) {
   const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
   EXPECT_FALSE(couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, {}, {0}));
-  EXPECT_FALSE(couple_edges(pair.patches, pair.rows, std::array{smooth_edge(8, false)}, {}, {}, {1e-6, 2}));
+  EXPECT_FALSE(
+      couple_edges(pair.patches, pair.rows, std::array{smooth_edge(8, false)}, {}, {}, {1e-6, 2}));
   CoupledEdge outside = edge(8, false);
   outside.points[3][1].second[1] = 1.5;
   const auto refused = couple_edges(pair.patches, pair.rows, std::array{outside}, {}, {}, {1e-6});

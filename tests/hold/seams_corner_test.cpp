@@ -26,7 +26,8 @@ Surface sector(int k, int n, const KnotVector& knots) {
   Points points(knots.count() * knots.count(), 3);
   for (int i = 0; i < knots.count(); ++i) {
     for (int j = 0; j < knots.count(); ++j) {
-      points.row(i * knots.count() + j) = knots.greville(i) * spoke(k) + knots.greville(j) * spoke(k + 1);
+      points.row(i * knots.count() + j) =
+          knots.greville(i) * spoke(k) + knots.greville(j) * spoke(k + 1);
     }
   }
   return make_surface(knots, knots, points);
@@ -55,7 +56,8 @@ TEST(SeamCorners, FourPatchesInAGridAreSmoothAtTheirCorner) {
   const Coupled c(patches);
   ASSERT_EQ(c.coupling.reports.size(), 4u);
   expect_kept(c, SeamContinuity::g1);
-  // As one surface: a C1 tensor product of two halves that share 2 functions less than they have together.
+  // As one surface: a C1 tensor product of two halves that share 2 functions less than they have
+  // together.
   EXPECT_EQ(c.space.free_count(), (5 + 5 - 2) * (5 + 5 - 2));
 }
 
@@ -87,21 +89,24 @@ TEST(SeamCorners, ACubeIsClosed) {
       for (const int i : {0, n - 1, n * (n - 1), n * n - 1}) {
         for (const int j : {0, n - 1, n * (n - 1), n * n - 1}) {
           if (patches[a].control_points().row(i) != patches[b].control_points().row(j)) continue;
-          EXPECT_LT((after[a].control_points().row(i) - after[b].control_points().row(j)).norm(), corner_rounding);
+          EXPECT_LT((after[a].control_points().row(i) - after[b].control_points().row(j)).norm(),
+                    corner_rounding);
         }
       }
     }
   }
 }
 
-/// A torus whose control points lie on a torus: m × n of them around, the last `wrap_u`, `wrap_v` equal to the first.
+/// A torus whose control points lie on a torus: m × n of them around, the last `wrap_u`, `wrap_v`
+/// equal to the first.
 Surface torus(const KnotVector& u, const KnotVector& v, int wrap_u, int wrap_v) {
   Points points(u.count() * v.count(), 3);
   for (int i = 0; i < u.count(); ++i) {
     for (int j = 0; j < v.count(); ++j) {
       const double a = 2 * std::numbers::pi * (i % (u.count() - wrap_u)) / (u.count() - wrap_u);
       const double b = 2 * std::numbers::pi * (j % (v.count() - wrap_v)) / (v.count() - wrap_v);
-      points.row(i * v.count() + j) << (3 + std::cos(b)) * std::cos(a), (3 + std::cos(b)) * std::sin(a), std::sin(b);
+      points.row(i * v.count() + j) << (3 + std::cos(b)) * std::cos(a),
+          (3 + std::cos(b)) * std::sin(a), std::sin(b);
     }
   }
   return make_surface(u, v, points);
@@ -118,10 +123,12 @@ TEST(SeamCorners, APeriodicTorusStaysPeriodicInAllDerivatives) {
   const auto across_u = evaluate_grid<2>(after, {ends_u, inside}, 2),
              across_v = evaluate_grid<2>(after, {inside, ends_v}, 1);
   for (const MultiIndex<2>& a : multi_indices<2>(2)) {
-    EXPECT_LT((across_u->at(a).topRows(3) - across_u->at(a).bottomRows(3)).cwiseAbs().maxCoeff(), corner_rounding);
+    EXPECT_LT((across_u->at(a).topRows(3) - across_u->at(a).bottomRows(3)).cwiseAbs().maxCoeff(),
+              corner_rounding);
     if (a[0] + a[1] > 1) continue;
     for (int k = 0; k < 3; ++k)
-      EXPECT_LT((across_v->at(a).row(2 * k) - across_v->at(a).row(2 * k + 1)).norm(), corner_rounding);
+      EXPECT_LT((across_v->at(a).row(2 * k) - across_v->at(a).row(2 * k + 1)).norm(),
+                corner_rounding);
   }
   const Coupled smooth({torus(u, v, 3, 2)}, {.most = SeamContinuity::g1});
   expect_kept(smooth, SeamContinuity::g1);
@@ -150,7 +157,8 @@ TEST(SeamCorners, PeriodicWithUnevenKnotsAndWeights) {
   // Weights that do not repeat: no rational basis is periodic any more.
   weights[0] = 1.3;
   const Coupled broken({make_surface(u, v, points, weights)}, {}, 10);
-  for (const SeamReport& report : broken.coupling.reports) EXPECT_LT(report.continuity, SeamContinuity::periodic);
+  for (const SeamReport& report : broken.coupling.reports)
+    EXPECT_LT(report.continuity, SeamContinuity::periodic);
 }
 
 TEST(SeamCorners, AClampedTorusAndAnExactCylinderStaySmooth) {
@@ -186,16 +194,17 @@ TEST(SeamCorners, AClampedTorusAndAnExactCylinderStaySmooth) {
 }
 
 TEST(SeamCorners, ATranslationOfEverythingIsAlwaysAllowed) {
-  for (const auto& patches :
-       {smooth_pair(uniform_clamped(3, 3), uniform_clamped(2, 3), uniform_clamped(3, 4), 1.5, 1, 1e2),
-        std::vector<Surface>{cylinder()}, std::vector<Surface>{sphere()}}) {
+  for (const auto& patches : {smooth_pair(uniform_clamped(3, 3), uniform_clamped(2, 3),
+                                          uniform_clamped(3, 4), 1.5, 1, 1e2),
+                              std::vector<Surface>{cylinder()}, std::vector<Surface>{sphere()}}) {
     const Coupled c(patches);
     const Points x = Points::Ones(c.space.size(), 3) * 0.7;
     EXPECT_LT(c.space.violation(x), 1e-14);
   }
 }
 
-/// side × side patches of a sheet, cut at uneven places and turned every way, each point off by some noise.
+/// side × side patches of a sheet, cut at uneven places and turned every way, each point off by
+/// some noise.
 std::vector<Surface> uneven_grid(int side, double noise) {
   const std::vector<double> cuts = {0, 1, 1.3, 2.9, 3.6, 5, 5.4, 6.5, 7.1};
   std::vector<Surface> patches;
@@ -203,10 +212,11 @@ std::vector<Surface> uneven_grid(int side, double noise) {
     for (int j = 0; j < side; ++j) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
       const Surface s = uniform_sheet(3, 6, 6, cuts[a + 1] - cuts[a], cuts[b + 1] - cuts[b]);
-      Points points = s.control_points() + noise * random_points(s.size(), static_cast<unsigned>(side * i + j + 1));
+      Points points = s.control_points() +
+                      noise * random_points(s.size(), static_cast<unsigned>(side * i + j + 1));
       points.rowwise() += Eigen::RowVector3d(cuts[a], cuts[b], 0);
-      patches.push_back(
-          with_edge_at(*s.with_control_points(points), static_cast<SurfaceEdge>((i + 2 * j) % 4), j % 3 == 1));
+      patches.push_back(with_edge_at(*s.with_control_points(points),
+                                     static_cast<SurfaceEdge>((i + 2 * j) % 4), j % 3 == 1));
     }
   }
   return patches;
@@ -222,12 +232,14 @@ TEST(SeamCorners, ALargeGridIsOneSmoothSheet) {
 }
 
 TEST(SeamCorners, RoundingInAFileHoldsNothing) {
-  // Ratios that do not fit around a corner to the last digits would hold its tangents and its twist still.
+  // Ratios that do not fit around a corner to the last digits would hold its tangents and its twist
+  // still.
   constexpr int side = 6;
   for (double noise : {1e-13, 1e-11, 1e-9, 1e-5}) {
     const Coupled c(uneven_grid(side, noise));
     ASSERT_EQ(c.coupling.reports.size(), 2u * side * (side - 1));
-    const auto after = c.moved(11, 0.005);  // small beside the smallest spans, 0.1: no derivative turns round
+    // Small beside the smallest spans, 0.1: no derivative turns round.
+    const auto after = c.moved(11, 0.005);
     for (const SeamReport& report : c.coupling.reports) {
       EXPECT_EQ(report.continuity, SeamContinuity::g1) << report.reason;
       EXPECT_LT(gap_change(c.patches, after, report.seam), corner_rounding);

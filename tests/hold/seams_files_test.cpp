@@ -39,16 +39,18 @@ int check_closed(const std::vector<std::filesystem::path>& paths) {
       for (int d = 0; d < 2; ++d) {
         bool itself = false;
         for (const Seam& s : found->seams) {
-          itself = itself ||
-                   (s.kind == SeamKind::whole && s.a.patch == static_cast<int>(k) && s.b.patch == s.a.patch &&
-                    s.a.edge != s.b.edge && edge_across(s.a.edge) == d && edge_across(s.b.edge) == d && !s.reversed);
+          itself =
+              itself || (s.kind == SeamKind::whole && s.a.patch == static_cast<int>(k) &&
+                         s.b.patch == s.a.patch && s.a.edge != s.b.edge &&
+                         edge_across(s.a.edge) == d && edge_across(s.b.edge) == d && !s.reversed);
         }
         bool pole = false;  // an edge that is a point closes nothing
         for (const CollapsedEdge& c : found->collapsed) {
           pole = pole || (c.edge.patch == static_cast<int>(k) && edge_across(c.edge.edge) == d);
         }
         const bool expected = file->surfaces()[k].closed[static_cast<std::size_t>(d)] && !pole;
-        EXPECT_EQ(itself, expected) << path.filename() << " " << file->surfaces()[k].id << " direction " << d;
+        EXPECT_EQ(itself, expected)
+            << path.filename() << " " << file->surfaces()[k].id << " direction " << d;
         closed += itself;
       }
     }
@@ -98,7 +100,8 @@ TEST_P(SeamFiles, EveryCoupledSeamKeepsItsGapAndEverySmoothOneItsAngle) {
   ASSERT_TRUE(space) << space.error().message();
   const double eliminated = milliseconds(begin);
 
-  const auto after = displaced(patches, space->feasible(0.01 * size * random_points(space->size(), 5)));
+  const auto after =
+      displaced(patches, space->feasible(0.01 * size * random_points(space->size(), 5)));
   int counts[4] = {}, whole = 0, partial = 0;
   double gap = 0, angle = 0;
   for (const SeamReport& report : coupling->reports) {
@@ -114,11 +117,12 @@ TEST_P(SeamFiles, EveryCoupledSeamKeepsItsGapAndEverySmoothOneItsAngle) {
   EXPECT_LT(gap, 1e-12);
   EXPECT_LT(angle, 1e-6);
   std::printf(
-      "%-42s %3zu surfaces, %3d seams (%d partial, %zu poles): none %d, C0 %d, G1 %d; found %.1f ms, coupled %.1f "
+      "%-42s %3zu surfaces, %3d seams (%d partial, %zu poles): none %d, C0 %d, G1 %d; found %.1f "
+      "ms, coupled %.1f "
       "ms, "
       "eliminated %.1f ms; gap %.1e, angle %.1e\n",
-      GetParam().c_str(), patches.size(), whole, partial, found->collapsed.size(), counts[0], counts[1], counts[2],
-      finding, coupled, eliminated, gap, angle);
+      GetParam().c_str(), patches.size(), whole, partial, found->collapsed.size(), counts[0],
+      counts[1], counts[2], finding, coupled, eliminated, gap, angle);
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, SeamFiles, ::testing::ValuesIn(step_files()), file_test_name);

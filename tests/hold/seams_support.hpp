@@ -9,7 +9,8 @@
 
 namespace knead::testing {
 
-inline const std::vector<SurfaceEdge> all_edges = {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1};
+inline const std::vector<SurfaceEdge> all_edges = {SurfaceEdge::u0, SurfaceEdge::u1,
+                                                   SurfaceEdge::v0, SurfaceEdge::v1};
 
 inline std::vector<const Surface*> pointers(const std::vector<Surface>& patches) {
   std::vector<const Surface*> result;
@@ -38,7 +39,9 @@ inline Surface transposed(const Surface& s) {
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < n; ++j) {
       points.row(j * m + i) = s.control_points().row(i * n + j);
-      if (s.rational()) weights[static_cast<std::size_t>(j * m + i)] = s.weights()[static_cast<std::size_t>(i * n + j)];
+      if (s.rational())
+        weights[static_cast<std::size_t>(j * m + i)] =
+            s.weights()[static_cast<std::size_t>(i * n + j)];
     }
   }
   return make_surface(s.knots(1), s.knots(0), points, weights);
@@ -54,7 +57,8 @@ inline Surface turned(const Surface& s, int direction) {
     for (int j = 0; j < n; ++j) {
       points.row(i * n + j) = s.control_points().row(i * n + n - 1 - j);
       if (s.rational())
-        weights[static_cast<std::size_t>(i * n + j)] = s.weights()[static_cast<std::size_t>(i * n + n - 1 - j)];
+        weights[static_cast<std::size_t>(i * n + j)] =
+            s.weights()[static_cast<std::size_t>(i * n + n - 1 - j)];
     }
   }
   return make_surface(s.knots(0), reversed_knots(s.knots(1)), points, weights);
@@ -67,10 +71,12 @@ inline Surface with_edge_at(Surface s, SurfaceEdge edge, bool backwards) {
   return edge_across(edge) == 1 ? transposed(s) : s;
 }
 
-/// Two surfaces that meet in edge u0 of both, tangent-continuous with the ratio ρ. With weights, those of the edge are
-/// random, three times as large on b, and those of the next row in proportion to them on either side.
-inline std::vector<Surface> smooth_pair(const KnotVector& across_a, const KnotVector& across_b, const KnotVector& along,
-                                        double rho, unsigned seed, double weight_spread = 1) {
+/// Two surfaces that meet in edge u0 of both, tangent-continuous with the ratio ρ. With weights,
+/// those of the edge are random, three times as large on b, and those of the next row in proportion
+/// to them on either side.
+inline std::vector<Surface> smooth_pair(const KnotVector& across_a, const KnotVector& across_b,
+                                        const KnotVector& along, double rho, unsigned seed,
+                                        double weight_spread = 1) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> value(-1, 1);
   const int n = along.count();
@@ -84,15 +90,19 @@ inline std::vector<Surface> smooth_pair(const KnotVector& across_a, const KnotVe
     return points;
   };
   Points a = net(across_a.count(), -1), b = net(across_b.count(), 1);
-  // Inward derivative per parameter at a clamped start: p/(x_{p+1} − x_p) (P_1 − P_0), times w_1/w_0.
-  const auto speed = [](const KnotVector& k) { return k.degree() / (k[k.degree() + 1] - k[k.degree()]); };
+  // Inward derivative per parameter at a clamped start: p/(x_{p+1} − x_p) (P_1 − P_0), times
+  // w_1/w_0.
+  const auto speed = [](const KnotVector& k) {
+    return k.degree() / (k[k.degree() + 1] - k[k.degree()]);
+  };
   std::vector<double> edge_weight, wa, wb;
   const double next_a = 1.7, next_b = 0.6, factor_b = 3;
   for (int j = 0; j < n; ++j) edge_weight.push_back(std::pow(weight_spread, value(random)));
   for (int j = 0; j < n; ++j) {
     b.row(j) = a.row(j);
     const double qa = weight_spread > 1 ? next_a : 1, qb = weight_spread > 1 ? next_b : 1;
-    b.row(n + j) = b.row(j) - (a.row(n + j) - a.row(j)) * speed(across_a) * qa / (speed(across_b) * qb * rho);
+    b.row(n + j) =
+        b.row(j) - (a.row(n + j) - a.row(j)) * speed(across_a) * qa / (speed(across_b) * qb * rho);
   }
   if (weight_spread > 1) {
     const auto weights = [&](int m, double next, double factor) {
@@ -125,7 +135,8 @@ inline Sides sides(const std::vector<Surface>& patches, const Seam& seam) {
     const double end = edge_at_end(edge.edge) ? d.upper : d.lower;
     Parameters<2> at(41, 2);
     for (int k = 0; k < 41; ++k) {
-      const double place = k == 40 ? 1 : k / 40.3;  // not on knots, where normals may have two limits
+      // Not on knots, where normals may have two limits.
+      const double place = k == 40 ? 1 : k / 40.3;
       const double t = second && seam.reversed ? 1 - place : place;
       at(k, across) = end;
       at(k, 1 - across) = std::clamp(along.lower + t * along.length(), along.lower, along.upper);
@@ -133,7 +144,8 @@ inline Sides sides(const std::vector<Surface>& patches, const Seam& seam) {
     const auto e = evaluate<2>(s, at, 1);
     if (!e) ADD_FAILURE() << e.error().message();
     Points normal(41, 3);
-    const double sign = (edge_at_end(edge.edge) ? -1 : 1) * (second ? -1 : 1) * (second && seam.reversed ? -1 : 1);
+    const double sign =
+        (edge_at_end(edge.edge) ? -1 : 1) * (second ? -1 : 1) * (second && seam.reversed ? -1 : 1);
     const MultiIndex<2> du = across == 0 ? MultiIndex<2>{1, 0} : MultiIndex<2>{0, 1};
     const MultiIndex<2> dv = across == 0 ? MultiIndex<2>{0, 1} : MultiIndex<2>{1, 0};
     for (int k = 0; k < 41; ++k) {
@@ -142,7 +154,8 @@ inline Sides sides(const std::vector<Surface>& patches, const Seam& seam) {
     }
     // Beside a pole nothing is left of a normal but rounding.
     const double least = 1e-8 * normal.rowwise().norm().maxCoeff();
-    for (int k = 0; k < 41; ++k) normal.row(k) *= normal.row(k).norm() <= least ? 0 : 1 / normal.row(k).norm();
+    for (int k = 0; k < 41; ++k)
+      normal.row(k) *= normal.row(k).norm() <= least ? 0 : 1 / normal.row(k).norm();
     (second ? result.b : result.a) = e->points();
     (second ? result.normal_b : result.normal_a) = normal;
   }
@@ -150,12 +163,14 @@ inline Sides sides(const std::vector<Surface>& patches, const Seam& seam) {
 }
 
 /// Largest change of the vector between the two sides.
-inline double gap_change(const std::vector<Surface>& before, const std::vector<Surface>& after, const Seam& seam) {
+inline double gap_change(const std::vector<Surface>& before, const std::vector<Surface>& after,
+                         const Seam& seam) {
   const Sides x = sides(before, seam), y = sides(after, seam);
   return ((y.a - y.b) - (x.a - x.b)).rowwise().norm().maxCoeff();
 }
 /// Largest change of the angle between the two tangent planes.
-inline double angle_change(const std::vector<Surface>& before, const std::vector<Surface>& after, const Seam& seam) {
+inline double angle_change(const std::vector<Surface>& before, const std::vector<Surface>& after,
+                           const Seam& seam) {
   const Sides x = sides(before, seam), y = sides(after, seam);
   const auto angle = [](const Sides& s, int k) {
     const Point a = s.normal_a.row(k), b = s.normal_b.row(k);
@@ -187,7 +202,8 @@ struct Coupled {
   SeamCoupling coupling;
   ConstraintSpace space{0};
 
-  explicit Coupled(std::vector<Surface> of, const SeamOptions& options = {}, double tolerance = 1e-3)
+  explicit Coupled(std::vector<Surface> of, const SeamOptions& options = {},
+                   double tolerance = 1e-3)
       : patches(std::move(of)) {
     const auto all = pointers(patches);
     const auto rows = first_rows(patches);
@@ -202,7 +218,9 @@ struct Coupled {
   [[nodiscard]] std::vector<Surface> moved(unsigned seed, double size = 0.1) const {
     return displaced(patches, space.feasible(size * random_points(space.size(), seed)));
   }
-  [[nodiscard]] const SeamReport& report(int k = 0) const { return coupling.reports.at(static_cast<std::size_t>(k)); }
+  [[nodiscard]] const SeamReport& report(int k = 0) const {
+    return coupling.reports.at(static_cast<std::size_t>(k));
+  }
 };
 
 }  // namespace knead::testing

@@ -18,12 +18,14 @@ Surface moved(const Surface& s, const Point& by) {
 }
 
 TEST(Seams, AllPairsOfEdgesAreFoundInBothOrientationsWithTheirGap) {
-  const auto pair = smooth_pair(uniform_clamped(2, 3), uniform_clamped(3, 2), clamped_knots(3, {0, 1, 1.5, 4}), 2, 1);
+  const auto pair = smooth_pair(uniform_clamped(2, 3), uniform_clamped(3, 2),
+                                clamped_knots(3, {0, 1, 1.5, 4}), 2, 1);
   for (SurfaceEdge a : all_edges) {
     for (SurfaceEdge b : all_edges) {
       for (bool reversed : {false, true}) {
         const FoundSeams found =
-            find({with_edge_at(pair[0], a, false), moved(with_edge_at(pair[1], b, reversed), Point(0, 3e-4, 4e-4))});
+            find({with_edge_at(pair[0], a, false),
+                  moved(with_edge_at(pair[1], b, reversed), Point(0, 3e-4, 4e-4))});
         ASSERT_EQ(found.seams.size(), 1u) << edge_name(a) << edge_name(b) << reversed;
         const Seam& seam = found.seams[0];
         EXPECT_EQ(seam.a, (PatchEdge{0, a}));
@@ -59,7 +61,8 @@ TEST(Seams, CornersThatMeetAreNotEnough) {
 TEST(Seams, APatchIsASeamWithItselfWhereItClosesAndAPoleWhereItCollapses) {
   const FoundSeams tube = find({cylinder()});
   ASSERT_EQ(tube.seams.size(), 1u);
-  EXPECT_EQ(tube.seams[0], (Seam{{0, SurfaceEdge::u0}, {0, SurfaceEdge::u1}, false, SeamKind::whole, 0}));
+  EXPECT_EQ(tube.seams[0],
+            (Seam{{0, SurfaceEdge::u0}, {0, SurfaceEdge::u1}, false, SeamKind::whole, 0}));
   EXPECT_TRUE(tube.collapsed.empty());
   const FoundSeams ball = find({transposed(sphere())});
   ASSERT_EQ(ball.seams.size(), 1u);
@@ -77,7 +80,8 @@ TEST(Seams, AStripThinnerThanTheToleranceIsNotClosedWithItself) {
 TEST(Seams, AnEdgeFoldedOntoItselfIsOne) {
   Points points(6, 3);
   points << 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1;
-  const FoundSeams found = find({make_surface(clamped_knots(1, {0, 1}), clamped_knots(2, {0, 1}), points)});
+  const FoundSeams found =
+      find({make_surface(clamped_knots(1, {0, 1}), clamped_knots(2, {0, 1}), points)});
   ASSERT_EQ(found.seams.size(), 1u);
   EXPECT_EQ(found.seams[0].a, found.seams[0].b);
   EXPECT_EQ(found.seams[0].a.edge, SurfaceEdge::u0);
@@ -103,7 +107,8 @@ TEST(Seams, PartOfAnEdgeIsToldFromAWholeOne) {
 TEST(Seams, TheSameCurveInOtherParametersIsToldFromTheSameEdge) {
   const Surface s = uniform_sheet(2, 4, 4);
   Points points = moved(s, Point(1, 0, 0)).control_points();
-  for (int i = 0; i < 4; ++i) points(4 * i + 1, 1) += 0.1;  // a straight edge run through at another speed
+  for (int i = 0; i < 4; ++i)
+    points(4 * i + 1, 1) += 0.1;  // a straight edge run through at another speed
   const FoundSeams found = find({s, *s.with_control_points(points)});
   ASSERT_EQ(found.seams.size(), 1u);
   EXPECT_EQ(found.seams[0].kind, SeamKind::reparametrised);
@@ -125,7 +130,8 @@ TEST(Seams, TheSameCurveInOtherParametersIsToldFromTheSameEdge) {
 
 TEST(Seams, AnEdgeThatCannotBeEvaluatedIsNamedAndTheOthersAreFound) {
   const Surface s = uniform_sheet(1, 2, 2);
-  const Surface bad = make_surface(s.knots(0), s.knots(1), moved(s, Point(1, 0, 0)).control_points(), {1, 1, 0, 0});
+  const Surface bad =
+      make_surface(s.knots(0), s.knots(1), moved(s, Point(1, 0, 0)).control_points(), {1, 1, 0, 0});
   const FoundSeams found = find({s, bad});
   EXPECT_EQ(found.seams.size(), 1u);
   ASSERT_FALSE(found.unusable.empty());
@@ -151,7 +157,8 @@ TEST(Seams, AGridOfHundredsOfPatchesHasOneSeamPerInnerEdge) {
   for (int i = 0; i < side; ++i) {
     for (int j = 0; j < side; ++j) {
       const Surface s = moved(uniform_sheet(3, 6, 6), Point(i, j, 0));
-      patches.push_back(with_edge_at(s, all_edges[static_cast<std::size_t>((i + j) % 4)], i % 2 == 1));
+      patches.push_back(
+          with_edge_at(s, all_edges[static_cast<std::size_t>((i + j) % 4)], i % 2 == 1));
     }
   }
   const FoundSeams found = find(patches);

@@ -16,7 +16,8 @@ Surface sheet(int degree, int count) {
   const auto knots = *KnotVector::clamped_uniform(degree, count, 0, 1);
   Points points(count * count, 3);
   for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < count; ++j) points.row(i * count + j) << knots.greville(i), knots.greville(j), 0;
+    for (int j = 0; j < count; ++j)
+      points.row(i * count + j) << knots.greville(i), knots.greville(j), 0;
   }
   return *Surface::create({knots, knots}, points);
 }
@@ -58,7 +59,8 @@ double largest_along(const Surface& displacement, const TrimEdge& edge, int orde
     Parameters<2> here(1, 2);
     here << at.x(), at.y();
     const auto jet = evaluate<2>(displacement, here, order);
-    for (const auto& index : multi_indices<2>(order)) largest = std::max(largest, jet->at(index).row(0).norm());
+    for (const auto& index : multi_indices<2>(order))
+      largest = std::max(largest, jet->at(index).row(0).norm());
   }
   return largest;
 }
@@ -142,7 +144,8 @@ TEST(TrimHold, AnEdgeAlongAKnotLineHoldsBothItsSidesByMultiplicity) {
   ASSERT_TRUE(held);
   int row = 0;
   while (s.knots(0)[row + 1] < 0.5 || s.knots(0)[row + 3] > 0.5) ++row;
-  // Rows before the line are free, the line's own and those behind it (which are not visible) are held.
+  // Rows before the line are free, the line's own and those behind it (which are not visible) are
+  // held.
   EXPECT_EQ(held->free, row * s.net()[1]);
 }
 
@@ -174,7 +177,8 @@ TEST(TrimRefinement, LetsACoarseNetMoveInsideItsTrims) {
   const VisibleRegion region = disc(0.2);
   for (const int degree : {1, 2, 3, 5, 9}) {
     const Surface coarse = sheet(degree, degree + 1);
-    const auto refinement = trim_refinement(coarse, {0.5, 0.5}, 0.2, 0.1, trim_refinement_cap(coarse));
+    const auto refinement =
+        trim_refinement(coarse, {0.5, 0.5}, 0.2, 0.1, trim_refinement_cap(coarse));
     ASSERT_TRUE(refinement);
     EXPECT_FALSE(refinement->capped);
     const auto fine = refinement->apply(coarse);

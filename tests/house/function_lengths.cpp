@@ -17,9 +17,12 @@ struct Head {
     if (line == 0 && !is_space(c)) line = at;
     if (line != 0) text += c;
   }
-  [[nodiscard]] bool is_access() const { return text == "public" || text == "protected" || text == "private"; }
+  [[nodiscard]] bool is_access() const {
+    return text == "public" || text == "protected" || text == "private";
+  }
   [[nodiscard]] bool of_function() const {
-    static const std::regex other(R"(^(template\s*<[^{}]*>\s*)?(namespace|struct|class|union|enum|extern)\b)");
+    static const std::regex other(
+        R"(^(template\s*<[^{}]*>\s*)?(namespace|struct|class|union|enum|extern)\b)");
     return text.find('(') != std::string::npos && !std::regex_search(text, other);
   }
 };
@@ -49,7 +52,8 @@ class Counter {
       }
     } else if (c == '}' && depth_in_function_ > 0) {
       if (--depth_in_function_ == 0) close();
-    } else if (depth_in_function_ == 0 && (c == ';' || c == '}' || (c == ':' && head_.is_access()))) {
+    } else if (depth_in_function_ == 0 &&
+               (c == ';' || c == '}' || (c == ':' && head_.is_access()))) {
       head_ = {};
     } else if (depth_in_function_ == 0) {
       head_.add(c, line_ + 1);
@@ -58,7 +62,8 @@ class Counter {
 
   void close() {
     const char next = next_character();
-    if (next == ',' || next == '{') return;  // that was an initialiser of a member: the body is still to come
+    if (next == ',' || next == '{')
+      return;  // that was an initialiser of a member: the body is still to come
     found_.push_back({head_.line, line_ + 2 - head_.line, head_.text});
     head_ = {};
   }
@@ -83,6 +88,8 @@ class Counter {
 
 }  // namespace
 
-std::vector<FunctionLength> function_lengths(const std::vector<std::string>& code) { return Counter(code).run(); }
+std::vector<FunctionLength> function_lengths(const std::vector<std::string>& code) {
+  return Counter(code).run();
+}
 
 }  // namespace knead::house

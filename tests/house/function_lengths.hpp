@@ -12,9 +12,10 @@ struct FunctionLength {
   std::string head;
 };
 
-/// The functions of a C++ source, given line by line without comments and literals. Lambdas and local types count to
-/// the function they are in. A counter of braces and no parser: a block belongs to a function where what stands before
-/// it has parentheses and names no type or namespace.
+/// The functions of a C++ source, given line by line without comments and literals. Lambdas and
+/// local types count to the function they are in. A counter of braces and no parser: a block
+/// belongs to a function where what stands before it has parentheses and names no type or
+/// namespace.
 [[nodiscard]] std::vector<FunctionLength> function_lengths(const std::vector<std::string>& code);
 
 }  // namespace knead::house

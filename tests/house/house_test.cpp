@@ -18,7 +18,9 @@ TEST(House, KeepsItsRules) {
   for (const std::string& violation : violations(KNEAD_SOURCE_DIR)) ADD_FAILURE() << violation;
 }
 
-TEST(House, IsReallyInspected) { EXPECT_TRUE(fs::exists(fs::path(KNEAD_SOURCE_DIR) / "include/knead/base/error.hpp")); }
+TEST(House, IsReallyInspected) {
+  EXPECT_TRUE(fs::exists(fs::path(KNEAD_SOURCE_DIR) / "include/knead/base/error.hpp"));
+}
 
 std::string contents(const fs::path& file) {
   std::ostringstream text;
@@ -36,10 +38,13 @@ TEST(House, ListsAndTestsEveryCodeOfErrors) {
   }
   const std::regex enumerator(R"(\n  (\w+), )");
   int count = 0;
-  for (std::sregex_iterator it(header.begin(), header.end(), enumerator), end; it != end; ++it, ++count) {
+  for (std::sregex_iterator it(header.begin(), header.end(), enumerator), end; it != end;
+       ++it, ++count) {
     const std::string name = (*it)[1];
-    EXPECT_NE(page.find("| `" + name + "` |"), std::string::npos) << "docs/errors.md does not list " << name;
-    EXPECT_TRUE(name == "none" || tests.contains("ErrorCode::" + name)) << "no test expects " << name;
+    EXPECT_NE(page.find("| `" + name + "` |"), std::string::npos)
+        << "docs/errors.md does not list " << name;
+    EXPECT_TRUE(name == "none" || tests.contains("ErrorCode::" + name))
+        << "no test expects " << name;
   }
   EXPECT_GT(count, 30);
 }
@@ -49,17 +54,23 @@ class Tree : public testing::Test {
  protected:
   Tree() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::temp_directory_path() / ("knead-house-" + std::to_string(getpid()) + "-" + test->name());
+    root_ = fs::temp_directory_path() /
+            ("knead-house-" + std::to_string(getpid()) + "-" + test->name());
     fs::remove_all(root_);
     write("src/rooms.txt",
-          "# From the ground up.\nbase: errors\nspline: bases\ngramian: bands\nbrep: faces\nexchange: files\nsession: "
+          "# From the ground up.\nbase: errors\nspline: bases\ngramian: bands\nbrep: "
+          "faces\nexchange: files\nsession: "
           "acts\n");
     write("include/knead/base/error.hpp", "#pragma once\n");
-    write("include/knead/spline/basis.hpp", "// Why.\n#pragma once\n#include \"knead/base/error.hpp\"\n");
+    write("include/knead/spline/basis.hpp",
+          "// Why.\n#pragma once\n#include \"knead/base/error.hpp\"\n");
     write("docs/api.md",
-          "| [error](../include/knead/base/error.hpp) | |\n| [basis](../include/knead/spline/basis.hpp) | |\n");
-    write("src/spline/basis.cpp", "#include \"knead/spline/basis.hpp\"\n\n#include \"detail.hpp\"\n");
-    write("src/spline/detail.hpp", "#pragma once\n// No throw here, nor a \"try\".\nconst char* s = \"catch\";\n");
+          "| [error](../include/knead/base/error.hpp) | |\n| "
+          "[basis](../include/knead/spline/basis.hpp) | |\n");
+    write("src/spline/basis.cpp",
+          "#include \"knead/spline/basis.hpp\"\n\n#include \"detail.hpp\"\n");
+    write("src/spline/detail.hpp",
+          "#pragma once\n// No throw here, nor a \"try\".\nconst char* s = \"catch\";\n");
   }
   ~Tree() override { fs::remove_all(root_); }
 
@@ -81,13 +92,17 @@ class Tree : public testing::Test {
 TEST_F(Tree, InOrderIsAccepted) { EXPECT_EQ(violations(root_), std::vector<std::string>{}); }
 
 TEST_F(Tree, RoomThatIncludesARoomBuiltOnItIsFound) {
-  write("src/base/error.cpp", "#include \"knead/base/error.hpp\"\n#include \"knead/spline/basis.hpp\"\n");
-  expect_only("src/base/error.cpp:2: the room base must not include the room spline, which is built on it");
+  write("src/base/error.cpp",
+        "#include \"knead/base/error.hpp\"\n#include \"knead/spline/basis.hpp\"\n");
+  expect_only(
+      "src/base/error.cpp:2: the room base must not include the room spline, which is built on it");
 }
 
 TEST_F(Tree, HeaderThatIncludesARoomBuiltOnItIsFound) {
   write("include/knead/base/error.hpp", "#pragma once\n#  include \"knead/spline/basis.hpp\"\n");
-  expect_only("include/knead/base/error.hpp:2: the room base must not include the room spline, which is built on it");
+  expect_only(
+      "include/knead/base/error.hpp:2: the room base must not include the room spline, which is "
+      "built on it");
 }
 
 TEST_F(Tree, InternalsOfARoomServeTheRoomsBuiltOnIt) {
@@ -98,7 +113,8 @@ TEST_F(Tree, InternalsOfARoomServeTheRoomsBuiltOnIt) {
 
 TEST_F(Tree, RoomThatIncludesInternalsOfARoomBuiltOnItIsFound) {
   write("src/base/rule.hpp", "#pragma once\n#include \"spline/detail.hpp\"\n");
-  expect_only("src/base/rule.hpp:2: the room base must not include the room spline, which is built on it");
+  expect_only(
+      "src/base/rule.hpp:2: the room base must not include the room spline, which is built on it");
 }
 
 TEST_F(Tree, InternalsThatDoNotExistAreFound) {
@@ -130,7 +146,8 @@ TEST_F(Tree, FormatThatIsNamedOutsideOfItsFolderIsFound) {
 }
 
 TEST_F(Tree, FolderOfManyFilesIsFound) {
-  for (int k = 0; k < 45; ++k) write("src/exchange/step/x" + std::to_string(k) + ".hpp", "#pragma once\n");
+  for (int k = 0; k < 45; ++k)
+    write("src/exchange/step/x" + std::to_string(k) + ".hpp", "#pragma once\n");
   EXPECT_EQ(violations(root_), std::vector<std::string>{});
   write("src/exchange/step/y.cpp", "int y;\n");
   expect_only("src/exchange/step: 46 files; 45 are allowed");
@@ -139,7 +156,8 @@ TEST_F(Tree, FolderOfManyFilesIsFound) {
 TEST_F(Tree, FileOfAFolderMayHaveTheNameOfOneOfTheRoom) {
   write("include/knead/exchange/format.hpp", "#pragma once\n");
   write("docs/api.md",
-        "| [error](../include/knead/base/error.hpp) | |\n| [basis](../include/knead/spline/basis.hpp) | |\n"
+        "| [error](../include/knead/base/error.hpp) | |\n| "
+        "[basis](../include/knead/spline/basis.hpp) | |\n"
         "| [format](../include/knead/exchange/format.hpp) | |\n");
   write("src/exchange/format.cpp", "#include \"knead/exchange/format.hpp\"\n");
   write("src/exchange/step/format.cpp", "#include <array>\n");
@@ -156,7 +174,8 @@ TEST_F(Tree, InternalHeaderInTheCommandLineIsFound) {
   write("examples/draw.hpp", "#pragma once\n");
   write("examples/draw.cpp", "#include \"draw.hpp\"\n#include \"knead/spline/basis.hpp\"\n");
   EXPECT_EQ(violations(root_), std::vector<std::string>{});
-  write("apps/knead/info.cpp", "#include \"knead/base/error.hpp\"\n#include \"spline/detail.hpp\"\n");
+  write("apps/knead/info.cpp",
+        "#include \"knead/base/error.hpp\"\n#include \"spline/detail.hpp\"\n");
   expect_only("apps/knead/info.cpp:2: \"spline/detail.hpp\" is no public header");
 }
 
@@ -181,12 +200,15 @@ TEST_F(Tree, ListedHeaderThatDoesNotExistIsFound) {
 }
 
 TEST_F(Tree, DecompositionOutsideOfItsDoorIsFound) {
-  for (const auto& [code, name] : {std::pair{"Eigen::ColPivHouseholderQR<Matrix> qr(a);", "ColPivHouseholderQR"},
-                                   std::pair{"auto x = a.ldlt().solve(b);", "ldlt"},
-                                   std::pair{"Eigen::SimplicialLDLT<Sparse> factor;", "SimplicialLDLT"},
-                                   std::pair{"x = a.partialPivLu().solve(b);", "partialPivLu"}}) {
-    write("src/spline/basis.cpp", std::string("#include \"knead/spline/basis.hpp\"\n") + code + "\n");
-    expect_only("src/spline/basis.cpp:2: " + std::string(name) + " is used outside of base/decompositions.hpp");
+  for (const auto& [code, name] :
+       {std::pair{"Eigen::ColPivHouseholderQR<Matrix> qr(a);", "ColPivHouseholderQR"},
+        std::pair{"auto x = a.ldlt().solve(b);", "ldlt"},
+        std::pair{"Eigen::SimplicialLDLT<Sparse> factor;", "SimplicialLDLT"},
+        std::pair{"x = a.partialPivLu().solve(b);", "partialPivLu"}}) {
+    write("src/spline/basis.cpp",
+          std::string("#include \"knead/spline/basis.hpp\"\n") + code + "\n");
+    expect_only("src/spline/basis.cpp:2: " + std::string(name) +
+                " is used outside of base/decompositions.hpp");
   }
   write("src/spline/basis.cpp", "#include \"knead/spline/basis.hpp\"\n");
   write("src/base/decompositions.cpp", "Eigen::LLT<Eigen::MatrixXd> llt;\n");
@@ -199,9 +221,11 @@ TEST_F(Tree, UnknownRoomIsFound) {
 }
 
 TEST_F(Tree, TableOfOtherRoomsIsFound) {
-  const std::string begin = "Rooms:\n\n<!-- rooms -->\n| room | what lives there |\n|---|---|\n| `base` | errors |\n";
+  const std::string begin =
+      "Rooms:\n\n<!-- rooms -->\n| room | what lives there |\n|---|---|\n| `base` | errors |\n";
   const std::string rest =
-      "| `gramian` | bands |\n| `brep` | faces |\n| `exchange` | files |\n| `session` | acts |\n<!-- end of rooms "
+      "| `gramian` | bands |\n| `brep` | faces |\n| `exchange` | files |\n| `session` | acts "
+      "|\n<!-- end of rooms "
       "-->\n";
   write("README.md", begin + "| `spline` | bases |\n" + rest);
   EXPECT_EQ(violations(root_), std::vector<std::string>{});
@@ -222,7 +246,9 @@ TEST_F(Tree, IncludeOfAnApplicationIsFound) {
 
 TEST_F(Tree, IncludeOfAnOracleIsFound) {
   write("src/spline/detail.hpp", "#pragma once\n#include <Geom_BSplineSurface.hxx>\n");
-  expect_only("src/spline/detail.hpp:2: <Geom_BSplineSurface.hxx> belongs to the programs on top, not to a room");
+  expect_only(
+      "src/spline/detail.hpp:2: <Geom_BSplineSurface.hxx> belongs to the programs on top, not to a "
+      "room");
 }
 
 TEST_F(Tree, IncludeThatDoesNotExistIsFound) {
@@ -267,7 +293,8 @@ TEST_F(Tree, LongFunctionIsFoundAndTheLongestAllowedIsNot) {
 TEST_F(Tree, FileThatNeedsNoExceptionForItsFunctionsIsFound) {
   write("src/gramian/simd/recurrence_cubic.hpp", "#pragma once\ninline void f() {}\n");
   expect_only(
-      "src/gramian/simd/recurrence_cubic.hpp: no function is long here any more: strike the file off the "
+      "src/gramian/simd/recurrence_cubic.hpp: no function is long here any more: strike the file "
+      "off the "
       "exceptions");
 }
 
@@ -278,6 +305,15 @@ TEST_F(Tree, LongFileIsFoundAndTheLongestAllowedIsNot) {
   EXPECT_EQ(violations(root_), std::vector<std::string>{});
   write("tests/base/long_test.cpp", text + "\n");
   expect_only("tests/base/long_test.cpp: 401 lines; 400 are allowed");
+}
+
+TEST_F(Tree, LongLineIsFoundAndTheLongestAllowedIsNot) {
+  std::string line = "// ";
+  for (int k = 0; k < 97; ++k) line += "∂";
+  write("tests/base/wide_test.cpp", line + "\u0303\n");
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+  write("tests/base/wide_test.cpp", "\n" + line + "∂\n");
+  expect_only("tests/base/wide_test.cpp:2: 101 characters; 100 are allowed");
 }
 
 TEST_F(Tree, FileWrittenByTheBuildMayBeLong) {

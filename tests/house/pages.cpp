@@ -43,7 +43,8 @@ std::vector<std::string> range(const std::string& from, const std::string& to) {
 /// The numbers at the beginning of a text, "Eq 4.8" each, as far as it goes on as a list of them.
 std::vector<std::string> cited(std::string text) {
   static const std::regex item(
-      R"(^(?:, | and | to |, and )?((?:§)+|Eqs?\.|Algs?\.|Thms?|Figs?\.|Tables?)? ?(\d\.[\d.]*\d))");
+      R"(^(?:, | and | to |, and )?((?:§)+|Eqs?\.|Algs?\.|Thms?|Figs?\.|Tables?)? )"
+      R"(?(\d\.[\d.]*\d))");
   std::vector<std::string> numbers;
   std::string kind, last;
   for (std::smatch match; std::regex_search(text, match, item); text = match.suffix()) {
@@ -51,7 +52,8 @@ std::vector<std::string> cited(std::string text) {
     if (kind.empty()) break;
     const std::string number = match[2];
     if (match.str().starts_with(" to ") && !last.empty()) {
-      for (const std::string& between : range(last, number)) numbers.push_back(kind + " " + between);
+      for (const std::string& between : range(last, number))
+        numbers.push_back(kind + " " + between);
     } else {
       numbers.push_back(kind + " " + number);
     }
@@ -62,10 +64,13 @@ std::vector<std::string> cited(std::string text) {
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
-  for (std::size_t begin = 1, end; (end = line.find('|', begin)) != std::string::npos; begin = end + 1) {
+  for (std::size_t begin = 1, end; (end = line.find('|', begin)) != std::string::npos;
+       begin = end + 1) {
     const std::string cell = line.substr(begin, end - begin);
     const auto first = cell.find_first_not_of(' ');
-    cells.push_back(first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(' ') - first + 1));
+    cells.push_back(first == std::string::npos
+                        ? ""
+                        : cell.substr(first, cell.find_last_not_of(' ') - first + 1));
   }
   return cells;
 }
@@ -94,8 +99,10 @@ Tables tables_of(const fs::path& root) {
   for (std::string line; std::getline(in, line);) {
     ++number;
     std::smatch match;
-    if (line.starts_with("| ") && !line.starts_with("| thesis |")) tables.rows.push_back({number, cells_of(line)});
-    if (std::regex_match(line, match, item)) tables.differences.push_back({number, match[1], match[2]});
+    if (line.starts_with("| ") && !line.starts_with("| thesis |"))
+      tables.rows.push_back({number, cells_of(line)});
+    if (std::regex_match(line, match, item))
+      tables.differences.push_back({number, match[1], match[2]});
   }
   return tables;
 }
@@ -113,9 +120,11 @@ class Page {
         report("a row has " + std::to_string(row.cells.size()) + " cells instead of 4");
         continue;
       }
-      if (cited(row.cells[0]).empty()) report("\"" + row.cells[0] + "\" is no number of the thesis");
-      const bool is_missing = std::ranges::any_of(
-          differences, [&](const Difference& d) { return d.row == row.cells[0] && d.text.starts_with("Not "); });
+      if (cited(row.cells[0]).empty())
+        report("\"" + row.cells[0] + "\" is no number of the thesis");
+      const bool is_missing = std::ranges::any_of(differences, [&](const Difference& d) {
+        return d.row == row.cells[0] && d.text.starts_with("Not ");
+      });
       if (row.cells[2].empty() && !is_missing) report("what is not there is not said");
       check_names(row.cells[2]);
       check_names(row.cells[3]);
@@ -147,7 +156,8 @@ class Page {
         ++links;
       }
     }
-    if (links > most_links) report("a cell has " + std::to_string(links) + " links: divide the row");
+    if (links > most_links)
+      report("a cell has " + std::to_string(links) + " links: divide the row");
     for (const std::string& name : names) report(name + " stands without a file");
   }
 
@@ -157,9 +167,10 @@ class Page {
     const std::string text = text_of(file);
     for (const std::string& name : names) {
       const auto dot = name.find('.');
-      const std::string pattern = dot == std::string::npos ? "\\b" + name + "\\b"
-                                                           : "\\bTEST(_F|_P)?\\(\\s*" + name.substr(0, dot) +
-                                                                 "\\s*,\\s*" + name.substr(dot + 1) + "\\s*\\)";
+      const std::string pattern = dot == std::string::npos
+                                      ? "\\b" + name + "\\b"
+                                      : "\\bTEST(_F|_P)?\\(\\s*" + name.substr(0, dot) +
+                                            "\\s*,\\s*" + name.substr(dot + 1) + "\\s*\\)";
       if (!std::regex_search(text, std::regex(pattern))) report(name + " is not in " + link);
     }
   }
@@ -184,12 +195,14 @@ std::string joined(const std::string& text) {
 std::vector<fs::path> files_that_cite(const fs::path& root) {
   static const std::set<std::string> kinds = {".hpp", ".cpp", ".inc", ".ts", ".md"};
   std::vector<fs::path> files;
-  for (const char* part : {"include", "src", "apps", "bindings", "bench", "examples", "tests", "docs", "web/src"}) {
+  for (const char* part :
+       {"include", "src", "apps", "bindings", "bench", "examples", "tests", "docs", "web/src"}) {
     if (!fs::exists(root / part)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / part)) {
       const bool is_page = entry.path() == root / page_name;
       const bool is_own = entry.path().parent_path() == root / "tests/house";
-      if (entry.is_regular_file() && kinds.contains(entry.path().extension()) && !is_page && !is_own) {
+      if (entry.is_regular_file() && kinds.contains(entry.path().extension()) && !is_page &&
+          !is_own) {
         files.push_back(entry.path());
       }
     }
@@ -208,17 +221,20 @@ std::vector<std::string> citation_errors(const fs::path& root) {
     for (const std::string& number : cited(row.cells.empty() ? "" : row.cells[0])) {
       known.insert(number);
       if (!number.starts_with("§")) continue;
-      for (auto dot = number.rfind('.'); dot != std::string::npos; dot = number.rfind('.', dot - 1)) {
+      for (auto dot = number.rfind('.'); dot != std::string::npos;
+           dot = number.rfind('.', dot - 1)) {
         known.insert(number.substr(0, dot));
       }
     }
   }
-  static const std::regex unsigned_number(R"(^(?:sections?|figures?|equations?|theorems?) ?\d|^\d\.\d)",
-                                          std::regex::icase);
+  static const std::regex unsigned_number(
+      R"(^(?:sections?|figures?|equations?|theorems?) ?\d|^\d\.\d)", std::regex::icase);
   std::vector<std::string> found;
   for (const fs::path& file : files_that_cite(root)) {
-    const std::string text = joined(text_of(file)), name = fs::relative(file, root).generic_string();
-    for (std::size_t at = text.find("hesis"); at != std::string::npos; at = text.find("hesis", at + 1)) {
+    const std::string text = joined(text_of(file)),
+                      name = fs::relative(file, root).generic_string();
+    for (std::size_t at = text.find("hesis"); at != std::string::npos;
+         at = text.find("hesis", at + 1)) {
       // "thesis" or "Thesis", no part of another word.
       if (at == 0 || std::tolower(static_cast<unsigned char>(text[at - 1])) != 't' ||
           (at > 1 && std::isalpha(static_cast<unsigned char>(text[at - 2])) != 0))
@@ -231,7 +247,8 @@ std::vector<std::string> citation_errors(const fs::path& root) {
                         "\": write § 5.8, Eq. 5.8, Alg. 5.1, Thm 5.2 or Fig. 5.8");
       }
       for (const std::string& number : cited(after)) {
-        if (!known.contains(number)) found.push_back(name + ": " + number + " has no row in " + page_name);
+        if (!known.contains(number))
+          found.push_back(name + ": " + number + " has no row in " + page_name);
       }
     }
   }
@@ -240,8 +257,8 @@ std::vector<std::string> citation_errors(const fs::path& root) {
 
 namespace {
 
-/// The anchors of a page: its headings in small letters, without punctuation, spaces as hyphens; the second of a name
-/// ends in "-1".
+/// The anchors of a page: its headings in small letters, without punctuation, spaces as hyphens;
+/// the second of a name ends in "-1".
 std::set<std::string> anchors_of(const std::string& page) {
   static const std::regex heading(R"(^#+ (.*))");
   static const std::regex link(R"(\[([^\]]*)\]\([^)]*\))");
@@ -260,7 +277,8 @@ std::set<std::string> anchors_of(const std::string& page) {
         anchor += static_cast<char>(std::tolower(byte));
     }
     std::string numbered = anchor;
-    for (int k = 1; !anchors.insert(numbered).second; ++k) numbered = anchor + "-" + std::to_string(k);
+    for (int k = 1; !anchors.insert(numbered).second; ++k)
+      numbered = anchor + "-" + std::to_string(k);
   }
   return anchors;
 }
@@ -272,7 +290,8 @@ std::vector<std::string> dead_links(const fs::path& root) {
   for (const auto& entry : fs::directory_iterator(root)) pages.push_back(entry.path());
   for (const char* part : {"docs", "examples", "samples"}) {
     if (!fs::exists(root / part)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(root / part)) pages.push_back(entry.path());
+    for (const auto& entry : fs::recursive_directory_iterator(root / part))
+      pages.push_back(entry.path());
   }
   std::ranges::sort(pages);
   static const std::regex link(R"(\]\(([^)#: ]*[./][^)#: ]*)?(?:#([^)]*))?\))");
@@ -285,7 +304,8 @@ std::vector<std::string> dead_links(const fs::path& root) {
       const fs::path file = target.empty() ? page : page.parent_path() / target;
       if (!fs::exists(file)) {
         dead.push_back(name + ": " + target);
-      } else if (!anchor.empty() && file.extension() == ".md" && !anchors_of(text_of(file)).contains(anchor)) {
+      } else if (!anchor.empty() && file.extension() == ".md" &&
+                 !anchors_of(text_of(file)).contains(anchor)) {
         dead.push_back(name + ": " + target + "#" + anchor);
       }
     }

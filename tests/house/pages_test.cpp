@@ -27,11 +27,13 @@ class HouseThesisPage : public testing::Test {
  protected:
   HouseThesisPage() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::temp_directory_path() / ("knead-thesis-" + std::to_string(getpid()) + "-" + test->name());
+    root_ = fs::temp_directory_path() /
+            ("knead-thesis-" + std::to_string(getpid()) + "-" + test->name());
     fs::remove_all(root_);
     write("include/knead/energy/energy.hpp", "void stretch();\n");
     write("tests/energy/energy_test.cpp", "TEST_P(Energy,\n       IsConvex) {}\n");
-    row("§ 4.2.1, Eqs. 4.8 to 4.10, Alg. 5.1", "`stretch` in [energy](../include/knead/energy/energy.hpp)",
+    row("§ 4.2.1, Eqs. 4.8 to 4.10, Alg. 5.1",
+        "`stretch` in [energy](../include/knead/energy/energy.hpp)",
         "`Energy.IsConvex` in [test](../tests/energy/energy_test.cpp)");
   }
   ~HouseThesisPage() override { fs::remove_all(root_); }
@@ -43,9 +45,10 @@ class HouseThesisPage : public testing::Test {
 
   void row(const std::string& numbers, const std::string& code, const std::string& tests,
            const std::string& differs = "") {
-    write("docs/thesis.md", "# Thesis\n\n| thesis | what | here | tests |\n|---|---|---|---|\n| " + numbers +
-                                " | energy | " + code + " | " + tests + " |\n\n" +
-                                (differs.empty() ? "" : "- **" + numbers + "**: " + differs + "\n"));
+    write("docs/thesis.md",
+          "# Thesis\n\n| thesis | what | here | tests |\n|---|---|---|---|\n| " + numbers +
+              " | energy | " + code + " | " + tests + " |\n\n" +
+              (differs.empty() ? "" : "- **" + numbers + "**: " + differs + "\n"));
   }
 
   using Errors = std::vector<std::string>;
@@ -66,7 +69,8 @@ TEST_F(HouseThesisPage, WithoutItsFunctionIsFound) {
 
 TEST_F(HouseThesisPage, WithoutItsFileIsFound) {
   fs::remove(root_ / "include/knead/energy/energy.hpp");
-  EXPECT_EQ(thesis_page_errors(root_), Errors{"docs/thesis.md:5: ../include/knead/energy/energy.hpp does not exist"});
+  EXPECT_EQ(thesis_page_errors(root_),
+            Errors{"docs/thesis.md:5: ../include/knead/energy/energy.hpp does not exist"});
 }
 
 TEST_F(HouseThesisPage, WithoutItsTestIsFound) {
@@ -83,7 +87,8 @@ TEST_F(HouseThesisPage, WithANameThatHasNoFileOrARowThatSaysNothingIsFound) {
   row("Eq. 4.8", "", "", "Not implemented.");
   EXPECT_EQ(thesis_page_errors(root_), Errors{});
   row("4.8", "", "", "Not implemented.");
-  EXPECT_EQ(thesis_page_errors(root_), Errors{"docs/thesis.md:5: \"4.8\" is no number of the thesis"});
+  EXPECT_EQ(thesis_page_errors(root_),
+            Errors{"docs/thesis.md:5: \"4.8\" is no number of the thesis"});
 }
 
 TEST_F(HouseThesisPage, WithMoreLinksThanARowShowsOrADifferenceOfNoRowIsFound) {
@@ -91,29 +96,37 @@ TEST_F(HouseThesisPage, WithMoreLinksThanARowShowsOrADifferenceOfNoRowIsFound) {
   row("Eq. 4.8", link + ", " + link, "");
   EXPECT_EQ(thesis_page_errors(root_), Errors{});
   row("Eq. 4.8", link + ", " + link + ", " + link, "");
-  EXPECT_EQ(thesis_page_errors(root_), Errors{"docs/thesis.md:5: a cell has 3 links: divide the row"});
-  write("docs/thesis.md", "| thesis | what | here | tests |\n|---|---|---|---|\n| Eq. 4.8 | energy | " + link +
-                              " | |\n\n- **Eq. 4.9**: Not so.\n");
-  EXPECT_EQ(thesis_page_errors(root_), Errors{"docs/thesis.md:5: \"Eq. 4.9\" is the first cell of no row"});
+  EXPECT_EQ(thesis_page_errors(root_),
+            Errors{"docs/thesis.md:5: a cell has 3 links: divide the row"});
+  write("docs/thesis.md",
+        "| thesis | what | here | tests |\n|---|---|---|---|\n| Eq. 4.8 | energy | " + link +
+            " | |\n\n- **Eq. 4.9**: Not so.\n");
+  EXPECT_EQ(thesis_page_errors(root_),
+            Errors{"docs/thesis.md:5: \"Eq. 4.9\" is the first cell of no row"});
 }
 
 TEST_F(HouseThesisPage, IsWhatCitationsLeadTo) {
   write("src/energy/energy.cpp",
-        "// The thesis' Eq. 4.9 (thesis § 4.2, Eqs. 4.8,\n/// 4.10 and Alg. 5.1); Book, Eq. 9.9; a parenthesis 4.2.\n");
+        "// The thesis' Eq. 4.9 (thesis § 4.2, Eqs. 4.8,\n/// 4.10 and Alg. 5.1); Book, Eq. 9.9; a "
+        "parenthesis 4.2.\n");
   EXPECT_EQ(citation_errors(root_), Errors{});
   write("src/energy/energy.cpp", "// See thesis\n// Eqs. 4.10 to 4.12.\n");
-  EXPECT_EQ(citation_errors(root_), (Errors{"src/energy/energy.cpp: Eq 4.11 has no row in docs/thesis.md",
-                                            "src/energy/energy.cpp: Eq 4.12 has no row in docs/thesis.md"}));
+  EXPECT_EQ(citation_errors(root_),
+            (Errors{"src/energy/energy.cpp: Eq 4.11 has no row in docs/thesis.md",
+                    "src/energy/energy.cpp: Eq 4.12 has no row in docs/thesis.md"}));
   write("src/energy/energy.cpp", "// What it costs (thesis 4.2).\n");
-  EXPECT_EQ(citation_errors(root_), Errors{"src/energy/energy.cpp: \"thesis 4.2). \": write § 5.8, Eq. 5.8, Alg. 5.1, "
-                                           "Thm 5.2 or Fig. 5.8"});
+  EXPECT_EQ(citation_errors(root_),
+            Errors{"src/energy/energy.cpp: \"thesis 4.2). \": write § 5.8, Eq. 5.8, Alg. 5.1, "
+                   "Thm 5.2 or Fig. 5.8"});
 }
 
 TEST_F(HouseThesisPage, IsAPageWhoseDeadLinksAreFound) {
   write("README.md",
-        "# Two words: `x`\n[a](docs/thesis.md), [b](docs/thesis.md#thesis), [c](https://no.where/x.md), `S[0](i)` "
+        "# Two words: `x`\n[a](docs/thesis.md), [b](docs/thesis.md#thesis), "
+        "[c](https://no.where/x.md), `S[0](i)` "
         "[d](e.md), [e](#two-words-x), [f](#two), [g](docs/thesis.md#rows).\n");
-  EXPECT_EQ(dead_links(root_), (Errors{"README.md: e.md", "README.md: #two", "README.md: docs/thesis.md#rows"}));
+  EXPECT_EQ(dead_links(root_),
+            (Errors{"README.md: e.md", "README.md: #two", "README.md: docs/thesis.md#rows"}));
   fs::remove(root_ / "tests/energy/energy_test.cpp");
   write("README.md", "");
   EXPECT_EQ(dead_links(root_), Errors{"docs/thesis.md: ../tests/energy/energy_test.cpp"});

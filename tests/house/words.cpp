@@ -16,7 +16,8 @@ struct Turn {
   std::string_view turn, instead;
 };
 
-/// Of a private language, or archaic: a reader stops at each. In small letters; a space stands for any white space.
+/// Of a private language, or archaic: a reader stops at each. In small letters; a space stands for
+/// any white space.
 constexpr std::array<Turn, 20> turns = {{
     {" of before", "earlier, or which version"},
     {"brought near", "prefetched"},
@@ -45,16 +46,18 @@ std::string bytes_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What stands between quotes, each followed by a space; a line ends a literal that does not end before. Comments to
-/// the end of a line are left out.
+/// What stands between quotes, each followed by a space; a line ends a literal that does not end
+/// before. Comments to the end of a line are left out.
 std::string texts_of(const std::string& source, bool is_script) {
   std::string texts;
   char quote = 0;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const char c = source[i];
     if (quote == 0) {
-      if (!is_script && source.compare(i, 2, "//") == 0) i = std::min(source.find('\n', i), source.size() - 1);
-      if (c == '"' || c == '`' || (c == '\'' && i > 0 && !std::isalnum(static_cast<unsigned char>(source[i - 1]))))
+      if (!is_script && source.compare(i, 2, "//") == 0)
+        i = std::min(source.find('\n', i), source.size() - 1);
+      if (c == '"' || c == '`' ||
+          (c == '\'' && i > 0 && !std::isalnum(static_cast<unsigned char>(source[i - 1]))))
         quote = c;
     } else if (c == quote || (c == '\n' && quote != '`')) {
       quote = 0;
@@ -96,8 +99,8 @@ std::vector<std::string> banned_turns(const fs::path& root) {
   const auto inspect = [&](const fs::path& file, const std::string& text) {
     for (const Turn& t : turns) {
       if (!text.contains(t.turn)) continue;
-      found.push_back(fs::relative(file, root).generic_string() + ": \"" + std::string(t.turn) + "\": write \"" +
-                      std::string(t.instead) + "\"");
+      found.push_back(fs::relative(file, root).generic_string() + ": \"" + std::string(t.turn) +
+                      "\": write \"" + std::string(t.instead) + "\"");
     }
   };
   for (const char* name : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "Makefile"})

@@ -21,13 +21,16 @@ TEST(House, FindsBannedTurnsInPagesAndTexts) {
     std::ofstream(root / name) << text;
   };
   write("docs/design/step.md", "Numbers are Brought\nnear.\n");
-  write("src/base/error.cpp",
-        "// what became of it\nauto a = 'x', b = \"as before\"; f(\"a \\\"second\\\" is said\");\n");
-  write("web/src/app/main.ts",
-        "const but for = 1; // 'it's for good'\nsay('nothing', `for\n${name} good`, 'for good');\n");
-  EXPECT_EQ(banned_turns(root), (std::vector<std::string>{"docs/design/step.md: \"brought near\": write \"prefetched\"",
-                                                          "src/base/error.cpp: \"is said\": write \"is reported\"",
-                                                          "web/src/app/main.ts: \"for good\": write \"permanently\""}));
+  write(
+      "src/base/error.cpp",
+      "// what became of it\nauto a = 'x', b = \"as before\"; f(\"a \\\"second\\\" is said\");\n");
+  write(
+      "web/src/app/main.ts",
+      "const but for = 1; // 'it's for good'\nsay('nothing', `for\n${name} good`, 'for good');\n");
+  EXPECT_EQ(banned_turns(root),
+            (std::vector<std::string>{"docs/design/step.md: \"brought near\": write \"prefetched\"",
+                                      "src/base/error.cpp: \"is said\": write \"is reported\"",
+                                      "web/src/app/main.ts: \"for good\": write \"permanently\""}));
   fs::remove_all(root);
 }
 

@@ -11,7 +11,8 @@ Image discs(double sign) {
   Image image{120, 80, {}};
   for (int y = 0; y < 80; ++y) {
     for (int x = 0; x < 120; ++x) {
-      const double a = std::hypot(x - 30, y - 40) < 8 ? 0.6 : 0, b = std::hypot(x - 85, y - 35) < 14 ? 0.2 : 0;
+      const double a = std::hypot(x - 30, y - 40) < 8 ? 0.6 : 0,
+                   b = std::hypot(x - 85, y - 35) < 14 ? 0.2 : 0;
       image.values.push_back(0.5 + sign * (a + b) / 2);
     }
   }
@@ -20,7 +21,8 @@ Image discs(double sign) {
 
 TEST(Blobs, AreDiscsWithTheirPlaceRadiusAndContrast) {
   for (const bool dark : {false, true}) {
-    const auto blobs = find_blobs(discs(dark ? -1 : 1), {.radii = {5, 20}, .contrast = 0.05, .dark = dark});
+    const auto blobs =
+        find_blobs(discs(dark ? -1 : 1), {.radii = {5, 20}, .contrast = 0.05, .dark = dark});
     ASSERT_TRUE(blobs) << blobs.error().message();
     ASSERT_EQ(blobs->size(), 2U);
     const Blob &a = (*blobs)[0], &b = (*blobs)[1];

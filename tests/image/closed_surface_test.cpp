@@ -17,7 +17,8 @@ using testing::distances, testing::Radii;
 TEST(ClosedSurface, OfEveryDegreeIsTheSphereOrTheTorus) {
   for (const int p : {2, 3, 4, 5, 7}) {
     const SurfaceSnakeSettings settings{.degree = p, .control_points = {32, 24}};
-    const auto ball = closed_surface({.centre = {1, 2, 3}, .radii = {10, 10, 10}, .axis = {1, 1, 0}}, settings);
+    const auto ball =
+        closed_surface({.centre = {1, 2, 3}, .radii = {10, 10, 10}, .axis = {1, 1, 0}}, settings);
     ASSERT_TRUE(ball) << ball.error().message();
     const Radii r = distances(*ball, {1, 2, 3});
     EXPECT_NEAR(r.least, 10, p == 2 ? 1e-2 : 2e-3) << p;
@@ -54,12 +55,16 @@ TEST(ClosedSurface, PolesAreOnePointWithATangentPlane) {
 
 TEST(ClosedMesh, IsClosedAndKnowsWhatIsInside) {
   for (const SurfaceForm form : {SurfaceForm::sphere, SurfaceForm::torus}) {
-    const auto surface = closed_surface(
-        {.form = form, .centre = {20, 20, 20}, .radii = {12, form == SurfaceForm::torus ? 5.0 : 12.0, 12}}, {});
+    const auto surface =
+        closed_surface({.form = form,
+                        .centre = {20, 20, 20},
+                        .radii = {12, form == SurfaceForm::torus ? 5.0 : 12.0, 12}},
+                       {});
     ASSERT_TRUE(surface);
     const ClosedMesh mesh = closed_mesh(*surface);
     const auto points = mesh.points.rows(), triangles = std::ssize(mesh.triangles);
-    EXPECT_EQ(points - triangles / 2, form == SurfaceForm::torus ? 0 : 2);  // Euler's number: 3 edges for 2 triangles
+    EXPECT_EQ(points - triangles / 2,
+              form == SurfaceForm::torus ? 0 : 2);  // Euler's number: 3 edges for 2 triangles
     double volume = 0;
     for (const auto& t : mesh.triangles) {
       volume += mesh.points.row(t[0]).dot(mesh.points.row(t[1]).cross(mesh.points.row(t[2]))) / 6;
@@ -71,8 +76,8 @@ TEST(ClosedMesh, IsClosedAndKnowsWhatIsInside) {
       for (int j = 0; j < 41; ++j) {
         for (int i = 0; i < 41; ++i) {
           const double x = i - 20, y = j - 20, z = k - 20;
-          const double out =
-              form == SurfaceForm::torus ? std::hypot(std::hypot(x, y) - 12, z) - 5 : std::hypot(x, y, z) - 12;
+          const double out = form == SurfaceForm::torus ? std::hypot(std::hypot(x, y) - 12, z) - 5
+                                                        : std::hypot(x, y, z) - 12;
           if (std::abs(out) < 0.05) continue;
           EXPECT_EQ(mask.at(i, j, k), out < 0 ? 1 : 0) << i << " " << j << " " << k;
         }
@@ -86,7 +91,9 @@ TEST(ClosedMesh, KnowsWhereItCrossesItself) {
   ASSERT_TRUE(ball);
   Points c = ball->surface.control_points();
   for (Eigen::Index k = 0; k < c.rows(); ++k) {
-    if (c(k, 2) > 5) c.row(k) << c(k, 0) / 2, c(k, 1) / 2, -30 - c(k, 2);  // the north cap goes out through the south
+    if (c(k, 2) > 5)
+      c.row(k) << c(k, 0) / 2, c(k, 1) / 2,
+          -30 - c(k, 2);  // the north cap goes out through the south
   }
   const ClosedSurface crossed{*ball->surface.with_control_points(std::move(c)), ball->form};
   const ClosedMesh mesh = closed_mesh(crossed);

@@ -25,7 +25,8 @@ class ImageFile : public ::testing::Test {
 
  private:
   std::string path_ = (std::filesystem::temp_directory_path() /
-                       (std::string("knead_image_") + ::testing::UnitTest::GetInstance()->current_test_info()->name()))
+                       (std::string("knead_image_") +
+                        ::testing::UnitTest::GetInstance()->current_test_info()->name()))
                           .string();
 };
 
@@ -54,20 +55,22 @@ std::string png_with(int width, int height, int type, int depth, std::vector<uns
         static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<char*>(data), size);
       },
       nullptr);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), depth, type,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), depth,
+               type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   const png_color palette[] = {{255, 0, 0}, {0, 0, 255}};
   if (type == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette, 2);
   png_write_info(png, info);
   const std::size_t row = bytes.size() / static_cast<std::size_t>(height);
-  for (int y = 0; y < height; ++y) png_write_row(png, bytes.data() + static_cast<std::size_t>(y) * row);
+  for (int y = 0; y < height; ++y)
+    png_write_row(png, bytes.data() + static_cast<std::size_t>(y) * row);
   png_write_end(png, info);
   png_destroy_write_struct(&png, &info);
   return out;
 }
 
 TEST_F(ImageFile, SixteenBitsKeepTheirDigits) {
-  const auto read = cli::read_image(write(png_with(2, 1, PNG_COLOR_TYPE_GRAY, 16, {0x12, 0x34, 0xff, 0xff})));
+  const auto read =
+      cli::read_image(write(png_with(2, 1, PNG_COLOR_TYPE_GRAY, 16, {0x12, 0x34, 0xff, 0xff})));
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_EQ(read->width, 2);
   EXPECT_EQ(read->values, (std::vector<double>{0x1234 / 65535.0, 1}));
@@ -83,10 +86,12 @@ TEST_F(ImageFile, ColoursAreTheirLumaOrOneOfThem) {
   EXPECT_EQ(red->values, (std::vector<double>{1, 0}));
   EXPECT_EQ(cli::read_image(path, ImageChannel::green)->values[0], 0.2);
   EXPECT_EQ(cli::read_image(path, ImageChannel::blue)->values[1], 0.4);
-  const auto palette = cli::read_image(write(png_with(2, 1, PNG_COLOR_TYPE_PALETTE, 8, {1, 0})), ImageChannel::blue);
+  const auto palette =
+      cli::read_image(write(png_with(2, 1, PNG_COLOR_TYPE_PALETTE, 8, {1, 0})), ImageChannel::blue);
   ASSERT_TRUE(palette) << palette.error().message();
   EXPECT_EQ(palette->values, (std::vector<double>{1, 0}));
-  const auto transparent = cli::read_image(write(png_with(1, 1, PNG_COLOR_TYPE_RGBA, 8, {0, 0, 0, 51})));
+  const auto transparent =
+      cli::read_image(write(png_with(1, 1, PNG_COLOR_TYPE_RGBA, 8, {0, 0, 0, 51})));
   ASSERT_TRUE(transparent) << transparent.error().message();
   EXPECT_NEAR(transparent->values[0], 0.8, 1e-15);
 }
@@ -120,7 +125,8 @@ TEST_F(ImageFile, AJpegIsReadWithinItsLosses) {
   ASSERT_TRUE(grey && blue);
   EXPECT_EQ(grey->width, 32);
   EXPECT_EQ(grey->height, 16);
-  for (const double x : grey->values) EXPECT_NEAR(x, (200 * 0.2125 + 100 * 0.7154 + 50 * 0.0721) / 255, 0.02);
+  for (const double x : grey->values)
+    EXPECT_NEAR(x, (200 * 0.2125 + 100 * 0.7154 + 50 * 0.0721) / 255, 0.02);
   for (const double x : blue->values) EXPECT_NEAR(x, 50 / 255.0, 0.02);
 }
 
@@ -131,10 +137,12 @@ TEST_F(ImageFile, DamagedFilesAreRefusedOrRead) {
   for (int k = 0; k < 400; ++k) {
     std::string bad = good;
     if (k % 2 == 0) bad.resize(random() % bad.size());
-    for (int change = 0; change < 3 && !bad.empty(); ++change) bad[random() % bad.size()] = static_cast<char>(random());
+    for (int change = 0; change < 3 && !bad.empty(); ++change)
+      bad[random() % bad.size()] = static_cast<char>(random());
     const auto read = cli::read_image(write(bad));
     if (read) {
-      EXPECT_EQ(read->values.size(), static_cast<std::size_t>(read->width) * static_cast<std::size_t>(read->height));
+      EXPECT_EQ(read->values.size(),
+                static_cast<std::size_t>(read->width) * static_cast<std::size_t>(read->height));
     } else {
       EXPECT_FALSE(read.error().what.empty());
       ++refused;

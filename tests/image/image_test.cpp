@@ -18,7 +18,8 @@ Image made(int width, int height, const auto& f) {
 
 Image noise(int width, int height) {
   std::mt19937_64 random(5);
-  return made(width, height, [&](int, int) { return std::uniform_real_distribution<double>(0, 1)(random); });
+  return made(width, height,
+              [&](int, int) { return std::uniform_real_distribution<double>(0, 1)(random); });
 }
 
 TEST(ImageSpline, GoesThroughThePixelsOfEverySize) {
@@ -27,7 +28,8 @@ TEST(ImageSpline, GoesThroughThePixelsOfEverySize) {
     const ImageSpline spline(image);
     double error = 0;
     for (int y = 0; y < h; ++y) {
-      for (int x = 0; x < w; ++x) error = std::max(error, std::abs(spline.value(x, y) - image.at(x, y)));
+      for (int x = 0; x < w; ++x)
+        error = std::max(error, std::abs(spline.value(x, y) - image.at(x, y)));
     }
     EXPECT_LT(error, 1e-14) << w << " x " << h;
     EXPECT_DOUBLE_EQ(spline.value(-3, -5), spline.value(0, 0));
@@ -57,7 +59,8 @@ TEST(Gaussian, KeepsConstantsAndSumsAndSpreadsAsItsVarianceSays) {
   const Image spread = gaussian(dot, 3);
   double sum = 0, variance = 0;
   for (int y = 0; y < 81; ++y) {
-    for (int x = 0; x < 81; ++x) sum += spread.at(x, y), variance += spread.at(x, y) * (x - 40) * (x - 40);
+    for (int x = 0; x < 81; ++x)
+      sum += spread.at(x, y), variance += spread.at(x, y) * (x - 40) * (x - 40);
   }
   EXPECT_NEAR(sum, 1, 1e-14);
   EXPECT_NEAR(variance, 9, 0.02);  // cut at 4 σ
@@ -91,7 +94,8 @@ TEST(DistanceTo, IsThatOfALoopOverAllPixels) {
 
 TEST(Termination, IsTheCurvatureOfCircles) {
   // Lines of equal grey of r² are circles of curvature 1/r.
-  const Image bowl = made(61, 61, [](int x, int y) { return (x - 30) * (x - 30) + (y - 30) * (y - 30); });
+  const Image bowl =
+      made(61, 61, [](int x, int y) { return (x - 30) * (x - 30) + (y - 30) * (y - 30); });
   const Image curvature = termination(bowl);
   EXPECT_NEAR(curvature.at(50, 30), 1 / 20.0, 1e-12);
   EXPECT_NEAR(curvature.at(42, 46), 1 / 20.0, 1e-12);
@@ -102,9 +106,11 @@ TEST(ImagePotential, DrawsToCornersByTheirCurvature) {
   for (int y = 20; y < 40; ++y) {
     for (int x = 20; x < 40; ++x) square.at(x, y) = 1;
   }
-  const auto potential = ImagePotential::create(square, {.smoothing = 2, .edge = 0, .termination = -1});
+  const auto potential =
+      ImagePotential::create(square, {.smoothing = 2, .edge = 0, .termination = -1});
   ASSERT_TRUE(potential);
-  double most = 0, x = 0, y = 0;  // the weight is negative: lines of equal grey around what is bright curve that way
+  double most = 0, x = 0,
+         y = 0;  // the weight is negative: lines of equal grey around what is bright curve that way
   for (int j = 15; j < 45; ++j) {
     for (int i = 15; i < 45; ++i) {
       if (potential->value(i, j) <= most) continue;
@@ -121,7 +127,8 @@ TEST(ImagePotential, DrawsToCornersByTheirCurvature) {
 TEST(GradientVectorFlow, PointsToAnEdgeFromFarAway) {
   const Image edge = made(101, 21, [](int x, int) { return std::exp(-(x - 20) * (x - 20) / 4.0); });
   const auto flow = gradient_vector_flow(edge, 0.2, 3000);
-  EXPECT_LT(flow[0].at(60, 10), 0);  // 40 pixels to the right of it, where the slope of the edge is 1e-173
+  EXPECT_LT(flow[0].at(60, 10),
+            0);  // 40 pixels to the right of it, where the slope of the edge is 1e-173
   EXPECT_GT(flow[0].at(2, 10), 0);
   EXPECT_NEAR(flow[1].at(60, 10), 0, 1e-12);
 }

@@ -13,8 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string header(const std::string& type, const std::string& more = "", const std::string& version = "NRRD0004") {
-  return version + "\n# made by a test\ntype: " + type + "\ndimension: 3\nsizes: 3 2 2\nencoding: raw\n" + more;
+std::string header(const std::string& type, const std::string& more = "",
+                   const std::string& version = "NRRD0004") {
+  return version + "\n# made by a test\ntype: " + type +
+         "\ndimension: 3\nsizes: 3 2 2\nencoding: raw\n" + more;
 }
 
 /// Values as bytes, the least first or last.
@@ -44,20 +46,24 @@ std::string refused(const std::string& file) {
 template <class T>
 void check_type(const std::string& name) {
   const T low = std::numeric_limits<T>::lowest(), high = std::numeric_limits<T>::max();
-  const std::vector<T> values = {0,   1,    2, 3, 100, 101, static_cast<T>(low / 2), static_cast<T>(high / 2),
-                                 low, high, 7, 8};
+  const std::vector<T> values = {
+      0, 1, 2, 3, 100, 101, static_cast<T>(low / 2), static_cast<T>(high / 2), low, high, 7, 8};
   for (const bool big : {false, true}) {
-    const auto volume = read(header(name, big ? "endian: big\n\n" : "endian: little\n\n") + bytes_of(values, big));
+    const auto volume =
+        read(header(name, big ? "endian: big\n\n" : "endian: little\n\n") + bytes_of(values, big));
     ASSERT_TRUE(volume) << name << " " << volume.error().message();
     EXPECT_EQ(volume->size, (std::array<int, 3>{3, 2, 2}));
-    for (std::size_t k = 0; k < 12; ++k) EXPECT_EQ(volume->values[k], static_cast<double>(values[k])) << name;
-    EXPECT_EQ(volume->at(1, 0, 1), static_cast<double>(values[7]));  // the first axis is the fastest
+    for (std::size_t k = 0; k < 12; ++k)
+      EXPECT_EQ(volume->values[k], static_cast<double>(values[k])) << name;
+    EXPECT_EQ(volume->at(1, 0, 1),
+              static_cast<double>(values[7]));  // the first axis is the fastest
   }
 }
 
 TEST(Nrrd, NumbersOfEveryTypeAndByteOrderComeOutAsTheyWentIn) {
   for (const char* name : {"signed char", "int8", "int8_t"}) check_type<std::int8_t>(name);
-  for (const char* name : {"uchar", "unsigned char", "uint8", "uint8_t"}) check_type<std::uint8_t>(name);
+  for (const char* name : {"uchar", "unsigned char", "uint8", "uint8_t"})
+    check_type<std::uint8_t>(name);
   for (const char* name : {"short", "signed short int", "int16"}) check_type<std::int16_t>(name);
   for (const char* name : {"ushort", "unsigned short", "uint16_t"}) check_type<std::uint16_t>(name);
   for (const char* name : {"int", "int32"}) check_type<std::int32_t>(name);
@@ -73,8 +79,9 @@ TEST(Nrrd, LargeIntegersThatNoDoubleHoldsAreRefused) {
   EXPECT_EQ(volume->values[4], 9007199254740992.0);
   std::vector<std::int64_t> more = values;
   more[3] = (1LL << 54) + 2;
-  EXPECT_NE(refused(header("longlong", "endian: little\n\n") + bytes_of(more, false)).find("voxel 3"),
-            std::string::npos);
+  EXPECT_NE(
+      refused(header("longlong", "endian: little\n\n") + bytes_of(more, false)).find("voxel 3"),
+      std::string::npos);
 }
 
 const std::string data(12, '\5');
@@ -93,9 +100,11 @@ TEST(Nrrd, VoxelsStandWhereTheHeaderPutsThem) {
   EXPECT_EQ(frame("spacings: 0.5 1 2\naxis mins: 10 -3 1\ncenters: cell node cell\n"), wanted);
   wanted.directions.col(0) << 0.5, 0.1, 0;
   wanted.directions.col(2) << 0, -0.3, 2;
-  EXPECT_EQ(frame("space: left-posterior-superior\r\nspace directions: (0.5,0.1,0) (0, 1, 0) (0,-0.3,2)\r\n"
-                  "space origin: (10.25,-3,2)\r\nkinds: domain domain domain\nkey:=value: 3\n"),
-            wanted);
+  EXPECT_EQ(
+      frame(
+          "space: left-posterior-superior\r\nspace directions: (0.5,0.1,0) (0, 1, 0) (0,-0.3,2)\r\n"
+          "space origin: (10.25,-3,2)\r\nkinds: domain domain domain\nkey:=value: 3\n"),
+      wanted);
 }
 
 TEST(Nrrd, WhatIsWrittenComesBack) {
@@ -121,15 +130,17 @@ class NrrdFiles : public ::testing::Test {
   }
 
  private:
-  fs::path directory_ = fs::temp_directory_path() /
-                        (std::string("knead_nrrd_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  fs::path directory_ =
+      fs::temp_directory_path() / (std::string("knead_nrrd_") +
+                                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(NrrdFiles, DetachedHeadersFindTheirDataBesideThem) {
   write("v.raw", "two\nlines\nabc" + data);
   const auto at = [&](const std::string& fields) {
     const auto file = read_nrrd(write("v.nhdr", header("uint8", fields)));
-    return file ? (file->volume.values == std::vector<double>(12, 5) ? "right" : "wrong") : file.error().message();
+    return file ? (file->volume.values == std::vector<double>(12, 5) ? "right" : "wrong")
+                : file.error().message();
   };
   EXPECT_EQ(at("data file: v.raw\nline skip: 2\nbyte skip: 3\n"), "right");
   EXPECT_EQ(at("datafile: ./v.raw\nbyte skip: -1\n\n"), "right");
@@ -156,8 +167,9 @@ TEST_F(NrrdFiles, DetachedHeadersNameNoFileOutsideOfTheirFolder) {
   };
   EXPECT_EQ(at("deeper/v.raw"), "read");
   EXPECT_EQ(at("in.raw"), "read");
-  for (const std::string& name : {outside, std::string("../v.raw"), std::string("deeper/../../v.raw"),
-                                  std::string("/dev/zero"), std::string("out.raw"), std::string("up/v.raw")}) {
+  for (const std::string& name :
+       {outside, std::string("../v.raw"), std::string("deeper/../../v.raw"),
+        std::string("/dev/zero"), std::string("out.raw"), std::string("up/v.raw")}) {
     const std::string message = at(name);
     EXPECT_NE(message.find("v.nhdr: data file: \"" + name), std::string::npos) << message;
     EXPECT_NE(message.find("folder of the header"), std::string::npos) << message;
@@ -176,15 +188,22 @@ TEST(Nrrd, ErrorsNameTheLineAndWhatWouldBeRight) {
   says(header("uint8", "type: float\n\n") + data, "type: it comes twice");
   says(header("block", "\n"), "v.nrrd:3: type: \"block\" is no type of numbers");
   says(header("short", "\n") + data + data, "endian: the order of the bytes is not said");
-  says("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\nencoding: gzip\n\n" + data, "unu save -f nrrd -e raw");
+  says("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\nencoding: gzip\n\n" + data,
+       "unu save -f nrrd -e raw");
   says("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\nencoding: ascii\n\n" + data,
        "data in \"ascii\" are not read");
-  says("NRRD0004\ntype: uint8\ndimension: 4\nsizes: 3 2 2 1\nencoding: raw\n\n" + data, "dimension: \"4\" is not 3");
-  says("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 0 2\nencoding: raw\n\n", "sizes: \"0\" is no size");
-  says("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2\nencoding: raw\n\n", "there are not three sizes");
+  says("NRRD0004\ntype: uint8\ndimension: 4\nsizes: 3 2 2 1\nencoding: raw\n\n" + data,
+       "dimension: \"4\" is not 3");
+  says("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 0 2\nencoding: raw\n\n",
+       "sizes: \"0\" is no size");
+  says("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2\nencoding: raw\n\n",
+       "there are not three sizes");
   // The memory is not asked for before the sizes are known to be right.
-  says("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 99999 99999 99999\nencoding: raw\n\n", "too many");
-  says("NRRD0004\ntype: double\nendian: big\ndimension: 3\nsizes: 500 500 500\nencoding: raw\n\n" + data, "not 12");
+  says("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 99999 99999 99999\nencoding: raw\n\n",
+       "too many");
+  says("NRRD0004\ntype: double\nendian: big\ndimension: 3\nsizes: 500 500 500\nencoding: raw\n\n" +
+           data,
+       "not 12");
   says(header("uint8"), "the header does not end");
   says(header("uint8", "\n") + data + "x", "need 12 bytes of data, not 13");
   says(header("uint8", "spacings: 1 nan 1\n\n") + data, "spacings: \"nan\" is no number");
@@ -192,20 +211,25 @@ TEST(Nrrd, ErrorsNameTheLineAndWhatWouldBeRight) {
   says(header("uint8", "axis mins: 0 0 0\n\n") + data, "of cells or of nodes");
   says(header("uint8", "space directions: (1,0,0) (0,1,0) none\n\n") + data, "three directions");
   says(header("uint8", "space directions: (1,0,0) (0,1,0) (1,1,0)\n\n") + data, "in a plane");
-  says(header("uint8", "space dimension: 2\nspace directions: (1,0) (0,1) (1,1)\n\n") + data, "three dimensions");
-  says(header("float", "endian: little\n\n") + bytes_of(std::vector<float>(12, std::nanf("")), false), "voxel 0");
+  says(header("uint8", "space dimension: 2\nspace directions: (1,0) (0,1) (1,1)\n\n") + data,
+       "three dimensions");
+  says(header("float", "endian: little\n\n") +
+           bytes_of(std::vector<float>(12, std::nanf("")), false),
+       "voxel 0");
 }
 
 TEST(Nrrd, DamagedFilesAreRefusedOrRead) {
   const std::string good =
-      header("short", "endian: little\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n\n") + data + data;
+      header("short", "endian: little\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n\n") + data +
+      data;
   ASSERT_TRUE(read(good));
   std::mt19937_64 random(2);
   int refusals = 0;
   for (int k = 0; k < 2000; ++k) {
     std::string bad = good;
     if (k % 2 == 0) bad.resize(random() % bad.size());
-    for (int change = 0; change < 3 && !bad.empty(); ++change) bad[random() % bad.size()] = static_cast<char>(random());
+    for (int change = 0; change < 3 && !bad.empty(); ++change)
+      bad[random() % bad.size()] = static_cast<char>(random());
     const auto volume = read(bad);
     if (volume) {
       EXPECT_TRUE(check_volume(*volume));

@@ -83,7 +83,8 @@ class Nuclei : public ::testing::Test {
 
 /// One for all of them; as a script it is in docs/snakes.md.
 constexpr const char* settings = R"("image":{"smoothing":1,"region":1,"relative_region":true},
-  "settings":{"control_points":10,"units":100,"alpha":0.1,"beta":5,"gamma":1,"band":8,"motion":0.02,"max_iterations":500})";
+  "settings":{"control_points":10,"units":100,"alpha":0.1,"beta":5,"gamma":1,
+  "band":8,"motion":0.02,"max_iterations":500})";
 
 Expected<std::vector<SnakeResult>> run(const Image& image, const SnakeScript& script) {
   const auto potential = ImagePotential::create(image, script.image);
@@ -97,7 +98,8 @@ Expected<std::vector<SnakeResult>> run(const Image& image, const SnakeScript& sc
 }
 
 TEST_F(Nuclei, AreFoundFromCirclesOfHalfTheirSize) {
-  SnakeScript script = *parse_snake_script(fmt::format(R"({{"knead":2,{},"snakes":[{{}}]}})", settings));
+  SnakeScript script =
+      *parse_snake_script(fmt::format(R"({{"knead":2,{},"snakes":[{{}}]}})", settings));
   script.snakes.clear();
   for (const auto& [l, n] : alone) {
     const double radius = std::sqrt(n.area / std::numbers::pi) / 2;
@@ -123,8 +125,8 @@ TEST_F(Nuclei, AreFoundFromCirclesOfHalfTheirSize) {
 }
 
 TEST_F(Nuclei, AreFoundWithoutKnowingWhereTheyAre) {
-  const SnakeScript script =
-      *parse_snake_script(fmt::format(R"({{"knead":2,{},"blobs":{{"radii":[7,14],"contrast":0.05}}}})", settings));
+  const SnakeScript script = *parse_snake_script(
+      fmt::format(R"({{"knead":2,{},"blobs":{{"radii":[7,14],"contrast":0.05}}}})", settings));
   const auto snakes = run(image, script);
   ASSERT_TRUE(snakes) << snakes.error().message();
   std::map<int, double> best;

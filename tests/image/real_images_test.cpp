@@ -1,4 +1,5 @@
-// Images of the collection against the references beside them: what scikit-image finds, and silhouettes.
+// Images of the collection against the references beside them: what scikit-image finds, and
+// silhouettes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +21,9 @@ using Places = std::vector<std::array<double, 2>>;
 
 class RealImage : public ::testing::Test {
  protected:
-  void SetUp() override { KNEAD_NEEDS(testing::foreign_paths(testing::foreign_images, "data/images/")); }
+  void SetUp() override {
+    KNEAD_NEEDS(testing::foreign_paths(testing::foreign_images, "data/images/"));
+  }
   static std::string directory() { return testing::foreign("data/images/").string(); }
   static Image read(const std::string& name, ImageChannel channel = ImageChannel::grey) {
     const auto image = cli::read_image(directory() + name, channel);
@@ -55,7 +58,8 @@ double distance(const std::array<double, 2>& p, const Places& line, bool closed)
   for (std::size_t k = 0; k + (closed ? 0 : 1) < line.size(); ++k) {
     const auto &a = line[k], &b = line[(k + 1) % line.size()];
     const double dx = b[0] - a[0], dy = b[1] - a[1], q = dx * dx + dy * dy;
-    const double r = q > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / q, 0.0, 1.0) : 0;
+    const double r =
+        q > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / q, 0.0, 1.0) : 0;
     nearest = std::min(nearest, std::hypot(a[0] + r * dx - p[0], a[1] + r * dy - p[1]));
   }
   return nearest;
@@ -90,13 +94,14 @@ SnakeResult run(const Image& image, const ImagePotentialSettings& energies, cons
   return snakes->front();
 }
 
-// scikit-image's examples: their finite differences count the parameter in points, 400 around the face and 99 along the
-// text.
+// scikit-image's examples: their finite differences count the parameter in points, 400 around the
+// face and 99 along the text.
 
 TEST_F(RealImage, TheFaceIsTheOneThatScikitImageFinds) {
-  const SnakeSettings settings{.control_points = 50, .units = 400, .alpha = 0.015, .beta = 10, .gamma = 0.001};
-  const SnakeResult snake =
-      run(read("astronaut.png"), {.smoothing = 3, .edge = 1}, ellipse(220, 100, 100, 100), settings);
+  const SnakeSettings settings{
+      .control_points = 50, .units = 400, .alpha = 0.015, .beta = 10, .gamma = 0.001};
+  const SnakeResult snake = run(read("astronaut.png"), {.smoothing = 3, .edge = 1},
+                                ellipse(220, 100, 100, 100), settings);
   EXPECT_TRUE(snake.converged);
   EXPECT_EQ(crossings(snake), 0);
   EXPECT_LT(mean_distance(polyline(snake), reference(directory() + "ref_astronaut.csv"), true), 1);
@@ -105,10 +110,11 @@ TEST_F(RealImage, TheFaceIsTheOneThatScikitImageFinds) {
 TEST_F(RealImage, TheLineOfTextIsTheOneThatScikitImageFinds) {
   const SnakeSettings settings{
       .closed = false, .control_points = 50, .units = 99, .alpha = 0.1, .beta = 1, .gamma = 0.1};
-  const SnakeResult snake =
-      run(read("text.png"), {.smoothing = 1, .line = -5, .edge = 0}, {{5, 136}, {424, 50}}, settings);
+  const SnakeResult snake = run(read("text.png"), {.smoothing = 1, .line = -5, .edge = 0},
+                                {{5, 136}, {424, 50}}, settings);
   EXPECT_TRUE(snake.converged);
-  EXPECT_LT(mean_distance(polyline(snake), reference(directory() + "ref_text_fixed.csv"), false), 1);
+  EXPECT_LT(mean_distance(polyline(snake), reference(directory() + "ref_text_fixed.csv"), false),
+            1);
 }
 
 TEST_F(RealImage, TheLineWithFreeEndsIsTheOneThatScikitImageFinds) {
@@ -122,10 +128,11 @@ TEST_F(RealImage, TheLineWithFreeEndsIsTheOneThatScikitImageFinds) {
                                .gamma = 0.1,
                                .hold_ends = false,
                                .end_tension = 1};
-  const SnakeResult snake =
-      run(read("text.png"), {.smoothing = 3, .line = -5, .edge = 0}, {{5, 70}, {424, 40}}, settings);
+  const SnakeResult snake = run(read("text.png"), {.smoothing = 3, .line = -5, .edge = 0},
+                                {{5, 70}, {424, 40}}, settings);
   EXPECT_TRUE(snake.converged);
-  EXPECT_LT(mean_distance(polyline(snake), reference(directory() + "ref_text_free.csv"), false), 0.5);
+  EXPECT_LT(mean_distance(polyline(snake), reference(directory() + "ref_text_free.csv"), false),
+            0.5);
 }
 
 TEST_F(RealImage, TheHorseIsFoundFromItsBoundingEllipse) {
@@ -140,11 +147,16 @@ TEST_F(RealImage, TheHorseIsFoundFromItsBoundingEllipse) {
       bottom = std::max(bottom, y);
     }
   }
-  const SnakeSettings settings{
-      .control_points = 100, .units = 1000, .alpha = 0.05, .beta = 0.5, .gamma = 0.1, .motion = 0.05};
-  const SnakeResult snake =
-      run(image, {.smoothing = 2, .edge = 0, .region = 1},
-          ellipse((left + right) / 2.0, (top + bottom) / 2.0, (right - left) / 2.0, (bottom - top) / 2.0), settings);
+  const SnakeSettings settings{.control_points = 100,
+                               .units = 1000,
+                               .alpha = 0.05,
+                               .beta = 0.5,
+                               .gamma = 0.1,
+                               .motion = 0.05};
+  const SnakeResult snake = run(image, {.smoothing = 2, .edge = 0, .region = 1},
+                                ellipse((left + right) / 2.0, (top + bottom) / 2.0,
+                                        (right - left) / 2.0, (bottom - top) / 2.0),
+                                settings);
   EXPECT_TRUE(snake.converged);
   EXPECT_EQ(crossings(snake), 0);
   Image horse = image;
@@ -201,15 +213,17 @@ Image largest_piece(const Image& mask, double value) {
 }
 
 TEST_F(RealImage, TheStarfishIsFoundAsWellAsByMorphologicalContours) {
-  // The silhouette: red above Otsu's threshold, its largest piece, filled: the animal is orange, the ground green. Its
-  // Dice with scikit-image's morphological_geodesic_active_contour, by the settings of the method's own example, is
-  // 0.9307 on the grey image and 0.9255 on the red channel (scripts/compare_snakes.py).
+  // The silhouette: red above Otsu's threshold, its largest piece, filled: the animal is orange,
+  // the ground green. Its Dice with scikit-image's morphological_geodesic_active_contour, by the
+  // settings of the method's own example, is 0.9307 on the grey image and 0.9255 on the red channel
+  // (scripts/compare_snakes.py).
   const Image red = read("seastar2.png", ImageChannel::red);
   Image silhouette = red;
   const double threshold = otsu(red);
   for (double& x : silhouette.values) x = x > threshold ? 1 : 0;
   const Image ground = largest_piece(largest_piece(silhouette, 1), 0);
-  for (std::size_t k = 0; k < ground.values.size(); ++k) silhouette.values[k] = 1 - ground.values[k];
+  for (std::size_t k = 0; k < ground.values.size(); ++k)
+    silhouette.values[k] = 1 - ground.values[k];
   const SnakeSettings settings{.control_points = 150,
                                .units = 1000,
                                .alpha = 0.05,
@@ -217,7 +231,8 @@ TEST_F(RealImage, TheStarfishIsFoundAsWellAsByMorphologicalContours) {
                                .gamma = 0.1,
                                .max_iterations = 2500,
                                .motion = 0.05};
-  const SnakeResult snake = run(red, {.smoothing = 2, .edge = 0, .region = 1}, ellipse(137, 163, 135, 135), settings);
+  const SnakeResult snake =
+      run(red, {.smoothing = 2, .edge = 0, .region = 1}, ellipse(137, 163, 135, 135), settings);
   EXPECT_TRUE(snake.converged);
   EXPECT_EQ(crossings(snake), 0);
   const double found = dice(mask_of(snake, red.width, red.height), silhouette);
@@ -229,7 +244,8 @@ TEST_F(RealImage, TheCoinsAreThoseOfMorphologicalContours) {
   const Image image = read("coins.png"), morphological = read("ref_coins_morphgac.png");
   const auto script = parse_snake_script(R"({
     "knead": 2, "image": {"smoothing": 1, "region": 1, "relative_region": true},
-    "settings": {"control_points": 12, "units": 100, "alpha": 0.5, "beta": 50, "gamma": 1, "band": 8,
+    "settings": {"control_points": 12, "units": 100, "alpha": 0.5, "beta": 50,
+    "gamma": 1, "band": 8,
                  "max_iterations": 500, "motion": 0.02},
     "blobs": {"radii": [12, 34], "contrast": 0.2, "start": 0.8}})");
   ASSERT_TRUE(script) << script.error().message();
@@ -237,14 +253,17 @@ TEST_F(RealImage, TheCoinsAreThoseOfMorphologicalContours) {
   const auto starts = starts_of(*script, image);
   ASSERT_TRUE(potential && starts);
   std::vector<Curve> curves;
-  for (const SnakeStart& start : *starts) curves.push_back(*curve_through(*points_of(start), script->settings));
-  const auto snakes = run_snakes(*potential, curves, std::vector<SnakeSettings>(curves.size(), script->settings));
+  for (const SnakeStart& start : *starts)
+    curves.push_back(*curve_through(*points_of(start), script->settings));
+  const auto snakes =
+      run_snakes(*potential, curves, std::vector<SnakeSettings>(curves.size(), script->settings));
   ASSERT_TRUE(snakes) << snakes.error().message();
   Image all = image;
   std::ranges::fill(all.values, 0);
   for (const SnakeResult& s : *snakes) {
     const Image one = mask_of(s, image.width, image.height);
-    for (std::size_t k = 0; k < all.values.size(); ++k) all.values[k] = std::max(all.values[k], one.values[k]);
+    for (std::size_t k = 0; k < all.values.size(); ++k)
+      all.values[k] = std::max(all.values[k], one.values[k]);
   }
   const double agreement = dice(all, morphological);
   RecordProperty("snakes", static_cast<int>(snakes->size()));

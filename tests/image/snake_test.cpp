@@ -15,7 +15,8 @@ using std::numbers::pi;
 using testing::blurred_disc;
 using testing::circle;
 
-Expected<SnakeResult> run(const ImagePotential& image, const std::vector<std::array<double, 2>>& start,
+Expected<SnakeResult> run(const ImagePotential& image,
+                          const std::vector<std::array<double, 2>>& start,
                           const SnakeSettings& settings) {
   auto curve = curve_through(start, settings);
   if (!curve) return std::unexpected(curve.error());
@@ -50,7 +51,8 @@ TEST(CurveThrough, IsNearItsPointsForEveryDegree) {
     EXPECT_NEAR(r.least, 20, p == 2 ? 2e-3 : 1e-3) << p;
     EXPECT_NEAR(r.most, 20, p == 2 ? 2e-3 : 1e-3) << p;
     settings.closed = false;
-    const auto line = curve_through(std::vector<std::array<double, 2>>{{1, 2}, {3, 4}, {7, 8}}, settings);
+    const auto line =
+        curve_through(std::vector<std::array<double, 2>>{{1, 2}, {3, 4}, {7, 8}}, settings);
     ASSERT_TRUE(line) << line.error().message();
     EXPECT_NEAR(line->control_points()(0, 0), 1, 1e-12);
     EXPECT_NEAR(line->control_points()(line->size() - 1, 1), 8, 1e-12);
@@ -58,11 +60,13 @@ TEST(CurveThrough, IsNearItsPointsForEveryDegree) {
 }
 
 TEST(Snake, WithoutForcesACircleShrinksAsItsEnergySays) {
-  // M c' = −(α G11 + β G22) c: a circle of radius R over the parameter length L shrinks at α (2π/L)² + β (2π/L)⁴ per γ.
+  // M c' = −(α G11 + β G22) c: a circle of radius R over the parameter length L shrinks at α
+  // (2π/L)² + β (2π/L)⁴ per γ.
   const Image black{300, 300, std::vector<double>(90000, 0)};
   const auto image = ImagePotential::create(black);
   ASSERT_TRUE(image);
-  const double length = 400, rate = 0.4 * std::pow(2 * pi / length, 2) + 10 * std::pow(2 * pi / length, 4),
+  const double length = 400,
+               rate = 0.4 * std::pow(2 * pi / length, 2) + 10 * std::pow(2 * pi / length, 4),
                gamma = 0.01;
   const SnakeSettings settings{.control_points = 60,
                                .units = length,
@@ -81,12 +85,17 @@ TEST(Snake, WithoutForcesACircleShrinksAsItsEnergySays) {
 
 TEST(Snake, FindsTheEdgeOfABlurredDiscToATwentiethOfAPixel) {
   const double x = 63.3, y = 65.8, radius = 31.4;
-  const auto image = ImagePotential::create(blurred_disc(128, x, y, radius, 2), {.smoothing = 0, .edge = 1});
+  const auto image =
+      ImagePotential::create(blurred_disc(128, x, y, radius, 2), {.smoothing = 0, .edge = 1});
   ASSERT_TRUE(image);
   for (const int degree : {2, 3, 4, 5, 7}) {
     const double start = degree % 2 == 0 ? 25 : 38;
-    const SnakeSettings settings{
-        .degree = degree, .control_points = 24, .alpha = 0.01, .beta = 1, .gamma = 0.1, .motion = 1e-2};
+    const SnakeSettings settings{.degree = degree,
+                                 .control_points = 24,
+                                 .alpha = 0.01,
+                                 .beta = 1,
+                                 .gamma = 0.1,
+                                 .motion = 1e-2};
     const auto snake = run(*image, circle(x + 1, y - 1, start), settings);
     ASSERT_TRUE(snake) << snake.error().message();
     const Radii r = radii(*snake, x, y);
@@ -105,11 +114,12 @@ TEST(Snake, FindsTheDiscByRegionsAndByPressureAndByFlow) {
     const char* name;
     ImagePotentialSettings image;
     double start, balloon, within;
-  } cases[] = {// the mean of the means, 0.485, is the grey value at 30.06
-               {"region", {.smoothing = 0, .edge = 0, .region = 1}, 8, 0, 0.1},
-               {"region from outside", {.smoothing = 0, .edge = 0, .region = 1}, 50, 0, 0.1},
-               {"balloon", {.smoothing = 0, .edge = 1}, 10, 0.01, 0.4},
-               {"flow", {.smoothing = 0, .edge = 0, .flow = 0.1, .flow_iterations = 2000}, 15, 0, 0.5}};
+  } cases[] = {
+      // the mean of the means, 0.485, is the grey value at 30.06
+      {"region", {.smoothing = 0, .edge = 0, .region = 1}, 8, 0, 0.1},
+      {"region from outside", {.smoothing = 0, .edge = 0, .region = 1}, 50, 0, 0.1},
+      {"balloon", {.smoothing = 0, .edge = 1}, 10, 0.01, 0.4},
+      {"flow", {.smoothing = 0, .edge = 0, .flow = 0.1, .flow_iterations = 2000}, 15, 0, 0.5}};
   for (const auto& [name, settings, start, balloon, within] : cases) {
     const auto image = ImagePotential::create(disc, settings);
     ASSERT_TRUE(image);
@@ -129,10 +139,15 @@ TEST(Snake, FindsTheDiscByRegionsAndByPressureAndByFlow) {
 TEST(Snake, IsDrawnToTheBorderOfAMask) {
   Image mask{90, 80, std::vector<double>(7200, 0)};
   for (int y = 0; y < 80; ++y) mask.at(60, y) = 1;
-  const auto image = ImagePotential::create(mask, {.smoothing = 0, .edge = 0, .distance = 0.1}, mask);
+  const auto image =
+      ImagePotential::create(mask, {.smoothing = 0, .edge = 0, .distance = 0.1}, mask);
   ASSERT_TRUE(image);
-  const SnakeSettings settings{
-      .closed = false, .control_points = 12, .alpha = 0.001, .beta = 0.01, .gamma = 0.1, .hold_ends = false};
+  const SnakeSettings settings{.closed = false,
+                               .control_points = 12,
+                               .alpha = 0.001,
+                               .beta = 0.01,
+                               .gamma = 0.1,
+                               .hold_ends = false};
   const std::vector<std::array<double, 2>> line = {{30, 5}, {30, 75}};
   const auto snake = run(*image, line, settings);
   ASSERT_TRUE(snake) << snake.error().message();
@@ -168,7 +183,8 @@ TEST(Snake, RefinesWhereItCannotFollow) {
   // A square with one corner cut: straight sides need few control points, corners many.
   Image image{128, 128, {}};
   for (int y = 0; y < 128; ++y) {
-    for (int x = 0; x < 128; ++x) image.values.push_back(x > 30 && x < 100 && y > 30 && y < 100 ? 1 : 0);
+    for (int x = 0; x < 128; ++x)
+      image.values.push_back(x > 30 && x < 100 && y > 30 && y < 100 ? 1 : 0);
   }
   const auto potential = ImagePotential::create(image, {.smoothing = 1, .edge = 0, .region = 1});
   ASSERT_TRUE(potential);
@@ -187,7 +203,8 @@ TEST(Snake, RefinesWhereItCannotFollow) {
   const auto wrong = [&](const SnakeResult& s) {
     const Image mask = mask_of(s, 128, 128);
     int count = 0;
-    for (std::size_t k = 0; k < image.values.size(); ++k) count += mask.values[k] != image.values[k];
+    for (std::size_t k = 0; k < image.values.size(); ++k)
+      count += mask.values[k] != image.values[k];
     return count;
   };
   EXPECT_GT(wrong(*coarse), 4 * wrong(*fine));
@@ -204,7 +221,8 @@ TEST(Snake, SeveralShareTheirOutside) {
   const SnakeSettings settings{
       .control_points = 16, .units = 100, .alpha = 0.02, .beta = 0.5, .gamma = 0.1, .motion = 1e-3};
   std::vector<Curve> starts;
-  for (const double x : {45.0, 115.0}) starts.push_back(*curve_through(circle(x, 80, 10), settings));
+  for (const double x : {45.0, 115.0})
+    starts.push_back(*curve_through(circle(x, 80, 10), settings));
   const auto snakes = run_snakes(*image, starts, {settings, settings});
   ASSERT_TRUE(snakes) << snakes.error().message();
   EXPECT_NEAR(radii((*snakes)[0], 45, 80).mean, 25, 0.1);
@@ -231,8 +249,8 @@ TEST(Contour, KnowsWhereItCrossesItselfAndWhatIsInside) {
 
 TEST(Snake, FreeEndsObeyTheNaturalConditionsOfTheEnergy) {
   // A line of length L without bend: γ x' = α x'' with x' = 0 at free ends has the solution
-  // x(0, t) = L / 2 − Σ 4 L / (k π)² exp(−α (k π / L)² t / γ) over odd k, with implicit steps instead of the
-  // exponential.
+  // x(0, t) = L / 2 − Σ 4 L / (k π)² exp(−α (k π / L)² t / γ) over odd k, with implicit steps
+  // instead of the exponential.
   const Image black{200, 100, std::vector<double>(20000, 0)};
   const auto image = ImagePotential::create(black);
   ASSERT_TRUE(image);
@@ -252,7 +270,8 @@ TEST(Snake, FreeEndsObeyTheNaturalConditionsOfTheEnergy) {
   ASSERT_TRUE(snake) << snake.error().message();
   double end = length / 2;
   for (int k = 1; k < 2000; k += 2) {
-    end -= 4 * length / std::pow(k * pi, 2) * std::pow(1 + alpha * std::pow(k * pi / length, 2) / gamma, -steps);
+    end -= 4 * length / std::pow(k * pi, 2) *
+           std::pow(1 + alpha * std::pow(k * pi / length, 2) / gamma, -steps);
   }
   EXPECT_GT(end, 20);
   EXPECT_NEAR(polyline(*snake).front()[0] - 50, end, 1e-3);
@@ -267,14 +286,22 @@ TEST(Snake, FreeEndsObeyTheNaturalConditionsOfTheEnergy) {
 }
 
 TEST(Snake, PaleDiscsAreFoundBesideBrightOnesWithinABand) {
-  // A disc of a tenth of its neighbour's contrast, two pixels away from it, from circles of half the size.
+  // A disc of a tenth of its neighbour's contrast, two pixels away from it, from circles of half
+  // the size.
   Image two = blurred_disc(128, 40, 64, 20, 1);
   const Image other = blurred_disc(128, 82, 64, 20, 1);
-  for (std::size_t k = 0; k < two.values.size(); ++k) two.values[k] = 0.1 * two.values[k] + other.values[k];
-  const auto image = ImagePotential::create(two, {.smoothing = 0, .edge = 0, .region = 1, .relative_region = true});
+  for (std::size_t k = 0; k < two.values.size(); ++k)
+    two.values[k] = 0.1 * two.values[k] + other.values[k];
+  const auto image = ImagePotential::create(
+      two, {.smoothing = 0, .edge = 0, .region = 1, .relative_region = true});
   ASSERT_TRUE(image);
-  const SnakeSettings settings{
-      .control_points = 12, .units = 100, .alpha = 0.02, .beta = 1, .gamma = 1, .band = 10, .motion = 1e-2};
+  const SnakeSettings settings{.control_points = 12,
+                               .units = 100,
+                               .alpha = 0.02,
+                               .beta = 1,
+                               .gamma = 1,
+                               .band = 10,
+                               .motion = 1e-2};
   const std::vector<Curve> starts = {*curve_through(circle(40, 64, 10), settings),
                                      *curve_through(circle(82, 64, 10), settings)};
   const auto snakes = run_snakes(*image, starts, {settings, settings});

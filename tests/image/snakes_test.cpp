@@ -18,8 +18,13 @@ TEST(Snakes, AdvanceInSlicesAsInOneRunToTheLastBit) {
   }
   const auto image = ImagePotential::create(square, {.smoothing = 1, .edge = 0, .region = 1});
   ASSERT_TRUE(image);
-  const SnakeSettings settings{
-      .control_points = 8, .units = 130, .alpha = 0.002, .beta = 0.02, .gamma = 0.1, .motion = 1e-2, .refine = 0.3};
+  const SnakeSettings settings{.control_points = 8,
+                               .units = 130,
+                               .alpha = 0.002,
+                               .beta = 0.02,
+                               .gamma = 0.1,
+                               .motion = 1e-2,
+                               .refine = 0.3};
   const std::vector<Curve> starts = {*curve_through(circle(32, 32, 20), settings)};
   const auto whole = run_snakes(*image, starts, {settings});
   ASSERT_TRUE(whole) << whole.error().message();
@@ -39,9 +44,11 @@ TEST(Snakes, AdvanceInSlicesAsInOneRunToTheLastBit) {
 }
 
 TEST(Snakes, CopiesGoOnByThemselvesToTheSamePlaces) {
-  const auto image = ImagePotential::create(testing::blurred_disc(64, 32, 30, 15, 1), {.smoothing = 0, .edge = 1});
+  const auto image =
+      ImagePotential::create(testing::blurred_disc(64, 32, 30, 15, 1), {.smoothing = 0, .edge = 1});
   ASSERT_TRUE(image);
-  const SnakeSettings settings{.control_points = 12, .alpha = 0.002, .beta = 0.02, .gamma = 0.1, .motion = 1e-2};
+  const SnakeSettings settings{
+      .control_points = 12, .alpha = 0.002, .beta = 0.02, .gamma = 0.1, .motion = 1e-2};
   auto first = Snakes::create(*image, {*curve_through(circle(33, 32, 18), settings)}, {settings});
   ASSERT_TRUE(first && first->advance(20));
   Snakes second = *first;
@@ -61,7 +68,12 @@ TEST(Snakes, ArePulledBySpringsWhileTheyRun) {
   const Image black{100, 100, std::vector<double>(10000, 0)};
   const auto image = ImagePotential::create(black);
   ASSERT_TRUE(image);
-  SnakeSettings settings{.closed = false, .control_points = 20, .alpha = 1, .beta = 0.1, .gamma = 0.01, .motion = 1e-6};
+  SnakeSettings settings{.closed = false,
+                         .control_points = 20,
+                         .alpha = 1,
+                         .beta = 0.1,
+                         .gamma = 0.01,
+                         .motion = 1e-6};
   const std::vector<std::array<double, 2>> line = {{10, 50}, {90, 50}};
   auto snakes = Snakes::create(*image, {*curve_through(line, settings)}, {settings});
   ASSERT_TRUE(snakes) << snakes.error().message();
@@ -106,7 +118,8 @@ TEST(Snakes, KeepTheTensionOfTheirStartWhenTheyChange) {
   settings.springs.clear();
   ASSERT_TRUE(snakes->change(0, settings));
   ASSERT_TRUE(snakes->advance(5000));
-  EXPECT_NEAR(polyline(*snakes->result(0)).back()[0] - polyline(*snakes->result(0)).front()[0], 100, 0.1);
+  EXPECT_NEAR(polyline(*snakes->result(0)).back()[0] - polyline(*snakes->result(0)).front()[0], 100,
+              0.1);
 }
 
 }  // namespace

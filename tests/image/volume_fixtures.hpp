@@ -25,10 +25,12 @@ inline VolumeImage blurred(std::array<int, 3> size, const VolumeFrame& frame, do
 }
 
 inline VolumeImage blurred_ball(int size, const Point& centre, double radius, double sigma) {
-  return blurred({size, size, size}, {}, sigma, [&](const Point& p) { return (p - centre).norm() - radius; });
+  return blurred({size, size, size}, {}, sigma,
+                 [&](const Point& p) { return (p - centre).norm() - radius; });
 }
 
-inline VolumeImage blurred_torus(std::array<int, 3> size, const Point& centre, double ring, double tube, double sigma) {
+inline VolumeImage blurred_torus(std::array<int, 3> size, const Point& centre, double ring,
+                                 double tube, double sigma) {
   return blurred(size, {}, sigma, [&](const Point& p) {
     const Point d = p - centre;
     return std::hypot(std::hypot(d[0], d[1]) - ring, d[2]) - tube;

@@ -29,8 +29,8 @@ VolumeImage noise(std::array<int, 3> size, const VolumeFrame& frame = {}) {
 VolumeFrame oblique(bool sheared = false) {
   VolumeFrame frame;
   frame.origin = {3, -2, 7};
-  frame.directions =
-      Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix() * Eigen::Vector3d(0.5, 1, 2).asDiagonal();
+  frame.directions = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix() *
+                     Eigen::Vector3d(0.5, 1, 2).asDiagonal();
   if (sheared) frame.directions.col(2) += 0.3 * frame.directions.col(1);
   return frame;
 }
@@ -40,7 +40,8 @@ TEST(Volume, SplineGoesThroughTheVoxelsAndItsGradientIsItsDerivative) {
   const VolumeSpline spline(volume);
   for (int k = 0; k < 5; ++k) {
     for (int j = 0; j < 7; ++j) {
-      for (int i = 0; i < 9; ++i) EXPECT_NEAR(spline.value({i * 1.0, j * 1.0, k * 1.0}), volume.at(i, j, k), 1e-14);
+      for (int i = 0; i < 9; ++i)
+        EXPECT_NEAR(spline.value({i * 1.0, j * 1.0, k * 1.0}), volume.at(i, j, k), 1e-14);
     }
   }
   std::mt19937_64 random(3);
@@ -51,7 +52,8 @@ TEST(Volume, SplineGoesThroughTheVoxelsAndItsGradientIsItsDerivative) {
     for (int d = 0; d < 3; ++d) {
       Point step = Point::Zero();
       step[d] = 1e-5;
-      // The second-order difference is off by h²/6 of the third derivative, which is below 1e3 here.
+      // The second-order difference is off by h²/6 of the third derivative, which is below 1e3
+      // here.
       EXPECT_NEAR(g[d], (spline.value(at + step) - spline.value(at - step)) / 2e-5, 1e-7);
     }
   }
@@ -79,7 +81,8 @@ TEST(Volume, GaussianIsThatOfSpaceWhateverTheSpacing) {
   };
   const VolumeImage once = gaussian(blurred({60, 30, 16}, frame, 2.5, edge), 1.5),
                     wanted = blurred({60, 30, 16}, frame, std::hypot(2.5, 1.5), edge);
-  // The Gaussian is cut at 4 σ, and the coarse step of 2 samples one of σ 1.5: e^(−2 π² 0.75²) of it is missed.
+  // The Gaussian is cut at 4 σ, and the coarse step of 2 samples one of σ 1.5: e^(−2 π² 0.75²) of
+  // it is missed.
   for (int i = 20; i < 40; ++i) EXPECT_NEAR(once.at(i, 15, 8), wanted.at(i, 15, 8), 1e-3);
 }
 
@@ -90,11 +93,13 @@ TEST(Volume, GradientIsThatOfSpaceWhateverTheSteps) {
     const Eigen::Vector3d slope(0.3, -0.2, 0.5);
     for (int k = 0; k < 20; ++k) {
       for (int j = 0; j < 20; ++j) {
-        for (int i = 0; i < 20; ++i) ramp.values.push_back(slope.dot(frame.directions * Point(i, j, k)));
+        for (int i = 0; i < 20; ++i)
+          ramp.values.push_back(slope.dot(frame.directions * Point(i, j, k)));
       }
     }
     const auto g = gradient(ramp);
-    for (int d = 0; d < 3; ++d) EXPECT_NEAR(g[static_cast<std::size_t>(d)].at(10, 10, 10), slope[d], 1e-4);
+    for (int d = 0; d < 3; ++d)
+      EXPECT_NEAR(g[static_cast<std::size_t>(d)].at(10, 10, 10), slope[d], 1e-4);
     EXPECT_NEAR(gradient_magnitude(ramp).at(10, 10, 10), slope.norm(), 1e-4);
     EXPECT_EQ(frame.orthogonal(), !sheared);
   }
@@ -128,7 +133,9 @@ TEST(Volume, DistanceIsExactForAnySpacing) {
 TEST(Volume, FlowReachesFarFromEdges) {
   const VolumeImage edges = gradient_magnitude(testing::blurred_ball(40, {20, 20, 20}, 12, 1));
   const auto plain = gradient(edges), flow = gradient_vector_flow(edges, 0.2, 300);
-  const auto outwards = [](const std::array<VolumeImage, 3>& v, int i) { return v[0].at(i, 20, 20); };
+  const auto outwards = [](const std::array<VolumeImage, 3>& v, int i) {
+    return v[0].at(i, 20, 20);
+  };
   // Five voxels from the edge hardly a gradient is left.
   EXPECT_LT(std::abs(outwards(plain, 27)), 1e-3);
   EXPECT_GT(outwards(flow, 27), 0.1);
@@ -138,8 +145,8 @@ TEST(Volume, FlowReachesFarFromEdges) {
 TEST(VolumePotential, ForceIsTheGradientOfItsValueInSpace) {
   for (const bool sheared : {false, true}) {
     const VolumeFrame frame = oblique(sheared);
-    const auto image = VolumePotential::create(noise({12, 10, 8}, frame),
-                                               {.smoothing = 1, .line = 0.5, .edge = 1, .termination = 0.1});
+    const auto image = VolumePotential::create(
+        noise({12, 10, 8}, frame), {.smoothing = 1, .line = 0.5, .edge = 1, .termination = 0.1});
     ASSERT_TRUE(image) << image.error().message();
     const Point at = frame.origin + frame.directions * Point(5.3, 4.4, 3.7);
     const Eigen::Vector3d f = image->force(at);
@@ -152,19 +159,21 @@ TEST(VolumePotential, ForceIsTheGradientOfItsValueInSpace) {
 }
 
 TEST(VolumePotential, SumsToTheLeftHaveTheIntensityAsTheirSlope) {
-  const auto image =
-      VolumePotential::create(testing::blurred_ball(30, {15, 15, 15}, 8, 2), {.smoothing = 0, .edge = 0, .region = 1});
+  const auto image = VolumePotential::create(testing::blurred_ball(30, {15, 15, 15}, 8, 2),
+                                             {.smoothing = 0, .edge = 0, .region = 1});
   ASSERT_TRUE(image);
   for (double x = 3; x < 27; x += 0.7) {
     const Point at(x, 13.2, 16.1), step(1e-4, 0, 0);
-    const double slope = (image->intensity_to_the_left(at + step) - image->intensity_to_the_left(at - step)) / 2e-4;
+    const double slope =
+        (image->intensity_to_the_left(at + step) - image->intensity_to_the_left(at - step)) / 2e-4;
     EXPECT_NEAR(slope, image->intensity(at), 0.02);  // the trapezoidal rule's, for an edge of σ 2
   }
 }
 
 TEST(VolumePotential, RefusesWhatMakesNoSense) {
   const VolumeImage volume = noise({4, 4, 4});
-  const auto refused = [](const VolumeImage& v, const ImagePotentialSettings& s, const std::optional<VolumeImage>& m) {
+  const auto refused = [](const VolumeImage& v, const ImagePotentialSettings& s,
+                          const std::optional<VolumeImage>& m) {
     const auto made = VolumePotential::create(v, s, m);
     return made ? std::string("accepted") : made.error().message();
   };
@@ -180,11 +189,14 @@ TEST(VolumePotential, RefusesWhatMakesNoSense) {
   EXPECT_NE(refused(bad, {}, {}).find("in a plane"), std::string::npos);
   EXPECT_NE(refused(volume, {.smoothing = -1}, {}).find("smoothing"), std::string::npos);
   EXPECT_NE(refused(volume, {.distance = 1}, {}).find("no mask"), std::string::npos);
-  EXPECT_NE(refused(volume, {.distance = 1}, noise({4, 4, 3})).find("same size"), std::string::npos);
-  EXPECT_NE(refused(volume, {.distance = 1}, VolumeImage{{4, 4, 4}, std::vector<double>(64, 0), {}}).find("no voxel"),
+  EXPECT_NE(refused(volume, {.distance = 1}, noise({4, 4, 3})).find("same size"),
             std::string::npos);
-  EXPECT_NE(refused(noise({4, 4, 4}, oblique(true)), {.distance = 1}, volume).find("not perpendicular"),
+  EXPECT_NE(refused(volume, {.distance = 1}, VolumeImage{{4, 4, 4}, std::vector<double>(64, 0), {}})
+                .find("no voxel"),
             std::string::npos);
+  EXPECT_NE(
+      refused(noise({4, 4, 4}, oblique(true)), {.distance = 1}, volume).find("not perpendicular"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-// Six presses, two strokes and a brush, all by defaults, on faces of every STEP, IGES and .brep file, one and several
-// of them selected: no edge opens, nothing goes further than asked, or the act is refused with a reason. Open CASCADE
-// measures the edges. The rows of the table in docs/evidence/trims.md, "Acts by defaults".
+// Six presses, two strokes and a brush, all by defaults, on faces of every STEP, IGES and .brep
+// file, one and several of them selected: no edge opens, nothing goes further than asked, or the
+// act is refused with a reason. Open CASCADE measures the edges. The rows of the table in
+// docs/evidence/trims.md, "Acts by defaults".
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ namespace knead::oracle {
 namespace {
 
 constexpr std::size_t most_faces = 6;
-constexpr double closed = 1e-3;        // mm: an edge that is no farther from its faces counts as closed
+constexpr double closed = 1e-3;  // mm: an edge that is no farther from its faces counts as closed
 constexpr double relative_gap = 1e-6;  // of the size, as `save` allows
 constexpr double law = 1.06;           // 5 %, and what sampling the depth leaves
 constexpr int samples = 80;
@@ -50,8 +51,8 @@ double size_of(const Surface& s) {
   return (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm();
 }
 
-/// Points of a surface and its unit normals on an even grid of the domain, row by row; points are nan where they are
-/// hidden, normals zero where there are none.
+/// Points of a surface and its unit normals on an even grid of the domain, row by row; points are
+/// nan where they are hidden, normals zero where there are none.
 struct Visible {
   Points points, normals;
 };
@@ -62,29 +63,33 @@ Visible visible_points(const Surface& s, const VisibleRegion* region) {
   for (int d = 0; d < 2; ++d) {
     const Interval domain = s.knots(d).domain();
     for (int k = 0; k < samples; ++k) {
-      at[static_cast<std::size_t>(d)].push_back(domain.lower + domain.length() * (k + 0.5) / samples);
+      at[static_cast<std::size_t>(d)].push_back(domain.lower +
+                                                domain.length() * (k + 0.5) / samples);
     }
   }
-  const auto jet = evaluate_grid<2>(s, {std::span<const double>(at[0]), std::span<const double>(at[1])}, 1);
+  const auto jet =
+      evaluate_grid<2>(s, {std::span<const double>(at[0]), std::span<const double>(at[1])}, 1);
   Visible result{jet->points(), Points(samples * samples, 3)};
   for (Eigen::Index k = 0; k < result.points.rows(); ++k) {
     const Point u = jet->at({1, 0}).row(k), v = jet->at({0, 1}).row(k);
     result.normals.row(k) = u.cross(v).normalized();
     const Eigen::Index i = k / samples, j = k % samples;
     if (region == nullptr || region->faces.empty()) continue;
-    if (!region->contains({(i + 0.5) / samples, (j + 0.5) / samples})) result.points.row(k).setConstant(hidden);
+    if (!region->contains({(i + 0.5) / samples, (j + 0.5) / samples}))
+      result.points.row(k).setConstant(hidden);
   }
   return result;
 }
 
-/// How far a ball stands in a surface: |t| of the nearer intersection x + t n of its sphere with the normal in a point
-/// x inside, the longest of all samples.
+/// How far a ball stands in a surface: |t| of the nearer intersection x + t n of its sphere with
+/// the normal in a point x inside, the longest of all samples.
 double standing_in(const Visible& shape, const Point& centre, double radius) {
   double longest = 0;
   for (Eigen::Index k = 0; k < shape.points.rows(); ++k) {
     const Point d = shape.points.row(k) - centre.transpose(), n = shape.normals.row(k);
     if (!(d.norm() < radius) || !(n.norm() > 0.5)) continue;
-    const double along = d.dot(n), root = std::sqrt(along * along + radius * radius - d.squaredNorm());
+    const double along = d.dot(n),
+                 root = std::sqrt(along * along + radius * radius - d.squaredNorm());
     longest = std::max(longest, root - std::abs(along));
   }
   return longest;
@@ -110,7 +115,8 @@ class DefaultActs : public testing::FileTest {
     before_ = OcctHeld::read(path_);
     ASSERT_TRUE(before_);
     gaps_before_ = before_->gaps();
-    out_ = fs::temp_directory_path() / fmt::format("knead-acts-{}{}", getpid(), path_.extension().string());
+    out_ = fs::temp_directory_path() /
+           fmt::format("knead-acts-{}{}", getpid(), path_.extension().string());
     find_targets();
     if (targets_.empty()) GTEST_SKIP() << "no surface that can be pressed";
   }
@@ -158,13 +164,15 @@ void DefaultActs::find_targets() {
       }
     }
     const auto at = parameters_of(s.surface, target.at);
-    const auto jet = evaluate<2>(s.surface, Parameters<2>(Eigen::Map<const Parameters<2>>(at.data(), 1, 2)), 1);
+    const auto jet =
+        evaluate<2>(s.surface, Parameters<2>(Eigen::Map<const Parameters<2>>(at.data(), 1, 2)), 1);
     ASSERT_TRUE(jet);
     const Point u = jet->at({1, 0}).row(0), v = jet->at({0, 1}).row(0);
     target.place = jet->points().row(0);
     target.normal = u.cross(v).normalized();
     target.along = u.normalized();
-    if (target.normal.allFinite() && target.normal.norm() > 0.5 && target.room > 0) targets_.push_back(target);
+    if (target.normal.allFinite() && target.normal.norm() > 0.5 && target.room > 0)
+      targets_.push_back(target);
   }
 }
 
@@ -189,18 +197,21 @@ std::string DefaultActs::selection(std::size_t k, bool several) const {
   return ids;
 }
 
-/// Of one surface its presses, a stroke for the first and the last one, a brush for the middle one. Asked is what the
-/// tool stands in the shape; of a stroke, which pushes what is in its way aside, and its way there.
+/// Of one surface its presses, a stroke for the first and the last one, a brush for the middle one.
+/// Asked is what the tool stands in the shape; of a stroke, which pushes what is in its way aside,
+/// and its way there.
 std::vector<Act> DefaultActs::acts(std::size_t k, bool several) const {
   const Target& t = targets_[k];
   const Surface& shape = *t.surface->surface;
   const Visible shown = visible_points(shape, t.region.get());
   const double radius = (several ? 0.9 : 0.5) * t.room, deep = radius / 4;
-  const std::string begin =
-      fmt::format(R"({{"knead":2,"commands":[{{"do":"select","surfaces":[{}]}},)", selection(k, several));
-  const std::string tool = fmt::format(R"({{"do":"tool","name":"ball","radius":{:.17g},"position":{}}},)", radius,
-                                       list_of(t.place + 2 * radius * t.normal));
-  const Point pressed = t.place + (radius - deep) * t.normal, aside = pressed + 0.3 * radius * t.along;
+  const std::string begin = fmt::format(
+      R"({{"knead":2,"commands":[{{"do":"select","surfaces":[{}]}},)", selection(k, several));
+  const std::string tool =
+      fmt::format(R"({{"do":"tool","name":"ball","radius":{:.17g},"position":{}}},)", radius,
+                  list_of(t.place + 2 * radius * t.normal));
+  const Point pressed = t.place + (radius - deep) * t.normal,
+              aside = pressed + 0.3 * radius * t.along;
   std::vector<Act> result;
   const std::size_t presses = targets_.size() < most_faces ? (most_faces + k) / targets_.size() : 1;
   for (std::size_t n = 0; n < presses; ++n) {  // fewer surfaces: deeper as well
@@ -215,16 +226,19 @@ std::vector<Act> DefaultActs::acts(std::size_t k, bool several) const {
   if (k == 0 || k + 1 == targets_.size()) {
     result.push_back(
         {"stroke " + t.surface->id,
-         begin + tool + fmt::format(R"({{"do":"stroke","path":[{},{}]}}]}})", list_of(pressed), list_of(aside)),
+         begin + tool +
+             fmt::format(R"({{"do":"stroke","path":[{},{}]}}]}})", list_of(pressed),
+                         list_of(aside)),
          std::max(deep, standing_in(shown, aside, radius)) + (aside - pressed).norm()});
     if (targets_.size() == 1) result.push_back(result.back());
   }
   if (k == targets_.size() / 2) {
-    result.push_back({"brush " + t.surface->id,
-                      begin + fmt::format(R"({{"do":"brush","kind":"push","radius":{:.17g},"height":{:.17g},)"
-                                          R"("path":[[{:.17g},{:.17g}]]}}]}})",
-                                          radius, deep, t.at.x(), t.at.y()),
-                      deep});
+    result.push_back(
+        {"brush " + t.surface->id,
+         begin + fmt::format(R"({{"do":"brush","kind":"push","radius":{:.17g},"height":{:.17g},)"
+                             R"("path":[[{:.17g},{:.17g}]]}}]}})",
+                             radius, deep, t.at.x(), t.at.y()),
+         deep});
   }
   return result;
 }
@@ -245,7 +259,8 @@ void DefaultActs::carry_out(const Act& act, bool several) {
     return n.starts_with("made smaller") || n.contains("as more would fold a face");
   };
   smaller_ += std::ranges::any_of(state.notes, less) ||
-                      std::ranges::any_of(state.steps, [&](const StepRecord& step) { return less(step.note); })
+                      std::ranges::any_of(state.steps,
+                                          [&](const StepRecord& step) { return less(step.note); })
                   ? 1
                   : 0;
   double moved = 0, size = 0;
@@ -269,10 +284,13 @@ void DefaultActs::carry_out(const Act& act, bool several) {
   EXPECT_LE(after->bad_shapes(), before_->bad_shapes());
   const auto gaps = after->gaps();
   ASSERT_EQ(gaps.size(), gaps_before_.size());
-  const double unit = source_->surfaces()[0].unit == "inch" ? 25.4 : source_->surfaces()[0].unit == "m" ? 1000 : 1;
+  const double unit = source_->surfaces()[0].unit == "inch" ? 25.4
+                      : source_->surfaces()[0].unit == "m"  ? 1000
+                                                            : 1;
   double worst = 0;
   for (std::size_t k = 0; k < gaps.size(); ++k) {
-    EXPECT_LE(gaps[k], std::max({closed, 1.01 * gaps_before_[k], relative_gap * size * unit})) << "edge " << k;
+    EXPECT_LE(gaps[k], std::max({closed, 1.01 * gaps_before_[k], relative_gap * size * unit}))
+        << "edge " << k;
     worst = std::max(worst, gaps[k]);
   }
   gap_after_ = std::max(gap_after_, worst);
@@ -282,11 +300,12 @@ void DefaultActs::write_row(bool several) const {
   for (const auto& [reason, count] : reasons_) {
     std::cout << "refused " << count << ": " << reason << "\n";
   }
-  const std::string row =
-      fmt::format("| {} | {} | {} | {} | {} | {:.2g} → {:.2g} | {:.2f} |", GetParam(), several ? "several" : "one",
-                  done_, smaller_, refused_, gap_before_, gap_after_, motion_);
+  const std::string row = fmt::format("| {} | {} | {} | {} | {} | {:.2g} → {:.2g} | {:.2f} |",
+                                      GetParam(), several ? "several" : "one", done_, smaller_,
+                                      refused_, gap_before_, gap_after_, motion_);
   std::cout << row << "\n";
-  if (const char* path = std::getenv("KNEAD_ACTS_TABLE")) std::ofstream(path, std::ios::app) << row << "\n";
+  if (const char* path = std::getenv("KNEAD_ACTS_TABLE"))
+    std::ofstream(path, std::ios::app) << row << "\n";
 }
 
 void DefaultActs::run_all(bool several) {
@@ -303,7 +322,8 @@ TEST_P(DefaultActs, KeepTheirPromisesOnSeveralFaces) { run_all(true); }
 
 INSTANTIATE_TEST_SUITE_P(Files, DefaultActs,
                          ::testing::ValuesIn(testing::with_own(
-                             testing::with_own(testing::step_files(), testing::iges_files()), brep_files())),
+                             testing::with_own(testing::step_files(), testing::iges_files()),
+                             brep_files())),
                          testing::file_test_name);
 
 }  // namespace

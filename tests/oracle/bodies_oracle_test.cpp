@@ -1,6 +1,7 @@
-// The solids of every STEP, IGES and .brep file as triangles: closed, with the volume, the area and the box that Open
-// CASCADE finds of the exact faces. Closed meshes without solids are held against its faces sewn together; of what is
-// open, area and box. The rows of the table in docs/exchange.md, "Solids by mesh".
+// The solids of every STEP, IGES and .brep file as triangles: closed, with the volume, the area and
+// the box that Open CASCADE finds of the exact faces. Closed meshes without solids are held against
+// its faces sewn together; of what is open, area and box. The rows of the table in
+// docs/exchange.md, "Solids by mesh".
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -29,7 +30,8 @@
 namespace knead::oracle {
 namespace {
 
-constexpr double share = 1.0 / 2000;   // of the diagonal of the box: the tolerance that `model_faces` takes by itself
+// Of the diagonal of the box: the tolerance that `model_faces` takes by itself.
+constexpr double share = 1.0 / 2000;
 constexpr double chords_share = 0.01;  // of an area: chords that turn by half a radian take as much
 
 /// Triangles together, lengths in mm.
@@ -48,8 +50,10 @@ Body measured(std::span<const FaceMesh> faces, double unit) {
   return result;
 }
 
-/// The faces of each part in each of its places. A face comes once for each of them, in their order.
-std::vector<std::vector<FaceMesh>> by_place(std::span<const FaceMesh> faces, const brep::Assembly& assembly) {
+/// The faces of each part in each of its places. A face comes once for each of them, in their
+/// order.
+std::vector<std::vector<FaceMesh>> by_place(std::span<const FaceMesh> faces,
+                                            const brep::Assembly& assembly) {
   std::map<std::string, std::vector<std::size_t>> places;  // of each face
   std::size_t count = 0;
   for (const brep::Part& part : assembly.parts) {
@@ -91,7 +95,8 @@ std::vector<std::vector<FaceMesh>> connected(std::span<const FaceMesh> faces) {
 }
 
 double between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
-  return std::max((a.min() - b.min()).cwiseAbs().maxCoeff(), (a.max() - b.max()).cwiseAbs().maxCoeff());
+  return std::max((a.min() - b.min()).cwiseAbs().maxCoeff(),
+                  (a.max() - b.max()).cwiseAbs().maxCoeff());
 }
 
 class Bodies : public BodyFile {
@@ -101,7 +106,8 @@ class Bodies : public BodyFile {
     if (ended()) return;
     const brep::Model& file = *source_->model();
     auto model = model_faces(file);
-    if (!model && model.error().what.find("no faces") != std::string::npos) GTEST_SKIP() << "it has no faces";
+    if (!model && model.error().what.find("no faces") != std::string::npos)
+      GTEST_SKIP() << "it has no faces";
     ASSERT_TRUE(model) << model.error().message();
     model_ = *std::move(model);
     const auto& assembly = file.assembly;
@@ -119,7 +125,8 @@ class Bodies : public BodyFile {
   FaceMeshes model_;
   brep::Assembly assembly_;
   std::optional<OcctBodies> other_;
-  double unit_ = 1, tolerance_ = 0, volume_ = 0, volume_off_ = 0, area_off_ = 0, box_off_ = 0;  // mm; relative
+  double unit_ = 1, tolerance_ = 0, volume_ = 0, volume_off_ = 0, area_off_ = 0,
+         box_off_ = 0;  // mm; relative
 };
 
 /// Each shell of a solid with the faces whose box is most like its own.
@@ -155,13 +162,15 @@ void Bodies::write_row(const Body& whole, bool sewn) const {
   double volume = 0;
   const auto& shells = sewn ? other_->sewn : other_->shells;
   for (const OcctBody& shell : shells) volume += shell.volume;
-  const auto of_solids = [&](const std::string& text) { return shells.empty() ? std::string() : text; };
-  const std::string row =
-      fmt::format("| {} | {} | {} | {} | {} | {:.6g} | {} % | {} | {} | {} |", GetParam(),
-                  sewn ? fmt::format("{} sewn", shells.size()) : std::to_string(other_->solids),
-                  of_solids(fmt::format("{:.6g}", volume)), of_solids(fmt::format("{:.6g}", volume_)),
-                  of_solids(share_of(volume_off_)), other_->whole.area, share_of(100 * area_off_), share_of(box_off_),
-                  whole.open, model_.skipped.size());
+  const auto of_solids = [&](const std::string& text) {
+    return shells.empty() ? std::string() : text;
+  };
+  const std::string row = fmt::format(
+      "| {} | {} | {} | {} | {} | {:.6g} | {} % | {} | {} | {} |", GetParam(),
+      sewn ? fmt::format("{} sewn", shells.size()) : std::to_string(other_->solids),
+      of_solids(fmt::format("{:.6g}", volume)), of_solids(fmt::format("{:.6g}", volume_)),
+      of_solids(share_of(volume_off_)), other_->whole.area, share_of(100 * area_off_),
+      share_of(box_off_), whole.open, model_.skipped.size());
   std::cout << row << "\n";
   const char* path = std::getenv("KNEAD_SOLIDS_TABLE");
   if (path != nullptr && !testing::file_makers().contains(GetParam()))
@@ -169,7 +178,8 @@ void Bodies::write_row(const Body& whole, bool sewn) const {
 }
 
 TEST_P(Bodies, HaveTheVolumeTheAreaAndTheBoxThatOpenCascadeFinds) {
-  for (const auto& [id, reason] : model_.skipped) ADD_FAILURE() << id << " is left out: " << reason.message();
+  for (const auto& [id, reason] : model_.skipped)
+    ADD_FAILURE() << id << " is left out: " << reason.message();
   EXPECT_EQ(model_.faces.size(), static_cast<std::size_t>(other_->faces));
   const Body whole = measured(model_.faces, unit_);
   EXPECT_NEAR(whole.area, other_->whole.area, chords_share * other_->whole.area);
@@ -182,8 +192,8 @@ TEST_P(Bodies, HaveTheVolumeTheAreaAndTheBoxThatOpenCascadeFinds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Bodies,
-                         ::testing::ValuesIn(files_with_bodies(std::array<std::string, 3>{"hollow_box", "drilled_torus",
-                                                                                          "rounded_box"})),
+                         ::testing::ValuesIn(files_with_bodies(std::array<std::string, 3>{
+                             "hollow_box", "drilled_torus", "rounded_box"})),
                          testing::file_test_name);
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Surfaces that are bounded by curves alone, pressed on the edge at which they meet: Open CASCADE finds the same faces,
-// and no edge farther from its faces than before.
+// Surfaces that are bounded by curves alone, pressed on the edge at which they meet: Open CASCADE
+// finds the same faces, and no edge farther from its faces than before.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -25,22 +25,26 @@ TEST_P(BoundedSheetsInOcct, StayClosed) {
   const auto source = *open_source(sheets.text, "sheets");
   const brep::Model& model = *source->model();
   const auto west = brep::edges_around(model.faces[0]), east = brep::edges_around(model.faces[1]);
-  const auto shared =
-      std::ranges::find_if(west, [&](brep::Index e) { return std::ranges::find(east, e) != east.end(); });
+  const auto shared = std::ranges::find_if(
+      west, [&](brep::Index e) { return std::ranges::find(east, e) != east.end(); });
   ASSERT_NE(shared, west.end());
   Session session(Document::from(source));
-  const auto done =
-      testing::run(session, R"({"do":"select","surfaces":[")" + sheets.surfaces[0] + R"(",")" + sheets.surfaces[1] +
-                                R"("]},{"do":"edge","which":")" + model.edges[*shared].id + R"(","hold":"free"},)" +
-                                fmt::format(R"({{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]}},
-      {{"do":"tool","name":"ball","radius":{},"rigid":true,"position":[{},{},{}]}},{{"do":"evolve","mode":"static"}})",
-                                            0.4 * scale, 2 * scale, scale, scale * (testing::roof(2, 1) + 0.3)));
+  const auto done = testing::run(
+      session, R"({"do":"select","surfaces":[")" + sheets.surfaces[0] + R"(",")" +
+                   sheets.surfaces[1] + R"("]},{"do":"edge","which":")" + model.edges[*shared].id +
+                   R"(","hold":"free"},)" +
+                   fmt::format(R"({{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]}},
+      {{"do":"tool","name":"ball","radius":{},"rigid":true,"position":[{},{},{}]}},
+      {{"do":"evolve","mode":"static"}})",
+                               0.4 * scale, 2 * scale, scale, scale * (testing::roof(2, 1) + 0.3)));
   ASSERT_TRUE(done) << done.error().message();
   const auto bytes = session.save();
   ASSERT_TRUE(bytes) << bytes.error().message();
-  const fs::path directory = fs::temp_directory_path() / ("knead-bounded-" + std::to_string(getpid()));
+  const fs::path directory =
+      fs::temp_directory_path() / ("knead-bounded-" + std::to_string(getpid()));
   fs::create_directories(directory);
-  const fs::path before = directory / ("before" + GetParam().ending), after = directory / ("after" + GetParam().ending);
+  const fs::path before = directory / ("before" + GetParam().ending),
+                 after = directory / ("after" + GetParam().ending);
   ASSERT_TRUE(write_file_atomically(before, sheets.text));
   ASSERT_TRUE(write_file_atomically(after, *bytes));
   const auto was = occt_read_file(before), now = occt_read_file(after);
@@ -65,8 +69,8 @@ TEST_P(BoundedSheetsInOcct, StayClosed) {
     largest = std::max(largest, later[k]);
   }
   EXPECT_EQ(met, 2) << "the edge of either face at which they meet";
-  std::cout << fmt::format("| {} | {:.2g} | {:.2g} |\n", GetParam().name, *std::ranges::max_element(was->gaps) / size,
-                           largest / size);
+  std::cout << fmt::format("| {} | {:.2g} | {:.2g} |\n", GetParam().name,
+                           *std::ranges::max_element(was->gaps) / size, largest / size);
   fs::remove_all(directory);
 }
 

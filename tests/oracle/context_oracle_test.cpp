@@ -1,4 +1,5 @@
-// Faces as triangles, and the bounds of B-spline faces, held against the areas that Open CASCADE finds.
+// Faces as triangles, and the bounds of B-spline faces, held against the areas that Open CASCADE
+// finds.
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -20,13 +21,16 @@ double folded_area(const FaceMesh& mesh) {
   double area = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Point twice = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
-    if (twice.dot(mesh.normals[a] + mesh.normals[b] + mesh.normals[c]) < 0) area += twice.norm() / 2;
+    if (twice.dot(mesh.normals[a] + mesh.normals[b] + mesh.normals[c]) < 0)
+      area += twice.norm() / 2;
   }
   return area;
 }
 
-void expect_areas(const FaceMeshes& context, const std::map<std::string, double>& areas, double chord) {
-  for (const auto& [id, reason] : context.skipped) ADD_FAILURE() << id << " is skipped: " << reason.message();
+void expect_areas(const FaceMeshes& context, const std::map<std::string, double>& areas,
+                  double chord) {
+  for (const auto& [id, reason] : context.skipped)
+    ADD_FAILURE() << id << " is skipped: " << reason.message();
   EXPECT_EQ(context.faces.size(), areas.size());
   for (const auto& mesh : context.faces) {
     const auto found = areas.find(mesh.id);
@@ -34,9 +38,9 @@ void expect_areas(const FaceMeshes& context, const std::map<std::string, double>
       ADD_FAILURE() << mesh.id << " is no face there";
       continue;
     }
-    // Chords of a circle are shorter by chord/3 than their arcs, and a surface may be curved both ways. On a plane the
-    // polygon in a circle of radius r lacks 2/3 chord π r² of what is on its left, or has it too much: a narrow ring
-    // more than its area says.
+    // Chords of a circle are shorter by chord/3 than their arcs, and a surface may be curved both
+    // ways. On a plane the polygon in a circle of radius r lacks 2/3 chord π r² of what is on its
+    // left, or has it too much: a narrow ring more than its area says.
     Eigen::AlignedBox3d box;
     for (const Point& p : mesh.points) box.extend(p);
     const double size = std::max(2 * found->second, box.diagonal().squaredNorm());
@@ -48,8 +52,8 @@ void expect_areas(const FaceMeshes& context, const std::map<std::string, double>
 class ContextShape : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ContextShape, HasTheAreasThatOpenCascadeFinds) {
-  const auto path =
-      fs::temp_directory_path() / ("knead-context-" + std::to_string(getpid()) + "-" + GetParam() + ".step");
+  const auto path = fs::temp_directory_path() /
+                    ("knead-context-" + std::to_string(getpid()) + "-" + GetParam() + ".step");
   ASSERT_TRUE(occt_write_shape(GetParam(), path));
   const auto file = step::File::read(path);
   ASSERT_TRUE(file) << file.error().message();
@@ -75,7 +79,8 @@ double shown_share(const Surface& surface, const SurfaceTrim& trim) {
     for (int k = 0; k < count; ++k)
       parameters[std::size_t(d)].push_back(domain.lower + domain.length() * (k + 0.5) / count);
   }
-  const auto grid = evaluate_grid<2>(surface, {std::span<const double>(parameters[0]), parameters[1]}, 1);
+  const auto grid =
+      evaluate_grid<2>(surface, {std::span<const double>(parameters[0]), parameters[1]}, 1);
   if (!grid) return 0;
   double whole = 0, shown = 0;
   for (int k = 0; k < count; ++k) {
@@ -115,7 +120,8 @@ TEST_P(ContextOracle, EveryFaceHasTheAreaThatOpenCascadeFinds) {
 TEST_P(ContextOracle, TrimsShowTheShareOfTheSurfaceThatOpenCascadeFinds) {
   const auto trims = trim_loops(file_->model());
   ASSERT_TRUE(trims);
-  for (const auto& [id, reason] : trims->skipped) ADD_FAILURE() << id << " is skipped: " << reason.message();
+  for (const auto& [id, reason] : trims->skipped)
+    ADD_FAILURE() << id << " is skipped: " << reason.message();
   for (std::size_t k = 0; k < file_->surfaces().size(); ++k) {
     const auto& surface = file_->surfaces()[k];
     const auto found = before_->results.find(surface.id);
@@ -127,7 +133,8 @@ TEST_P(ContextOracle, TrimsShowTheShareOfTheSurfaceThatOpenCascadeFinds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, ContextOracle, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, ContextOracle, ::testing::ValuesIn(testing::step_files()),
+                         testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

@@ -39,9 +39,12 @@ void expect_its_curves(const Session& session, const OcctCurves& read) {
     ASSERT_LT(k, read.curves.size());
     const Curve &ours = *curve->current, &theirs = read.curves[k++];
     for (int i = 0; i <= 100; ++i) {
-      EXPECT_NEAR((*evaluate_point<1>(ours, {i / 100.}) - *evaluate_point<1>(theirs, {i / 100.})).norm(), 0, 1e-14);
+      EXPECT_NEAR(
+          (*evaluate_point<1>(ours, {i / 100.}) - *evaluate_point<1>(theirs, {i / 100.})).norm(), 0,
+          1e-14);
     }
-    if (curve->name == "circle") continue;  // closed, which makes it periodic in Open CASCADE: on other knots
+    if (curve->name == "circle")
+      continue;  // closed, which makes it periodic in Open CASCADE: on other knots
     EXPECT_TRUE(same_bits(ours.control_points(), theirs.control_points())) << curve->name;
     EXPECT_TRUE(std::ranges::equal(ours.weights(), theirs.weights())) << curve->name;
     EXPECT_EQ(ours.knots(), theirs.knots()) << curve->name;
@@ -66,7 +69,8 @@ TEST(CurveOracle, ReadsAFileWhoseCurvesWereSculptedWhereTheyStand) {
   ASSERT_EQ(session.state().bodies.size(), 3U);
   for (const SceneBody& b : std::vector<SceneBody>(session.state().bodies)) {
     run(session,
-        {R"({"do":"select","body":")" + common_of(b).id + R"("})", R"({"do":"edge","which":"u0","hold":"position"})",
+        {R"({"do":"select","body":")" + common_of(b).id + R"("})",
+         R"({"do":"edge","which":"u0","hold":"position"})",
          R"({"do":"force","at":[0.6],"to":[1,1,8],"strength":30})", R"({"do":"step","count":2})"});
   }
   run(session, {R"({"do":"refine"})"});
@@ -78,7 +82,8 @@ TEST(CurveOracle, ReadsAFileWhoseCurvesWereSculptedWhereTheyStand) {
 TEST(CurveOracle, ReadsThemBesideSurfacesAndTheSidesOfVolumes) {
   Session session = fresh();
   run(session, three_curves);
-  run(session, {R"({"do":"new","shape":"volume","form":"cylinder"})", R"({"do":"new","shape":"torus"})"});
+  run(session,
+      {R"({"do":"new","shape":"volume","form":"cylinder"})", R"({"do":"new","shape":"torus"})"});
   const OcctCurves read = read_saved(session, "mixed.step");
   expect_its_curves(session, read);
   EXPECT_EQ(read.faces, 7);

@@ -1,6 +1,7 @@
-// Every STEP and IGES file of the collection is written unchanged, and with up to four of its faces pressed in their
-// visible middle; Open CASCADE says what became of it. The rows of the table in docs/exchange.md: all of them with
-// KNEAD_LONG, which KNEAD_EXCHANGE_TABLE=1 writes into the page; else those of small files, which must be the page's.
+// Every STEP and IGES file of the collection is written unchanged, and with up to four of its faces
+// pressed in their visible middle; Open CASCADE says what became of it. The rows of the table in
+// docs/exchange.md: all of them with KNEAD_LONG, which KNEAD_EXCHANGE_TABLE=1 writes into the page;
+// else those of small files, which must be the page's.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -34,10 +35,12 @@ constexpr std::array quick = {
     "bonnet.step", "test_pipe.step", "goteborg.step", "ap214_repeated_distinct_surface_knots.stp",
     "wigley.iges", "tip.iges",       "shaft.iges",    "series_60.iges"};
 
-bool is_iges(const fs::path& path) { return path.extension() == ".igs" || path.extension() == ".iges"; }
+bool is_iges(const fs::path& path) {
+  return path.extension() == ".igs" || path.extension() == ".iges";
+}
 
-/// The data of every entity of an IGES file but one, without the numbers of its lines: what an editor of another
-/// entity must leave alone.
+/// The data of every entity of an IGES file but one, without the numbers of its lines: what an
+/// editor of another entity must leave alone.
 std::map<std::string, std::string> entities_of(const std::string& bytes, const std::string& but) {
   std::map<std::string, std::string> result;
   std::istringstream lines(bytes);
@@ -51,7 +54,8 @@ std::map<std::string, std::string> entities_of(const std::string& bytes, const s
 }
 
 /// What the edit of one surface lost of the rest of the file.
-std::size_t lost_of(const std::string& before, const std::string& after, const std::string& surface, bool iges) {
+std::size_t lost_of(const std::string& before, const std::string& after, const std::string& surface,
+                    bool iges) {
   std::size_t lost = 0;
   if (iges) {
     const auto now = entities_of(after, surface);
@@ -89,7 +93,8 @@ class Exchange : public testing::FileTest {
     source_ = *std::move(source);
     directory_ = fs::temp_directory_path() / ("knead-exchange-" + std::to_string(getpid()));
     fs::create_directories(directory_);
-    if ((*read_file(path_)).find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE aborts on &SCOPE";
+    if ((*read_file(path_)).find("&SCOPE") != std::string::npos)
+      GTEST_SKIP() << "Open CASCADE aborts on &SCOPE";
     before_ = OcctFaces::read(path_);
     ASSERT_TRUE(before_);
   }
@@ -117,10 +122,12 @@ std::vector<const brep::SplineSurface*> Exchange::chosen() const {
     if (s.faces > 0 && s.trimmed) trimmed.push_back(&s);
   }
   auto& from = trimmed.empty() ? all : trimmed;
-  std::ranges::stable_sort(from, {}, [](const brep::SplineSurface* s) { return s->surface.size(); });
+  std::ranges::stable_sort(from, {},
+                           [](const brep::SplineSurface* s) { return s->surface.size(); });
   if (from.size() <= most_pressed) return from;
   std::vector<const brep::SplineSurface*> result;
-  for (std::size_t k = 0; k < most_pressed; ++k) result.push_back(from[k * (from.size() - 1) / (most_pressed - 1)]);
+  for (std::size_t k = 0; k < most_pressed; ++k)
+    result.push_back(from[k * (from.size() - 1) / (most_pressed - 1)]);
   return result;
 }
 
@@ -135,14 +142,16 @@ std::string Exchange::traits() const {
     degree = std::max({degree, s.surface.knots(0).degree(), s.surface.knots(1).degree()});
     net = std::max(net, static_cast<int>(s.surface.size()));
   }
-  std::string text = is_iges(path_) ? "IGES" : source_->schema().substr(0, source_->schema().find(' '));
+  std::string text =
+      is_iges(path_) ? "IGES" : source_->schema().substr(0, source_->schema().find(' '));
   const auto& surfaces = source_->surfaces();
   text += ", " + (surfaces.empty() ? file().length_unit() : surfaces[0].unit) + ", " +
           count(surfaces.size(), "surface", "surfaces") + " with " + count(faces, "face", "faces");
   if (rational > 0) text += ", " + std::to_string(rational) + " rational";
   if (trimmed > 0) text += ", " + std::to_string(trimmed) + " trimmed";
   if (closed > 0) text += ", " + std::to_string(closed) + " closed";
-  if (!surfaces.empty()) text += ", degree to " + std::to_string(degree) + ", net to " + std::to_string(net);
+  if (!surfaces.empty())
+    text += ", degree to " + std::to_string(degree) + ", net to " + std::to_string(net);
   if (!file().instances.empty()) text += ", assembly";
   return text;
 }
@@ -163,7 +172,8 @@ void Exchange::press_all(const std::string& held) {
     SCOPED_TRACE(s->id + " " + held);
     const auto pressed = press(file(), *s, held);
     Session session(Document::from(source_));
-    const auto bytes = pressed ? carried_out(session, pressed->script) : std::unexpected(pressed.error());
+    const auto bytes =
+        pressed ? carried_out(session, pressed->script) : std::unexpected(pressed.error());
     if (!bytes) {
       std::cout << name << " " << s->id << ": " << bytes.error().message() << "\n";
       refused += (refused.empty() ? "" : ", ") + s->id;
@@ -180,7 +190,8 @@ void Exchange::press_all(const std::string& held) {
     topology = topology && before_->topology() == after->topology();
     EXPECT_LE(after->bad_faces(), before_->bad_faces());
     EXPECT_LE(after->bad_edges(), before_->bad_edges());
-    bad = std::max(bad, after->bad_faces() + after->bad_edges() - before_->bad_faces() - before_->bad_edges());
+    bad = std::max(
+        bad, after->bad_faces() + after->bad_edges() - before_->bad_faces() - before_->bad_edges());
     const std::size_t gone = lost_of(*unchanged, *bytes, s->id, is_iges(path_));
     EXPECT_EQ(gone, 0U) << "of the rest of the file";
     lost += gone;
@@ -189,7 +200,8 @@ void Exchange::press_all(const std::string& held) {
     ASSERT_EQ(was.size(), is.size());
     EXPECT_FALSE(is.empty());
     for (std::size_t k = 0; k < is.size(); ++k) {
-      EXPECT_LE(is[k].gap, std::max({closed_gap, was[k].tolerance, 1.001 * was[k].gap})) << "edge " << k;
+      EXPECT_LE(is[k].gap, std::max({closed_gap, was[k].tolerance, 1.001 * was[k].gap}))
+          << "edge " << k;
       gap_before = std::max(gap_before, was[k].gap);
       gap_after = std::max(gap_after, is[k].gap);
       turn = std::max(turn, is[k].turn);
@@ -209,7 +221,8 @@ void Exchange::press_all(const std::string& held) {
     const auto& now = session.state().surfaces[static_cast<std::size_t>(*session.state().selected)];
     const auto there = evaluate_point<2>(*now.current, pressed->at);
     ASSERT_TRUE(there);
-    EXPECT_GE((*there - pressed->place).norm() / pressed->depth, 0.9) << "of the depth that was asked for";
+    EXPECT_GE((*there - pressed->place).norm() / pressed->depth, 0.9)
+        << "of the depth that was asked for";
   }
   std::string done = pressed_ids.empty() ? "written unchanged" : pressed_ids;
   if (!refused.empty()) done += "; refused: " + refused;
@@ -218,12 +231,13 @@ void Exchange::press_all(const std::string& held) {
   if (pressed_ids.empty()) {
     row += "the same bytes | | | | |";
   } else {
-    row += std::string(topology ? "the same" : "another") + " | " + (bad <= 0 ? "none" : std::to_string(bad)) + " | " +
-           (lost == 0 ? "none" : std::to_string(lost)) + " | " + figure(gap_before, least_gap) + " → " +
-           figure(gap_after, least_gap) + " | " +
+    row += std::string(topology ? "the same" : "another") + " | " +
+           (bad <= 0 ? "none" : std::to_string(bad)) + " | " +
+           (lost == 0 ? "none" : std::to_string(lost)) + " | " + figure(gap_before, least_gap) +
+           " → " + figure(gap_after, least_gap) + " | " +
            (smooth == 0 ? std::string("no smooth edge")
-                        : std::to_string(smooth) + ": " + figure(angle_before, least_angle) + " → " +
-                              figure(angle_after, least_angle)) +
+                        : std::to_string(smooth) + ": " + figure(angle_before, least_angle) +
+                              " → " + figure(angle_after, least_angle)) +
            " |";
   }
   std::cout << row << "\n";
@@ -243,7 +257,8 @@ std::vector<std::string> exchange_files() {
   std::ranges::sort(files);  // as the rows of the page are
   return files;
 }
-INSTANTIATE_TEST_SUITE_P(Files, Exchange, ::testing::ValuesIn(exchange_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, Exchange, ::testing::ValuesIn(exchange_files()),
+                         testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

@@ -22,9 +22,13 @@ std::vector<std::string> lines_of_page() {
 
 }  // namespace
 
-std::filesystem::path exchange_page() { return std::filesystem::path(KNEAD_SOURCE_DIR) / "docs/exchange.md"; }
+std::filesystem::path exchange_page() {
+  return std::filesystem::path(KNEAD_SOURCE_DIR) / "docs/exchange.md";
+}
 
-std::string key_of(const std::string& file, const std::string& held) { return "| " + file + " | " + held + " |"; }
+std::string key_of(const std::string& file, const std::string& held) {
+  return "| " + file + " | " + held + " |";
+}
 
 std::optional<std::string> row_of_page(const std::string& key) {
   for (const std::string& line : lines_of_page()) {
@@ -35,7 +39,8 @@ std::optional<std::string> row_of_page(const std::string& key) {
 
 void put_row(const std::string& key, const std::string& row) {
   std::vector<std::string> lines = lines_of_page();
-  auto place = std::ranges::find_if(lines, [&](const std::string& line) { return line.starts_with(key); });
+  auto place =
+      std::ranges::find_if(lines, [&](const std::string& line) { return line.starts_with(key); });
   if (place != lines.end()) {
     *place = row;
   } else {

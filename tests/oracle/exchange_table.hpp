@@ -15,7 +15,8 @@ namespace knead::oracle {
 /// The row of the page that begins with a key.
 [[nodiscard]] std::optional<std::string> row_of_page(const std::string& key);
 
-/// Puts a row in the place of the one with its key, or behind the last one. Nothing where the page is not there.
+/// Puts a row in the place of the one with its key, or behind the last one. Nothing where the page
+/// is not there.
 void put_row(const std::string& key, const std::string& row);
 
 /// Two digits; what is below `least`, which differs from one machine to the next, as "< least".

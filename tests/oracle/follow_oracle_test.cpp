@@ -1,5 +1,5 @@
-// Pairs of faces that share an edge are pressed on it, the edge being free, and Open CASCADE measures whether the solid
-// is still closed.
+// Pairs of faces that share an edge are pressed on it, the edge being free, and Open CASCADE
+// measures whether the solid is still closed.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,9 +45,11 @@ TEST_P(StrokedPair, StaysClosedUnderStrokes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, StrokedPair, ::testing::ValuesIn(few_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, StrokedPair, ::testing::ValuesIn(few_files()),
+                         testing::file_test_name);
 
-INSTANTIATE_TEST_SUITE_P(Files, PressedPair, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PressedPair, ::testing::ValuesIn(testing::step_files()),
+                         testing::file_test_name);
 
 class PressedIgesPair : public testing::FileTest {};
 
@@ -57,11 +59,13 @@ TEST_P(PressedIgesPair, StaysClosedAlongTheEdgeThatFollows) {
   const brep::Model& file = *(*source)->model();
   const auto directory = fs::temp_directory_path() / ("knead-iges-" + std::to_string(getpid()));
   fs::create_directories(directory);
-  for (const Pair& pair : each_kind(file, pairs_of(file))) move(path_, file, pair, Motion::press, directory, 0);
+  for (const Pair& pair : each_kind(file, pairs_of(file)))
+    move(path_, file, pair, Motion::press, directory, 0);
   fs::remove_all(directory);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, PressedIgesPair, ::testing::ValuesIn(testing::iges_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PressedIgesPair, ::testing::ValuesIn(testing::iges_files()),
+                         testing::file_test_name);
 
 class PressedShell : public ::testing::TestWithParam<std::string> {};
 
@@ -75,9 +79,11 @@ TEST_P(PressedShell, StaysClosedAlongTheEdgesThatFollow) {
   const double height = GetParam() == "corner" ? 4 * std::sin(50.0 / 30) * std::cos(50.0 / 40) : 0;
   const bool corner = GetParam().ends_with("corner");
   auto pairs = corner ? std::vector<Pair>() : pairs_of(file->model());
-  if (corner || GetParam() == "strips") pairs.push_back(chain_of(file->model(), Point(50, 50, height)));
+  if (corner || GetParam() == "strips")
+    pairs.push_back(chain_of(file->model(), Point(50, 50, height)));
   ASSERT_FALSE(pairs.empty());
-  for (const Pair& pair : pairs) move(path, file->model(), pair, Motion::press, directory / "after", 0.5);
+  for (const Pair& pair : pairs)
+    move(path, file->model(), pair, Motion::press, directory / "after", 0.5);
   fs::remove_all(directory);
 }
 
@@ -91,19 +97,21 @@ TEST_P(PressedShell, StaysClosedUnderStrokes) {
   ASSERT_TRUE(file) << file.error().message();
   for (const Pair& pair : pairs_of(file->model())) {
     for (const Motion motion : {Motion::groove, Motion::grab}) {
-      move(path, file->model(), pair, motion, directory / "after", motion == Motion::grab ? 0.3 : 0.5);
+      move(path, file->model(), pair, motion, directory / "after",
+           motion == Motion::grab ? 0.3 : 0.5);
     }
   }
   fs::remove_all(directory);
 }
 
-/// Presses the edges of a .brep file; Open CASCADE finds the same topology, no more faults, and no edge farther from
-/// its faces, at equal parameters, than before or than 0.001.
+/// Presses the edges of a .brep file; Open CASCADE finds the same topology, no more faults, and no
+/// edge farther from its faces, at equal parameters, than before or than 0.001.
 void press_brep(const fs::path& path, const std::vector<Pair>& pairs) {
   const auto source = *open_source(*read_file(path), path.string());
   const auto before = occt_read_file(path);
   ASSERT_TRUE(before);
-  const fs::path written = fs::temp_directory_path() / ("knead-pressed-" + std::to_string(getpid()) + ".brep");
+  const fs::path written =
+      fs::temp_directory_path() / ("knead-pressed-" + std::to_string(getpid()) + ".brep");
   for (const Pair& pair : pairs) {
     SCOPED_TRACE(pair.edges.front());
     Session session(Document::from(source));
@@ -117,7 +125,8 @@ void press_brep(const fs::path& path, const std::vector<Pair>& pairs) {
     const std::string was = *read_file(path);
     EXPECT_NE(*bytes, was);
     // Places and curves in parameters stay; so do polygons and triangles.
-    for (const auto& [from, to] : {std::pair("CASCADE", "\nCurves "), std::pair("\nPolygon3D", "\nSurfaces ")}) {
+    for (const auto& [from, to] :
+         {std::pair("CASCADE", "\nCurves "), std::pair("\nPolygon3D", "\nSurfaces ")}) {
       const auto part = [&](const std::string& all) {
         const std::size_t begin = all.find(from);
         return all.substr(begin, all.find(to) - begin);
@@ -141,8 +150,9 @@ void press_brep(const fs::path& path, const std::vector<Pair>& pairs) {
       went = std::max(went, session.largest_displacement(static_cast<int>(k)));
     }
     EXPECT_GE(went, 0.5 * pair.depth);
-    std::cout << fmt::format("| {} | {} | {:.0f} % | {:.2g} | {:.2g} | {} |\n", path.filename().string(),
-                             fmt::join(pair.edges, ", "), 100 * went / pair.depth, gap_before, gap, after->bad_faces);
+    std::cout << fmt::format("| {} | {} | {:.0f} % | {:.2g} | {:.2g} | {} |\n",
+                             path.filename().string(), fmt::join(pair.edges, ", "),
+                             100 * went / pair.depth, gap_before, gap, after->bad_faces);
   }
   fs::remove(written);
 }
@@ -171,7 +181,8 @@ TEST_P(PressedBrepPair, StaysClosedAlongTheEdgeThatFollows) {
   press_brep(path_, pairs_of(*(*source)->model()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, PressedBrepPair, ::testing::ValuesIn(brep_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PressedBrepPair, ::testing::ValuesIn(brep_files()),
+                         testing::file_test_name);
 
 INSTANTIATE_TEST_SUITE_P(Shells, PressedShell, ::testing::ValuesIn(occt_shell_names()),
                          [](const auto& instance) { return instance.param; });

@@ -17,7 +17,8 @@ using testing::area_of;
 using testing::volume_of;
 
 /// Every part where the assembly puts it, as often as it is used.
-void expect_in_place(const FaceMeshes& model, const OcctWhole& other, double tolerance, double area) {
+void expect_in_place(const FaceMeshes& model, const OcctWhole& other, double tolerance,
+                     double area) {
   Eigen::AlignedBox3d box;
   for (const FaceMesh& mesh : model.faces) {
     for (const Point& p : mesh.points) box.extend(p);
@@ -34,7 +35,8 @@ void expect_in_place(const FaceMeshes& model, const OcctWhole& other, double tol
 void expect_model(const step::File& file, const fs::path& path, double tolerance) {
   const auto model = model_faces(file.model(), tolerance);
   ASSERT_TRUE(model) << model.error().message();
-  for (const auto& [id, reason] : model->skipped) ADD_FAILURE() << id << " is left out: " << reason.message();
+  for (const auto& [id, reason] : model->skipped)
+    ADD_FAILURE() << id << " is left out: " << reason.message();
   const auto assembly = file.model().assembly;
   ASSERT_TRUE(assembly) << assembly.error().message();
   std::map<std::string, double> areas = occt_face_areas(path, assembly->unit);
@@ -48,7 +50,8 @@ void expect_model(const step::File& file, const fs::path& path, double tolerance
     // Chords shorten curves; and a strip as wide as the tolerance around the face.
     Eigen::AlignedBox3d own;
     for (const Point& p : mesh.points) own.extend(p);
-    EXPECT_NEAR(area, found->second, 0.02 * found->second + 8 * tolerance * own.diagonal().norm()) << mesh.id;
+    EXPECT_NEAR(area, found->second, 0.02 * found->second + 8 * tolerance * own.diagonal().norm())
+        << mesh.id;
   }
   const OcctWhole other = occt_whole(path, assembly->unit, assembly->placed());
   if (assembly->placed()) expect_in_place(*model, other, tolerance, whole);
@@ -61,7 +64,8 @@ void expect_model(const step::File& file, const fs::path& path, double tolerance
 class MeshShape : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(MeshShape, IsClosedAndHasTheVolumeThatOpenCascadeFinds) {
-  const auto path = fs::temp_directory_path() / ("knead-mesh-" + std::to_string(getpid()) + "-" + GetParam() + ".step");
+  const auto path = fs::temp_directory_path() /
+                    ("knead-mesh-" + std::to_string(getpid()) + "-" + GetParam() + ".step");
   ASSERT_TRUE(occt_write_shape(GetParam(), path));
   const auto file = step::File::read(path);
   ASSERT_TRUE(file) << file.error().message();
@@ -75,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, MeshShape, ::testing::ValuesIn(occt_shape_names
 class MeshOracle : public StepOracle {};
 
 TEST_P(MeshOracle, IsClosedAndHasTheVolumeThatOpenCascadeFinds) {
-  if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its nets are large
+  if (GetParam() == "linkrods.step" && !testing::long_run())
+    GTEST_SKIP() << "with KNEAD_LONG=1";  // its nets are large
   Eigen::AlignedBox3d box;
   for (const auto& s : file_->surfaces()) {
     for (const auto& row : s.surface.control_points().rowwise()) box.extend(Point(row.transpose()));
@@ -84,7 +89,8 @@ TEST_P(MeshOracle, IsClosedAndHasTheVolumeThatOpenCascadeFinds) {
   expect_model(*file_, path_, tolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, MeshOracle, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, MeshOracle, ::testing::ValuesIn(testing::step_files()),
+                         testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

@@ -51,14 +51,16 @@ struct Door {
 
 class NewFile : public ::testing::TestWithParam<Door> {
  protected:
-  std::optional<OcctCheck> checked(const std::vector<NamedSurface>& all, bool faces, const std::string& unit) {
+  std::optional<OcctCheck> checked(const std::vector<NamedSurface>& all, bool faces,
+                                   const std::string& unit) {
     SaveOptions how;
     how.unit = unit;
     how.faces = faces;
     how.schema = GetParam().schema;
     const auto bytes = save_surfaces(all, *find_format(GetParam().format), how);
     EXPECT_TRUE(bytes) << bytes.error().message();
-    const fs::path path = fs::temp_directory_path() / ("knead-new-" + std::to_string(getpid()) + GetParam().ending);
+    const fs::path path =
+        fs::temp_directory_path() / ("knead-new-" + std::to_string(getpid()) + GetParam().ending);
     if (!bytes || !write_file_atomically(path, *bytes)) return std::nullopt;
     auto result = occt_check(path);
     fs::remove(path);
@@ -80,13 +82,16 @@ TEST_P(NewFile, IsReadWithoutAComplaint) {
     EXPECT_EQ(topology["shells"], 2) << "the strips, and the tube";
     EXPECT_EQ(topology["edges"], 10 + 3) << "of the strips, and two circles and a seam";
     EXPECT_EQ(topology["vertices"], 8 + 2);
-    EXPECT_EQ((read->face_colours), (std::map<std::array<int, 3>, int>{{{255, 0, 0}, 1}, {{0, 51, 153}, 1}}));
+    EXPECT_EQ((read->face_colours),
+              (std::map<std::array<int, 3>, int>{{{255, 0, 0}, 1}, {{0, 51, 153}, 1}}));
   }
 }
 
 TEST_P(NewFile, HasItsUnit) {
-  for (const auto& [unit, mm] : {std::pair("mm", 1.0), {"inch", 25.4}, {"m", 1000.0}, {"foot", 304.8}, {"cm", 10.0}}) {
-    const auto own = checked({surfaces()[0]}, true, "mm"), scaled = checked({surfaces()[0]}, true, unit);
+  for (const auto& [unit, mm] :
+       {std::pair("mm", 1.0), {"inch", 25.4}, {"m", 1000.0}, {"foot", 304.8}, {"cm", 10.0}}) {
+    const auto own = checked({surfaces()[0]}, true, "mm"),
+               scaled = checked({surfaces()[0]}, true, unit);
     ASSERT_TRUE(own && scaled);
     EXPECT_NEAR(scaled->area / own->area, mm * mm, 1e-9 * mm * mm) << unit;
   }
@@ -114,7 +119,8 @@ void NewFile::of_surfaces_of(const std::vector<fs::path>& files) {
     if (all.empty()) continue;
     const auto left = without_faces(all);
     ASSERT_TRUE(left);
-    for (const std::size_t k : std::views::reverse(*left)) all.erase(all.begin() + static_cast<std::ptrdiff_t>(k));
+    for (const std::size_t k : std::views::reverse(*left))
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(k));
     const auto read = checked(all, true, "mm");
     ASSERT_TRUE(read);
     EXPECT_TRUE(read->complaints.empty()) << read->complaints.front();
@@ -134,10 +140,12 @@ TEST_P(NewFile, OfTheSurfacesOfAForeignFileIsValid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Doors, NewFile,
-                         ::testing::Values(Door{"step", ".step", "ap214"}, Door{"step", ".step", "ap242"},
+                         ::testing::Values(Door{"step", ".step", "ap214"},
+                                           Door{"step", ".step", "ap242"},
                                            Door{"iges", ".igs", "ap214"}),
                          [](const auto& instance) {
-                           return std::string(instance.param.format) + std::string(instance.param.schema);
+                           return std::string(instance.param.format) +
+                                  std::string(instance.param.schema);
                          });
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Angles between faces that meet along an edge which they need not share: faces of IGES files have edges of their own.
+// Angles between faces that meet along an edge which they need not share: faces of IGES files have
+// edges of their own.
 
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
@@ -35,7 +36,8 @@ std::vector<Course> courses_of(const TopoDS_Face& face) {
     made.surface = surface_of(face);
     for (int k = 0; k <= samples; ++k) {
       const double share = static_cast<double>(k) / samples;
-      made.points.push_back(curve->Value(f + (l - f) * share).Transformed(location.Transformation()));
+      made.points.push_back(
+          curve->Value(f + (l - f) * share).Transformed(location.Transformation()));
       made.feet.push_back(flat->Value(f2 + (l2 - f2) * share));
     }
   }
@@ -47,8 +49,8 @@ int direction(const Course& a, const Course& b) {
   const double close = 1e-3 * std::max(a.points.front().Distance(a.points[samples / 2]), 1e-2);
   const auto runs = [&](bool back) {
     for (const int k : {0, samples / 4, samples / 2, samples}) {
-      if (a.points[static_cast<std::size_t>(k)].Distance(b.points[static_cast<std::size_t>(back ? samples - k : k)]) >
-          close)
+      if (a.points[static_cast<std::size_t>(k)].Distance(
+              b.points[static_cast<std::size_t>(back ? samples - k : k)]) > close)
         return false;
     }
     return true;
@@ -56,12 +58,15 @@ int direction(const Course& a, const Course& b) {
   return runs(false) ? 1 : runs(true) ? -1 : 0;
 }
 
-/// The largest angle between both sides, the first lying on `own` and the second on its own surface.
+/// The largest angle between both sides, the first lying on `own` and the second on its own
+/// surface.
 double angle_of(const Course& a, const Course& b, int way, const SurfaceHandle& own) {
   double most = 0;
   for (int k = 0; k <= samples; ++k) {
-    const auto i = static_cast<std::size_t>(k), j = static_cast<std::size_t>(way > 0 ? k : samples - k);
-    const double angle = degrees_between(normal_at(own, a.feet[i]), normal_at(b.surface, b.feet[j]));
+    const auto i = static_cast<std::size_t>(k),
+               j = static_cast<std::size_t>(way > 0 ? k : samples - k);
+    const double angle =
+        degrees_between(normal_at(own, a.feet[i]), normal_at(b.surface, b.feet[j]));
     most = std::max(most, std::min(angle, 180 - angle));
   }
   return most;
@@ -69,7 +74,8 @@ double angle_of(const Course& a, const Course& b, int way, const SurfaceHandle& 
 
 }  // namespace
 
-std::vector<OcctFaces::Across> OcctFaces::across(const std::string& surface, const OcctFaces& after) const {
+std::vector<OcctFaces::Across> OcctFaces::across(const std::string& surface,
+                                                 const OcctFaces& after) const {
   constexpr double smooth = 0.1;  // degrees
   std::vector<Across> result;
   const auto from = data_->on.find(surface), to = after.data_->on.find(surface);

@@ -42,7 +42,8 @@ TopoDS_Shape step_shape(const std::filesystem::path& path) {
   reader.TransferRoots();
   const auto model = reader.WS()->Model();
   for (int k = 1; reader.NbShapes() == 0 && k <= model->NbEntities(); ++k) {
-    if (model->Value(k)->IsKind(STANDARD_TYPE(StepShape_ShapeRepresentation))) reader.TransferEntity(model->Value(k));
+    if (model->Value(k)->IsKind(STANDARD_TYPE(StepShape_ShapeRepresentation)))
+      reader.TransferEntity(model->Value(k));
   }
   return reader.OneShape();
 }
@@ -67,7 +68,8 @@ OcctBody measured(const TopoDS_Shape& shape) {
   BRepBndLib::AddOptimal(shape, box, false, false);
   if (box.IsVoid()) return result;
   const gp_Pnt lower = box.CornerMin(), upper = box.CornerMax();
-  result.box = {Eigen::Vector3d(lower.X(), lower.Y(), lower.Z()), Eigen::Vector3d(upper.X(), upper.Y(), upper.Z())};
+  result.box = {Eigen::Vector3d(lower.X(), lower.Y(), lower.Z()),
+                Eigen::Vector3d(upper.X(), upper.Y(), upper.Z())};
   return result;
 }
 
@@ -110,7 +112,8 @@ std::optional<OcctBodies> occt_bodies(const std::filesystem::path& path) {
     }
   }
   constexpr double apart = 1e-5;  // of the diagonal: what is sewn
-  if (result.solids == 0 && result.faces > 1) result.sewn = sewn(shape, apart * result.whole.box.diagonal().norm());
+  if (result.solids == 0 && result.faces > 1)
+    result.sewn = sewn(shape, apart * result.whole.box.diagonal().norm());
   return result;
 }
 

@@ -10,7 +10,8 @@ namespace knead::oracle {
 /// Faces together, as Open CASCADE measures them on their exact surfaces.
 struct OcctBody {
   double area = 0;
-  double volume = 0;  ///< of a shell of a solid: below zero where its faces look inwards, as those of a hollow do
+  double volume = 0;  ///< of a shell of a solid: below zero where its faces look inwards, as those
+                      ///< of a hollow do
   Eigen::AlignedBox3d box;
 };
 
@@ -19,7 +20,8 @@ struct OcctBodies {
   int faces = 0, solids = 0;
   OcctBody whole;                ///< its volume: of the solids
   std::vector<OcctBody> shells;  ///< of solids
-  std::vector<OcctBody> sewn;    ///< without solids: the closed shells of its faces sewn together, outwards
+  std::vector<OcctBody>
+      sewn;  ///< without solids: the closed shells of its faces sewn together, outwards
 };
 
 /// None where it cannot be read, or nothing is in it.

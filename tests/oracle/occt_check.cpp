@@ -39,7 +39,9 @@ void list_complaints(Interface_CheckIterator checks, std::vector<std::string>& c
     for (int k = 1; k <= check->NbWarnings(); ++k) {
       // What it makes of every closed surface, and of one with full knots.
       const std::string text = check->CWarning(k);
-      if (text.find("periodic") != std::string::npos || text.find("C0-continuous") != std::string::npos) continue;
+      if (text.find("periodic") != std::string::npos ||
+          text.find("C0-continuous") != std::string::npos)
+        continue;
       complaints.push_back(text);
     }
   }
@@ -69,8 +71,10 @@ std::optional<OcctCheck> check(const std::filesystem::path& path) {
   const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const auto colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
   shapes->GetFreeShapes(labels);
-  constexpr std::pair<const char*, TopAbs_ShapeEnum> kinds[] = {
-      {"shells", TopAbs_SHELL}, {"faces", TopAbs_FACE}, {"edges", TopAbs_EDGE}, {"vertices", TopAbs_VERTEX}};
+  constexpr std::pair<const char*, TopAbs_ShapeEnum> kinds[] = {{"shells", TopAbs_SHELL},
+                                                                {"faces", TopAbs_FACE},
+                                                                {"edges", TopAbs_EDGE},
+                                                                {"vertices", TopAbs_VERTEX}};
   for (int k = 1; k <= labels.Length(); ++k) {
     const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(labels.Value(k));
     const BRepCheck_Analyzer analyzer(shape);
@@ -82,7 +86,8 @@ std::optional<OcctCheck> check(const std::filesystem::path& path) {
         result.bad_shapes += analyzer.IsValid(all(n)) ? 0 : 1;
         if (kind == TopAbs_SHELL) result.closed_shells += BRep_Tool::IsClosed(all(n)) ? 1 : 0;
         if (kind == TopAbs_EDGE)
-          result.largest_tolerance = std::max(result.largest_tolerance, BRep_Tool::Tolerance(TopoDS::Edge(all(n))));
+          result.largest_tolerance =
+              std::max(result.largest_tolerance, BRep_Tool::Tolerance(TopoDS::Edge(all(n))));
         if (kind != TopAbs_FACE) continue;
         GProp_GProps properties;
         BRepGProp::SurfaceProperties(all(n), properties);
@@ -92,8 +97,11 @@ std::optional<OcctCheck> check(const std::filesystem::path& path) {
             !colours->GetColor(all(n), XCAFDoc_ColorGen, colour))
           continue;
         const auto part = [](double c) { return static_cast<int>(std::lround(255 * c)); };
-        const auto srgb = [](double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055; };
-        ++result.face_colours[{part(srgb(colour.Red())), part(srgb(colour.Green())), part(srgb(colour.Blue()))}];
+        const auto srgb = [](double c) {
+          return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+        };
+        ++result.face_colours[{part(srgb(colour.Red())), part(srgb(colour.Green())),
+                               part(srgb(colour.Blue()))}];
       }
     }
   }
@@ -103,7 +111,8 @@ std::optional<OcctCheck> check(const std::filesystem::path& path) {
 }  // namespace
 
 std::optional<OcctCheck> occt_check(const std::filesystem::path& path) {
-  return path.extension() == ".igs" ? check<IGESCAFControl_Reader>(path) : check<STEPCAFControl_Reader>(path);
+  return path.extension() == ".igs" ? check<IGESCAFControl_Reader>(path)
+                                    : check<STEPCAFControl_Reader>(path);
 }
 
 }  // namespace knead::oracle

@@ -11,8 +11,9 @@ namespace knead::oracle {
 
 /// What Open CASCADE says of a new STEP or IGES file.
 struct OcctCheck {
-  std::vector<std::string> complaints;  ///< warnings and errors of the file and of its transfer; not its
-                                        ///< notes on surfaces that it makes periodic, or finds C0
+  std::vector<std::string>
+      complaints;  ///< warnings and errors of the file and of its transfer; not its
+                   ///< notes on surfaces that it makes periodic, or finds C0
   std::map<std::string, int> topology;  ///< distinct shapes by kind
   int bad_shapes = 0;                   ///< that BRepCheck finds fault with
   int closed_shells = 0;

@@ -53,7 +53,8 @@ OcctCurves occt_curves(const std::filesystem::path& path) {
   for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) ++result.faces;
   for (TopExp_Explorer at(shape, TopAbs_EDGE, TopAbs_FACE); at.More(); at.Next()) {
     double first = 0, last = 0;
-    auto spline = Handle(Geom_BSplineCurve)::DownCast(BRep_Tool::Curve(TopoDS::Edge(at.Current()), first, last));
+    auto spline = Handle(Geom_BSplineCurve)::DownCast(
+        BRep_Tool::Curve(TopoDS::Edge(at.Current()), first, last));
     if (spline.IsNull()) continue;
     if (spline->IsPeriodic()) spline->SetNotPeriodic();  // what it makes of curves that are closed
     if (auto curve = curve_of(spline)) result.curves.push_back(*std::move(curve));

@@ -26,9 +26,10 @@ inline SurfaceHandle surface_of(const TopoDS_Face& face) {
   return surface;
 }
 
-/// Distance of a point from a surface: by Levenberg and Marquardt's iteration from (u, v), which ends at the foot, or
-/// by Open CASCADE's own search where that ends farther than `wanted`.
-double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, double wanted, gp_Pnt2d* foot = nullptr);
+/// Distance of a point from a surface: by Levenberg and Marquardt's iteration from (u, v), which
+/// ends at the foot, or by Open CASCADE's own search where that ends farther than `wanted`.
+double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, double wanted,
+                gp_Pnt2d* foot = nullptr);
 
 inline gp_Vec normal_at(const SurfaceHandle& surface, gp_Pnt2d at) {
   gp_Pnt p;
@@ -38,7 +39,8 @@ inline gp_Vec normal_at(const SurfaceHandle& surface, gp_Pnt2d at) {
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
   surface->Bounds(u0, u1, v0, v1);
   constexpr double unbounded = 1e3;  // planes, cylinders and cones are
-  const double a = du.Magnitude() * std::min(u1 - u0, unbounded), b = dv.Magnitude() * std::min(v1 - v0, unbounded);
+  const double a = du.Magnitude() * std::min(u1 - u0, unbounded),
+               b = dv.Magnitude() * std::min(v1 - v0, unbounded);
   // Beside a pole there is no normal to speak of.
   if (std::min(a, b) <= 1e-5 * std::max(a, b) || n.Magnitude() == 0) return {0, 0, 0};
   return n / n.Magnitude();

@@ -51,9 +51,12 @@ void read_step(const std::filesystem::path& path, OcctFaces::Data& data) {
 }
 
 /// The surface below an entity that is a face, or the entity itself.
-opencascade::handle<IGESData_IGESEntity> surface_below(const opencascade::handle<IGESData_IGESEntity>& entity) {
-  if (const auto f = opencascade::handle<IGESGeom_TrimmedSurface>::DownCast(entity)) return f->Surface();
-  if (const auto f = opencascade::handle<IGESGeom_BoundedSurface>::DownCast(entity)) return f->Surface();
+opencascade::handle<IGESData_IGESEntity> surface_below(
+    const opencascade::handle<IGESData_IGESEntity>& entity) {
+  if (const auto f = opencascade::handle<IGESGeom_TrimmedSurface>::DownCast(entity))
+    return f->Surface();
+  if (const auto f = opencascade::handle<IGESGeom_BoundedSurface>::DownCast(entity))
+    return f->Surface();
   if (const auto f = opencascade::handle<IGESSolid_Face>::DownCast(entity)) return f->Surface();
   return entity;
 }

@@ -39,20 +39,24 @@ double gap_of(const TopoDS_Edge& edge, const TopoDS_Face& face) {
   for (int k = 0; k <= steps; ++k) {
     const double share = static_cast<double>(k) / steps;
     const gp_Pnt2d at = flat->Value(first_2d + share * (last_2d - first_2d));
-    result = std::max(result, surface->Value(at.X(), at.Y()).Distance(curve->Value(first + share * (last - first))));
+    result = std::max(
+        result,
+        surface->Value(at.X(), at.Y()).Distance(curve->Value(first + share * (last - first))));
   }
   return result;
 }
 
 /// The largest distance of an edge's points from the nearest of these faces but its own.
-double parting_of(const TopoDS_Edge& edge, const TopoDS_Face& own, const std::vector<TopoDS_Face>& faces) {
+double parting_of(const TopoDS_Edge& edge, const TopoDS_Face& own,
+                  const std::vector<TopoDS_Face>& faces) {
   double first = 0, last = 0;
   const auto curve = BRep_Tool::Curve(edge, first, last);
   if (curve.IsNull() || faces.size() < 2) return std::numeric_limits<double>::infinity();
   constexpr int steps = 20;
   double result = 0;
   for (int k = 0; k <= steps; ++k) {
-    const auto vertex = BRepBuilderAPI_MakeVertex(curve->Value(first + (last - first) * k / steps)).Vertex();
+    const auto vertex =
+        BRepBuilderAPI_MakeVertex(curve->Value(first + (last - first) * k / steps)).Vertex();
     double nearest = std::numeric_limits<double>::infinity();
     for (const TopoDS_Face& face : faces) {
       if (face.IsSame(own)) continue;
@@ -107,9 +111,9 @@ std::optional<OcctFile> occt_read_file(const std::filesystem::path& path) {
   const TopoDS_Shape& shape = *read;
   OcctFile result;
   if (shape.IsNull()) return result;
-  constexpr std::pair<const char*, TopAbs_ShapeEnum> kinds[] = {{"solids", TopAbs_SOLID}, {"shells", TopAbs_SHELL},
-                                                                {"faces", TopAbs_FACE},   {"wires", TopAbs_WIRE},
-                                                                {"edges", TopAbs_EDGE},   {"vertices", TopAbs_VERTEX}};
+  constexpr std::pair<const char*, TopAbs_ShapeEnum> kinds[] = {
+      {"solids", TopAbs_SOLID}, {"shells", TopAbs_SHELL}, {"faces", TopAbs_FACE},
+      {"wires", TopAbs_WIRE},   {"edges", TopAbs_EDGE},   {"vertices", TopAbs_VERTEX}};
   for (const auto& [name, kind] : kinds) {
     for (TopExp_Explorer at(shape, kind); at.More(); at.Next()) ++result.topology[name];
   }

@@ -23,7 +23,8 @@
 
 namespace knead::oracle {
 
-double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, double wanted, gp_Pnt2d* foot) {
+double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, double wanted,
+                gp_Pnt2d* foot) {
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
   surface->Bounds(u0, u1, v0, v1);
   const auto clamped = [&](double& u, double& v) {
@@ -39,7 +40,8 @@ double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, doub
   for (int k = 0; k < 60 && best > 1e-9 && damping < 1e8; ++k) {
     const gp_Vec off(q, p);
     const double a = du.Dot(du), b = du.Dot(dv), c = dv.Dot(dv), g = du.Dot(off), h = dv.Dot(off);
-    const double aa = a * (1 + damping) + 1e-300, cc = c * (1 + damping) + 1e-300, det = aa * cc - b * b;
+    const double aa = a * (1 + damping) + 1e-300, cc = c * (1 + damping) + 1e-300,
+                 det = aa * cc - b * b;
     if (!(det > 0)) {
       damping = 10 * damping + 1e-12;
       continue;
@@ -87,7 +89,8 @@ void for_each_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, const F& f) {
 }
 
 /// Another face meets `face` at `edge` with the same tangent planes.
-bool is_smooth(const TopoDS_Edge& edge, const TopoDS_Face& face, const TopTools_ListOfShape& around) {
+bool is_smooth(const TopoDS_Edge& edge, const TopoDS_Face& face,
+               const TopTools_ListOfShape& around) {
   double f = 0, l = 0;
   const auto own = BRep_Tool::CurveOnSurface(edge, face, f, l);
   if (own.IsNull()) return false;
@@ -100,8 +103,9 @@ bool is_smooth(const TopoDS_Edge& edge, const TopoDS_Face& face, const TopTools_
     double most = 0;
     for (int k = 1; k < 8; ++k) {
       const double t = f + (l - f) * k / 8;
-      const double angle = degrees_between(normal_at(BRep_Tool::Surface(face), own->Value(t)),
-                                           normal_at(BRep_Tool::Surface(other), theirs->Value(f2 + (l2 - f2) * k / 8)));
+      const double angle = degrees_between(
+          normal_at(BRep_Tool::Surface(face), own->Value(t)),
+          normal_at(BRep_Tool::Surface(other), theirs->Value(f2 + (l2 - f2) * k / 8)));
       most = std::max(most, std::min(angle, 180 - angle));
     }
     return most <= 0.1;
@@ -120,21 +124,23 @@ int OcctFaces::faces() const {
 int OcctFaces::bad_faces() const {
   const BRepCheck_Analyzer check(data_->shape);
   int bad = 0;
-  for_each_of(data_->shape, TopAbs_FACE, [&](const TopoDS_Shape& s) { bad += check.IsValid(s) ? 0 : 1; });
+  for_each_of(data_->shape, TopAbs_FACE,
+              [&](const TopoDS_Shape& s) { bad += check.IsValid(s) ? 0 : 1; });
   return bad;
 }
 
 int OcctFaces::bad_edges() const {
   const BRepCheck_Analyzer check(data_->shape);
   int bad = 0;
-  for_each_of(data_->shape, TopAbs_EDGE, [&](const TopoDS_Shape& s) { bad += check.IsValid(s) ? 0 : 1; });
+  for_each_of(data_->shape, TopAbs_EDGE,
+              [&](const TopoDS_Shape& s) { bad += check.IsValid(s) ? 0 : 1; });
   return bad;
 }
 
 std::map<std::string, int> OcctFaces::topology() const {
-  constexpr std::pair<TopAbs_ShapeEnum, const char*> kinds[] = {{TopAbs_SOLID, "solids"}, {TopAbs_SHELL, "shells"},
-                                                                {TopAbs_FACE, "faces"},   {TopAbs_WIRE, "wires"},
-                                                                {TopAbs_EDGE, "edges"},   {TopAbs_VERTEX, "vertices"}};
+  constexpr std::pair<TopAbs_ShapeEnum, const char*> kinds[] = {
+      {TopAbs_SOLID, "solids"}, {TopAbs_SHELL, "shells"}, {TopAbs_FACE, "faces"},
+      {TopAbs_WIRE, "wires"},   {TopAbs_EDGE, "edges"},   {TopAbs_VERTEX, "vertices"}};
   std::map<std::string, int> result;
   for (const auto& [kind, name] : kinds) {
     for_each_of(data_->shape, kind, [&, key = name](const TopoDS_Shape&) { ++result[key]; });
@@ -161,11 +167,13 @@ std::vector<OcctEdge> OcctFaces::edges(const std::string& surface, const OcctFac
       OcctEdge measured;
       measured.tolerance = BRep_Tool::Tolerance(edge);
       for (int k = 0; k <= samples; ++k) {
-        const gp_Pnt p = curve->Value(f + (l - f) * k / samples).Transformed(location.Transformation());
-        const gp_Pnt2d at =
-            flat.IsNull() ? ShapeAnalysis_Surface(own).ValueOfUV(p, 1e-7) : flat->Value(f2 + (l2 - f2) * k / samples);
+        const gp_Pnt p =
+            curve->Value(f + (l - f) * k / samples).Transformed(location.Transformation());
+        const gp_Pnt2d at = flat.IsNull() ? ShapeAnalysis_Surface(own).ValueOfUV(p, 1e-7)
+                                          : flat->Value(f2 + (l2 - f2) * k / samples);
         measured.gap = std::max(measured.gap, distance(moved, p, at, std::max(1e-6, measured.gap)));
-        measured.turn = std::max(measured.turn, degrees_between(normal_at(own, at), normal_at(moved, at)));
+        measured.turn =
+            std::max(measured.turn, degrees_between(normal_at(own, at), normal_at(moved, at)));
       }
       for (const auto& [vertex, t] :
            {std::pair(TopExp::FirstVertex(edge), f), std::pair(TopExp::LastVertex(edge), l)}) {
@@ -182,7 +190,8 @@ std::vector<OcctEdge> OcctFaces::edges(const std::string& surface, const OcctFac
   return result;
 }
 
-std::vector<OcctCrease> OcctFaces::creases(const std::string& surface, const std::string& other) const {
+std::vector<OcctCrease> OcctFaces::creases(const std::string& surface,
+                                           const std::string& other) const {
   constexpr int samples = 200;
   std::vector<OcctCrease> result;
   const auto faces = data_->on.find(surface), others = data_->on.find(other);
@@ -205,11 +214,13 @@ std::vector<OcctCrease> OcctFaces::creases(const std::string& surface, const std
         for (int k = 0; k <= samples; ++k) {
           const double share = static_cast<double>(k) / samples;
           const gp_Pnt p = curve->Value(f + (l - f) * share).Transformed(location.Transformation());
-          gp_Pnt2d a = flat->Value(f2 + (l2 - f2) * share), b = theirs->Value(f3 + (l3 - f3) * share);
+          gp_Pnt2d a = flat->Value(f2 + (l2 - f2) * share),
+                   b = theirs->Value(f3 + (l3 - f3) * share);
           constexpr double any = std::numeric_limits<double>::infinity();
           distance(surface_of(face), p, a, any, &a);
           distance(surface_of(next), p, b, any, &b);
-          const double angle = degrees_between(normal_at(surface_of(face), a), normal_at(surface_of(next), b));
+          const double angle =
+              degrees_between(normal_at(surface_of(face), a), normal_at(surface_of(next), b));
           made.points.emplace_back(p.X(), p.Y(), p.Z());
           made.angle = std::max(made.angle, std::min(angle, 180 - angle));
         }
@@ -237,7 +248,8 @@ OcctFaces::Moved OcctFaces::moved(const std::string& surface, const OcctFaces& a
       double& most = side.Perform(at) == TopAbs_IN ? result.visible : result.hidden;
       most = std::max(most, way);
       // Where nothing moves but the rounding, a normal that turns is that of a degenerate point.
-      if (way > 1e-9 && degrees_between(normal_at(own, at), normal_at(moved, at)) > 90) result.folded = true;
+      if (way > 1e-9 && degrees_between(normal_at(own, at), normal_at(moved, at)) > 90)
+        result.folded = true;
     };
     for (int i = 0; i < count; ++i) {
       for (int j = 0; j < count; ++j) {
@@ -253,11 +265,14 @@ OcctFaces::Apart OcctFaces::apart(const std::string& surface, const OcctFaces& a
   constexpr int count = 21;
   Apart result;
   const auto from = data_->on.find(surface), to = after.data_->on.find(surface);
-  if (from == data_->on.end() || to == after.data_->on.end() || from->second.size() != to->second.size()) return result;
+  if (from == data_->on.end() || to == after.data_->on.end() ||
+      from->second.size() != to->second.size())
+    return result;
   for (std::size_t n = 0; n < from->second.size(); ++n) {
     const TopoDS_Face &face = from->second[n], &other = to->second[n];
     const SurfaceHandle own = surface_of(face), theirs = surface_of(other);
-    const bool turned = (face.Orientation() == TopAbs_REVERSED) != (other.Orientation() == TopAbs_REVERSED);
+    const bool turned =
+        (face.Orientation() == TopAbs_REVERSED) != (other.Orientation() == TopAbs_REVERSED);
     BRepTopAdaptor_FClass2d side(face, 1e-7);
     ShapeAnalysis_Surface search(theirs);
     double a = 0, b = 0, c = 0, d = 0;
@@ -268,9 +283,11 @@ OcctFaces::Apart OcctFaces::apart(const std::string& surface, const OcctFaces& a
         if (side.Perform(at) != TopAbs_IN) continue;
         const gp_Pnt p = own->Value(at.X(), at.Y());
         gp_Pnt2d foot;
-        result.distance = std::max(result.distance, distance(theirs, p, search.ValueOfUV(p, 1e-9), 1e-9, &foot));
+        result.distance =
+            std::max(result.distance, distance(theirs, p, search.ValueOfUV(p, 1e-9), 1e-9, &foot));
         const double angle = degrees_between(normal_at(own, at), normal_at(theirs, foot));
-        const bool known = normal_at(own, at).Magnitude() > 0 && normal_at(theirs, foot).Magnitude() > 0;
+        const bool known =
+            normal_at(own, at).Magnitude() > 0 && normal_at(theirs, foot).Magnitude() > 0;
         if (known) result.turn = std::max(result.turn, turned ? 180 - angle : angle);
         ++result.points;
       }

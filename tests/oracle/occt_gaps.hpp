@@ -14,15 +14,17 @@ namespace knead::oracle {
 struct OcctEdge {
   double tolerance = 0;  ///< that Open CASCADE gives the edge
   double gap = 0;        ///< largest distance from the surface, at 41 points
-  double turn = 0;       ///< largest angle between the normals of two surfaces along the edge, degrees; 0 with one
-  bool smooth = false;   ///< another face meets there with the same tangent planes, to 0.1 degrees
-  double ends = 0;       ///< largest distance of the ends of its curve from its vertices
+  /// Largest angle between the normals of two surfaces along the edge, degrees; 0 with one.
+  double turn = 0;
+  bool smooth = false;  ///< another face meets there with the same tangent planes, to 0.1 degrees
+  double ends = 0;      ///< largest distance of the ends of its curve from its vertices
 };
 
 /// An edge at which the faces on two surfaces meet.
 struct OcctCrease {
   std::vector<Point> points;  ///< 201 of them along it, mm
-  double angle = 0;           ///< the largest between the tangent planes of both at the feet of these, degrees
+  /// The largest between the tangent planes of both at the feet of these, degrees.
+  double angle = 0;
 };
 
 /// The faces of a file by the surfaces on which they lie, ready for measuring.
@@ -36,29 +38,35 @@ class OcctFaces {
   [[nodiscard]] int bad_edges() const;
   [[nodiscard]] std::map<std::string, int> topology() const;
 
-  /// The edges of all faces on a surface of this file, in order, against that surface as it is in `after`: their
-  /// distance from it, and the angle by which its normals turned. Empty: there is no such face in one of the two.
-  [[nodiscard]] std::vector<OcctEdge> edges(const std::string& surface, const OcctFaces& after) const;
-  /// The edges that the faces on two surfaces have in common, in order; on one surface, those at which it meets itself.
-  [[nodiscard]] std::vector<OcctCrease> creases(const std::string& surface, const std::string& other) const;
-  /// max |S_after − S| at a grid of 41 × 41 points of the surface that its faces show, and at those they do not.
+  /// The edges of all faces on a surface of this file, in order, against that surface as it is in
+  /// `after`: their distance from it, and the angle by which its normals turned. Empty: there is no
+  /// such face in one of the two.
+  [[nodiscard]] std::vector<OcctEdge> edges(const std::string& surface,
+                                            const OcctFaces& after) const;
+  /// The edges that the faces on two surfaces have in common, in order; on one surface, those at
+  /// which it meets itself.
+  [[nodiscard]] std::vector<OcctCrease> creases(const std::string& surface,
+                                                const std::string& other) const;
+  /// max |S_after − S| at a grid of 41 × 41 points of the surface that its faces show, and at those
+  /// they do not.
   struct Moved {
     double visible = 0, hidden = 0;
     bool folded = false;  ///< the normal of a point turned by more than 90 degrees
   };
   [[nodiscard]] Moved moved(const std::string& surface, const OcctFaces& after) const;
 
-  /// The edges along which a face on a surface meets one on another surface with the same tangent planes, to 0.1
-  /// degrees, whether both share it or each has its own: the angle between them, and that with the surface as it is in
-  /// `after`.
+  /// The edges along which a face on a surface meets one on another surface with the same tangent
+  /// planes, to 0.1 degrees, whether both share it or each has its own: the angle between them, and
+  /// that with the surface as it is in `after`.
   struct Across {
     double before = 0, after = 0;  ///< degrees
   };
-  [[nodiscard]] std::vector<Across> across(const std::string& surface, const OcctFaces& after) const;
+  [[nodiscard]] std::vector<Across> across(const std::string& surface,
+                                           const OcctFaces& after) const;
 
-  /// How far 21 × 21 points of the box of each face on a surface, those that the face shows, are from that surface in
-  /// `after`, mm, and the largest angle between the normals of both faces there, degrees. No points: the faces on it
-  /// are not as many there.
+  /// How far 21 × 21 points of the box of each face on a surface, those that the face shows, are
+  /// from that surface in `after`, mm, and the largest angle between the normals of both faces
+  /// there, degrees. No points: the faces on it are not as many there.
   struct Apart {
     int points = 0;
     double distance = 0, turn = 0;

@@ -92,7 +92,8 @@ int OcctHeld::bad_shapes() const {
   const BRepCheck_Analyzer check(data_->shape);
   int bad = 0;
   for (const auto kind : {TopAbs_FACE, TopAbs_EDGE}) {
-    for (const TopoDS_Shape& shape : parts_of(data_->shape, kind)) bad += check.IsValid(shape) ? 0 : 1;
+    for (const TopoDS_Shape& shape : parts_of(data_->shape, kind))
+      bad += check.IsValid(shape) ? 0 : 1;
   }
   return bad;
 }

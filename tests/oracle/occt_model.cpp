@@ -49,12 +49,15 @@ OcctSurface copy_of(const Geom_BSplineSurface& surface) {
   OcctSurface result;
   result.degree = {surface.UDegree(), surface.VDegree()};
   result.net = {surface.NbUPoles(), surface.NbVPoles()};
-  result.periodic = {surface.IsUPeriodic() == Standard_True, surface.IsVPeriodic() == Standard_True};
+  result.periodic = {surface.IsUPeriodic() == Standard_True,
+                     surface.IsVPeriodic() == Standard_True};
   for (int k = 1; k <= surface.NbUKnots(); ++k) {
-    result.knots[0].insert(result.knots[0].end(), static_cast<std::size_t>(surface.UMultiplicity(k)), surface.UKnot(k));
+    result.knots[0].insert(result.knots[0].end(),
+                           static_cast<std::size_t>(surface.UMultiplicity(k)), surface.UKnot(k));
   }
   for (int k = 1; k <= surface.NbVKnots(); ++k) {
-    result.knots[1].insert(result.knots[1].end(), static_cast<std::size_t>(surface.VMultiplicity(k)), surface.VKnot(k));
+    result.knots[1].insert(result.knots[1].end(),
+                           static_cast<std::size_t>(surface.VMultiplicity(k)), surface.VKnot(k));
   }
   result.poles.resize(result.net[0] * result.net[1], 3);
   const bool rational = surface.IsURational() || surface.IsVRational();
@@ -83,12 +86,13 @@ void add_face(const TopoDS_Face& face, OcctResult& result) {
 }
 
 void count(const TopoDS_Shape& shape, OcctModel& model) {
-  constexpr std::array<std::pair<TopAbs_ShapeEnum, const char*>, 6> kinds = {{{TopAbs_SOLID, "solids"},
-                                                                              {TopAbs_SHELL, "shells"},
-                                                                              {TopAbs_FACE, "faces"},
-                                                                              {TopAbs_WIRE, "wires"},
-                                                                              {TopAbs_EDGE, "edges"},
-                                                                              {TopAbs_VERTEX, "vertices"}}};
+  constexpr std::array<std::pair<TopAbs_ShapeEnum, const char*>, 6> kinds = {
+      {{TopAbs_SOLID, "solids"},
+       {TopAbs_SHELL, "shells"},
+       {TopAbs_FACE, "faces"},
+       {TopAbs_WIRE, "wires"},
+       {TopAbs_EDGE, "edges"},
+       {TopAbs_VERTEX, "vertices"}}};
   for (const auto& [kind, name] : kinds) {
     for (TopExp_Explorer at(shape, kind); at.More(); at.Next()) ++model.topology[name];
   }
@@ -108,7 +112,8 @@ std::optional<OcctModel> occt_read(const std::filesystem::path& path, const std:
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return std::nullopt;
   OcctModel model;
   const auto step = opencascade::handle<StepData_StepModel>::DownCast(reader.WS()->Model());
-  for (int k = 1; k <= step->NbEntities(); ++k) ++model.entities[step->Value(k)->DynamicType()->Name()];
+  for (int k = 1; k <= step->NbEntities(); ++k)
+    ++model.entities[step->Value(k)->DynamicType()->Name()];
   reader.TransferRoots();
   const TopoDS_Shape shape = reader.OneShape();
   if (!shape.IsNull()) count(shape, model);
@@ -124,7 +129,8 @@ std::optional<OcctModel> occt_read(const std::filesystem::path& path, const std:
     const auto entity = step->Value(k);
     std::string name;
     if (const auto face = opencascade::handle<StepShape_FaceSurface>::DownCast(entity)) {
-      if (face->FaceGeometry()->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface))) name = name_of(face->FaceGeometry());
+      if (face->FaceGeometry()->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface)))
+        name = name_of(face->FaceGeometry());
     } else if (entity->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface))) {
       name = name_of(entity);
     }

@@ -22,20 +22,23 @@ struct OcctSurface {
 
 /// What Open CASCADE makes of one B-spline surface entity of a file.
 struct OcctResult {
-  std::vector<OcctSurface> surfaces;  ///< one per face on it (or one for itself where it stands without face)
+  std::vector<OcctSurface>
+      surfaces;  ///< one per face on it (or one for itself where it stands without face)
   /// Area of each face over the area of the whole surface it lies on, where that has one.
   std::vector<double> area_ratios;
 };
 
 /// What Open CASCADE makes of a file.
 struct OcctModel {
-  std::map<std::string, int> entities;        ///< number of entities by type
-  std::map<std::string, int> topology;        ///< number of solids, shells, faces, edges, … by name
-  std::vector<std::string> faces;             ///< kind of surface of each face, in order of exploration
+  std::map<std::string, int> entities;  ///< number of entities by type
+  std::map<std::string, int> topology;  ///< number of solids, shells, faces, edges, … by name
+  std::vector<std::string> faces;       ///< kind of surface of each face, in order of exploration
   std::map<std::string, OcctResult> results;  ///< by name of the surface entity, "#123"
 };
 
-/// Reads and translates a file with the length unit set to `unit` ("mm", "inch", …); none if it cannot.
-[[nodiscard]] std::optional<OcctModel> occt_read(const std::filesystem::path& path, const std::string& unit);
+/// Reads and translates a file with the length unit set to `unit` ("mm", "inch", …); none if it
+/// cannot.
+[[nodiscard]] std::optional<OcctModel> occt_read(const std::filesystem::path& path,
+                                                 const std::string& unit);
 
 }  // namespace knead::oracle

@@ -74,7 +74,9 @@ TopoDS_Shape placed_to_the_vertex() {
   std::array<TopoDS_Shape, 3> vertices;
   const TopLoc_Location of_vertices = tilt() * turn().Powered(2);
   for (std::size_t k = 0; k < 3; ++k) {
-    vertices[k] = BRepBuilderAPI_MakeVertex(there(corners[k], of_vertices.Inverted())).Vertex().Moved(of_vertices);
+    vertices[k] = BRepBuilderAPI_MakeVertex(there(corners[k], of_vertices.Inverted()))
+                      .Vertex()
+                      .Moved(of_vertices);
   }
   BRepBuilderAPI_MakeWire wire;
   const TopLoc_Location of_wire = tilt() * shift().Powered(-2);
@@ -99,23 +101,29 @@ TopoDS_Shape spline_face() {
   for (int i = 1; i <= 3; ++i) {
     for (int j = 1; j <= 3; ++j) poles.SetValue(i, j, gp_Pnt(i, 2 * j + 0.1 * i, i == 2 ? 0.5 : 0));
   }
-  return BRepBuilderAPI_MakeFace(opencascade::handle<Geom_Surface>(new Geom_BezierSurface(poles)), 1e-7).Shape();
+  return BRepBuilderAPI_MakeFace(opencascade::handle<Geom_Surface>(new Geom_BezierSurface(poles)),
+                                 1e-7)
+      .Shape();
 }
 
 using PlacedMaker = TopoDS_Shape (*)();
 constexpr std::pair<const char*, PlacedMaker> placed_makers[] = {
     {"product", [] { return wedge().Moved(shift() * tilt() * turn()); }},
-    {"powers", [] { return wedge().Moved(turn().Powered(3) * tilt().Powered(-2) * turn().Inverted() * shift()); }},
+    {"powers",
+     [] {
+       return wedge().Moved(turn().Powered(3) * tilt().Powered(-2) * turn().Inverted() * shift());
+     }},
     {"nested",
      [] {
        const auto inner = together({wedge().Moved(turn() * tilt()), wedge().Moved(shift())});
-       return together({inner.Moved(tilt() * turn().Powered(-1))}).Moved(turn() * shift().Powered(2) * tilt());
+       return together({inner.Moved(tilt() * turn().Powered(-1))})
+           .Moved(turn() * shift().Powered(2) * tilt());
      }},
     {"again",
      [] {
        const auto one = wedge(), pair = TopoDS_Shape(together({one, spline_face().Moved(tilt())}));
-       return TopoDS_Shape(
-           together({pair.Moved(turn()), one.Moved(shift()), pair.Moved(shift() * tilt()), one.Reversed()}));
+       return TopoDS_Shape(together(
+           {pair.Moved(turn()), one.Moved(shift()), pair.Moved(shift() * tilt()), one.Reversed()}));
      }},
     {"hollow",
      [] {
@@ -126,7 +134,10 @@ constexpr std::pair<const char*, PlacedMaker> placed_makers[] = {
      }},
     {"faces", shell_of_placed_faces},
     {"vertices", placed_to_the_vertex},
-    {"spline", [] { return together({spline_face().Moved(turn() * tilt())}).Moved(tilt().Powered(2) * shift()); }},
+    {"spline",
+     [] {
+       return together({spline_face().Moved(turn() * tilt())}).Moved(tilt().Powered(2) * shift());
+     }},
 };
 
 }  // namespace

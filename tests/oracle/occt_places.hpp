@@ -9,8 +9,8 @@
 
 namespace knead::oracle {
 
-/// Shapes whose parts Open CASCADE puts elsewhere by locations: products, powers, inverse powers, nested, and on every
-/// kind of part (shells, faces, their surfaces, wires, edges and vertices).
+/// Shapes whose parts Open CASCADE puts elsewhere by locations: products, powers, inverse powers,
+/// nested, and on every kind of part (shells, faces, their surfaces, wires, edges and vertices).
 [[nodiscard]] std::vector<std::string> occt_placed_names();
 
 /// Writes one of them as a .brep file.

@@ -58,7 +58,9 @@ TopoDS_Edge bezier(const std::vector<gp_Pnt>& poles) {
   return BRepBuilderAPI_MakeEdge(opencascade::handle<Geom_Curve>(new Geom_BezierCurve(array)));
 }
 
-gp_Ax2 upright(double x = 0, double y = 0, double z = 0) { return {gp_Pnt(x, y, z), gp_Dir(0, 0, 1)}; }
+gp_Ax2 upright(double x = 0, double y = 0, double z = 0) {
+  return {gp_Pnt(x, y, z), gp_Dir(0, 0, 1)};
+}
 
 using Maker = TopoDS_Shape (*)();
 
@@ -69,9 +71,9 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
        [] {
          const TopoDS_Shape box = BRepPrimAPI_MakeBox(20, 20, 20).Shape();
          const auto hollow = moved(BRepPrimAPI_MakeCylinder(2, 8).Shape(), 5, 5, 5, 0.4);
-         return TopoDS_Shape(
-             BRepAlgoAPI_Cut(BRepAlgoAPI_Cut(box, hollow).Shape(), moved(BRepPrimAPI_MakeSphere(3).Shape(), 14, 14, 14))
-                 .Shape());
+         return TopoDS_Shape(BRepAlgoAPI_Cut(BRepAlgoAPI_Cut(box, hollow).Shape(),
+                                             moved(BRepPrimAPI_MakeSphere(3).Shape(), 14, 14, 14))
+                                 .Shape());
        }},
       {"cylinder", [] { return moved(BRepPrimAPI_MakeCylinder(2, 30).Shape(), 1, 2, 3, 0.4); }},
       {"half_cylinder", [] { return BRepPrimAPI_MakeCylinder(2, 3, 3.0).Shape(); }},
@@ -82,7 +84,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"sphere", [] { return moved(BRepPrimAPI_MakeSphere(5).Shape(), 1, 2, 3, 0.3); }},
       {"sphere_zone", [] { return BRepPrimAPI_MakeSphere(5, -0.5, 0.7).Shape(); }},
       {"hemisphere", [] { return BRepPrimAPI_MakeSphere(5, 0, 1.5707963267948966).Shape(); }},
-      {"sphere_sector", [] { return BRepPrimAPI_MakeSphere(5, -0.5, 1.5707963267948966, 4.0).Shape(); }},
+      {"sphere_sector",
+       [] { return BRepPrimAPI_MakeSphere(5, -0.5, 1.5707963267948966, 4.0).Shape(); }},
       {"torus", [] { return moved(BRepPrimAPI_MakeTorus(5, 2).Shape(), 1, 2, 3, 0.9); }},
       {"torus_sector", [] { return BRepPrimAPI_MakeTorus(5, 2, 2.0).Shape(); }},
       {"torus_part", [] { return BRepPrimAPI_MakeTorus(5, 2, -1.0, 2.0, 2.0).Shape(); }},
@@ -91,8 +94,9 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
          TopoDS_Shape shape = BRepPrimAPI_MakeBox(20, 20, 5).Shape();
          for (int i = 0; i < 3; ++i) {
            for (int j = 0; j < 3; ++j) {
-             shape = BRepAlgoAPI_Cut(
-                         shape, BRepPrimAPI_MakeCylinder(upright(4 + 6 * i, 4 + 6 * j, -1), 1 + 0.3 * i, 9).Shape())
+             shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(
+                                                upright(4 + 6 * i, 4 + 6 * j, -1), 1 + 0.3 * i, 9)
+                                                .Shape())
                          .Shape();
            }
          }
@@ -100,57 +104,66 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
        }},
       {"crossing_cylinders",
        [] {
-         const auto lying = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-10, 0, 1), gp_Dir(1, 0, 0)), 2, 20).Shape();
+         const auto lying =
+             BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-10, 0, 1), gp_Dir(1, 0, 0)), 2, 20).Shape();
          return TopoDS_Shape(
-             BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(upright(0, 0, -10), 3, 20).Shape(), lying).Shape());
+             BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(upright(0, 0, -10), 3, 20).Shape(), lying)
+                 .Shape());
        }},
       {"drilled_sphere",
        [] {
-         return TopoDS_Shape(BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5).Shape(),
-                                             BRepPrimAPI_MakeCylinder(upright(1, 0.5, -10), 2, 20).Shape())
-                                 .Shape());
+         return TopoDS_Shape(
+             BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5).Shape(),
+                             BRepPrimAPI_MakeCylinder(upright(1, 0.5, -10), 2, 20).Shape())
+                 .Shape());
        }},
       {"sphere_drilled_from_the_side",
        [] {
          const gp_Ax2 side(gp_Pnt(0, 0, 0), gp_Dir(0.3, 1, 0.2));
-         return TopoDS_Shape(
-             BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5).Shape(), BRepPrimAPI_MakeCylinder(side, 2, 20).Shape()).Shape());
+         return TopoDS_Shape(BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5).Shape(),
+                                             BRepPrimAPI_MakeCylinder(side, 2, 20).Shape())
+                                 .Shape());
        }},
       {"drilled_torus",
        [] {
-         return TopoDS_Shape(BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(5, 2).Shape(),
-                                             BRepPrimAPI_MakeCylinder(upright(0.5, 5, -10), 0.8, 20).Shape())
-                                 .Shape());
+         return TopoDS_Shape(
+             BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(5, 2).Shape(),
+                             BRepPrimAPI_MakeCylinder(upright(0.5, 5, -10), 0.8, 20).Shape())
+                 .Shape());
        }},
       {"cut_torus",
        [] {
-         return TopoDS_Shape(BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(5, 2).Shape(),
-                                             moved(BRepPrimAPI_MakeBox(20, 20, 20).Shape(), -10, 1, -10))
-                                 .Shape());
+         return TopoDS_Shape(
+             BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(5, 2).Shape(),
+                             moved(BRepPrimAPI_MakeBox(20, 20, 20).Shape(), -10, 1, -10))
+                 .Shape());
        }},
       {"split_torus",
        [] {
-         return TopoDS_Shape(BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(5, 2).Shape(),
-                                             moved(BRepPrimAPI_MakeBox(20, 20, 20).Shape(), -10, -10, 0.3))
-                                 .Shape());
+         return TopoDS_Shape(
+             BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(5, 2).Shape(),
+                             moved(BRepPrimAPI_MakeBox(20, 20, 20).Shape(), -10, -10, 0.3))
+                 .Shape());
        }},
       {"drilled_cone",
        [] {
          const gp_Ax2 side(gp_Pnt(-10, 0, 1), gp_Dir(1, 0.2, 0));
-         return TopoDS_Shape(
-             BRepAlgoAPI_Cut(BRepPrimAPI_MakeCone(3, 0, 6).Shape(), BRepPrimAPI_MakeCylinder(side, 0.7, 20).Shape())
-                 .Shape());
+         return TopoDS_Shape(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCone(3, 0, 6).Shape(),
+                                             BRepPrimAPI_MakeCylinder(side, 0.7, 20).Shape())
+                                 .Shape());
        }},
       {"slanted_cylinder",
        [] {
-         const auto box = moved(BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, 0), 40, 40, 40).Shape(), 0, 0, 6, 0.4);
+         const auto box =
+             moved(BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, 0), 40, 40, 40).Shape(), 0, 0, 6, 0.4);
          return TopoDS_Shape(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(2, 12).Shape(), box).Shape());
        }},
       {"rounded_box",
        [] {
          const TopoDS_Shape box = BRepPrimAPI_MakeBox(8, 6, 4).Shape();
          BRepFilletAPI_MakeFillet fillet(box);
-         for (TopExp_Explorer at(box, TopAbs_EDGE); at.More(); at.Next()) fillet.Add(1, TopoDS::Edge(at.Current()));
+         for (TopExp_Explorer at(box, TopAbs_EDGE); at.More(); at.Next())
+           fillet.Add(1, TopoDS::Edge(at.Current()));
          return fillet.Shape();
        }},
       {"vase",
@@ -171,7 +184,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"revolved_ellipse",
        [] {
          const gp_Elips ellipse(gp_Ax2(gp_Pnt(6, 0, 0), gp_Dir(0, 1, 0)), 3, 1);
-         return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeEdge(ellipse).Edge(), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)))
+         return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeEdge(ellipse).Edge(),
+                                      gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)))
              .Shape();
        }},
       {"channel",
@@ -182,14 +196,17 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"elliptic_tube",
        [] {
          const gp_Elips ellipse(upright(), 4, 2);
-         return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeEdge(ellipse).Edge(), gp_Vec(1, 0, 9)).Shape();
+         return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeEdge(ellipse).Edge(), gp_Vec(1, 0, 9))
+             .Shape();
        }},
       {"cut_elliptic_cylinder",
        [] {
          const gp_Elips ellipse(upright(), 4, 2);
          const auto wire = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(ellipse).Edge()).Wire();
-         const auto solid = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire).Face(), gp_Vec(0, 0, 9)).Shape();
-         const auto drill = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-10, 0.2, 4), gp_Dir(1, 0, 0)), 1, 20).Shape();
+         const auto solid =
+             BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire).Face(), gp_Vec(0, 0, 9)).Shape();
+         const auto drill =
+             BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-10, 0.2, 4), gp_Dir(1, 0, 0)), 1, 20).Shape();
          return TopoDS_Shape(BRepAlgoAPI_Cut(solid, drill).Shape());
        }},
   };
@@ -219,10 +236,12 @@ bool occt_write_shape(const std::string& name, const std::filesystem::path& path
 namespace {
 
 /// Reads a file in this unit; null if it cannot.
-std::unique_ptr<STEPControl_Reader> read(const std::filesystem::path& path, const std::string& unit) {
+std::unique_ptr<STEPControl_Reader> read(const std::filesystem::path& path,
+                                         const std::string& unit) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   auto reader = std::make_unique<STEPControl_Reader>();
-  const std::map<std::string, const char*> names = {{"m", "M"}, {"cm", "CM"}, {"inch", "INCH"}, {"foot", "FT"}};
+  const std::map<std::string, const char*> names = {
+      {"m", "M"}, {"cm", "CM"}, {"inch", "INCH"}, {"foot", "FT"}};
   const auto known = names.find(unit);
   Interface_Static::SetCVal("xstep.cascade.unit", known == names.end() ? "MM" : known->second);
   if (reader->ReadFile(path.c_str()) != IFSelect_RetDone) return nullptr;
@@ -232,33 +251,38 @@ std::unique_ptr<STEPControl_Reader> read(const std::filesystem::path& path, cons
 
 /// Calls `visit` with each entity of a file and what it became.
 template <class Visit>
-void for_each_entity(const std::filesystem::path& path, const std::string& unit, const Visit& visit) {
+void for_each_entity(const std::filesystem::path& path, const std::string& unit,
+                     const Visit& visit) {
   const auto reader = read(path, unit);
   if (!reader) return;
   const auto step = opencascade::handle<StepData_StepModel>::DownCast(reader->WS()->Model());
   const auto process = reader->WS()->TransferReader()->TransientProcess();
   for (int k = 1; k <= step->NbEntities(); ++k) {
     const auto entity = step->Value(k);
-    visit(entity, TransferBRep::ShapeResult(process, entity), "#" + std::to_string(step->IdentLabel(entity)));
+    visit(entity, TransferBRep::ShapeResult(process, entity),
+          "#" + std::to_string(step->IdentLabel(entity)));
   }
 }
 
 }  // namespace
 
-std::map<std::string, double> occt_face_areas(const std::filesystem::path& path, const std::string& unit,
-                                              bool splines) {
+std::map<std::string, double> occt_face_areas(const std::filesystem::path& path,
+                                              const std::string& unit, bool splines) {
   std::map<std::string, double> areas;
-  for_each_entity(path, unit, [&](const auto& entity, const TopoDS_Shape& shape, const std::string& id) {
-    const auto face = opencascade::handle<StepShape_FaceSurface>::DownCast(entity);
-    if (face.IsNull() || face->FaceGeometry()->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface)) != splines) return;
-    double sum = 0;
-    for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
-      GProp_GProps properties;
-      BRepGProp::SurfaceProperties(at.Current(), properties);
-      sum += std::abs(properties.Mass());
-    }
-    areas[id] = sum;
-  });
+  for_each_entity(
+      path, unit, [&](const auto& entity, const TopoDS_Shape& shape, const std::string& id) {
+        const auto face = opencascade::handle<StepShape_FaceSurface>::DownCast(entity);
+        if (face.IsNull() ||
+            face->FaceGeometry()->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface)) != splines)
+          return;
+        double sum = 0;
+        for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
+          GProp_GProps properties;
+          BRepGProp::SurfaceProperties(at.Current(), properties);
+          sum += std::abs(properties.Mass());
+        }
+        areas[id] = sum;
+      });
   return areas;
 }
 

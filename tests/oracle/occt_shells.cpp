@@ -40,13 +40,15 @@ namespace {
 
 constexpr double side = 100;
 using Height = std::function<double(double x, double y)>;
-/// Where a fraction of the domain lies along a side, 0 … 1: the identity for an even parametrisation.
+/// Where a fraction of the domain lies along a side, 0 … 1: the identity for an even
+/// parametrisation.
 using Speed = std::function<double(double)>;
 
-/// A bicubic surface with `spans` even spans per direction over [x0, x1] × [y0, y1]; its control points lie at their
-/// Greville abscissae, seen through `speed` in y.
-opencascade::handle<Geom_BSplineSurface> sheet(double x0, double x1, double y0, double y1, int spans_x, int spans_y,
-                                               const Height& height, const Speed& speed) {
+/// A bicubic surface with `spans` even spans per direction over [x0, x1] × [y0, y1]; its control
+/// points lie at their Greville abscissae, seen through `speed` in y.
+opencascade::handle<Geom_BSplineSurface> sheet(double x0, double x1, double y0, double y1,
+                                               int spans_x, int spans_y, const Height& height,
+                                               const Speed& speed) {
   const auto knots = [](int spans) {
     std::vector<double> all(4, 0);
     for (int k = 1; k < spans; ++k) all.push_back(static_cast<double>(k) / spans);
@@ -77,8 +79,8 @@ opencascade::handle<Geom_BSplineSurface> sheet(double x0, double x1, double y0, 
     all.SetValue(spans + 1, 4);
     return all;
   };
-  return new Geom_BSplineSurface(poles, distinct(spans_x), distinct(spans_y), multiplicities(spans_x),
-                                 multiplicities(spans_y), 3, 3);
+  return new Geom_BSplineSurface(poles, distinct(spans_x), distinct(spans_y),
+                                 multiplicities(spans_x), multiplicities(spans_y), 3, 3);
 }
 
 double wavy(double x, double y) { return 4 * std::sin(x / 30) * std::cos(y / 40); }
@@ -91,10 +93,13 @@ TopoDS_Face whole(const opencascade::handle<Geom_BSplineSurface>& surface) {
 }
 
 /// The part of a surface inside a polygon, whose corners are given by their x and y.
-TopoDS_Face part(const opencascade::handle<Geom_BSplineSurface>& surface, const std::vector<gp_Pnt>& corners) {
-  const gp_Pnt lower = surface->Pole(1, 1), upper = surface->Pole(surface->NbUPoles(), surface->NbVPoles());
+TopoDS_Face part(const opencascade::handle<Geom_BSplineSurface>& surface,
+                 const std::vector<gp_Pnt>& corners) {
+  const gp_Pnt lower = surface->Pole(1, 1),
+               upper = surface->Pole(surface->NbUPoles(), surface->NbVPoles());
   const auto at = [&](const gp_Pnt& p) {
-    return gp_Pnt2d((p.X() - lower.X()) / (upper.X() - lower.X()), (p.Y() - lower.Y()) / (upper.Y() - lower.Y()));
+    return gp_Pnt2d((p.X() - lower.X()) / (upper.X() - lower.X()),
+                    (p.Y() - lower.Y()) / (upper.Y() - lower.Y()));
   };
   BRepBuilderAPI_MakeWire wire;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -116,7 +121,9 @@ TopoDS_Face flat_face(const std::array<gp_Pnt, 4>& corners) {
   return BRepBuilderAPI_MakeFace(outline.Wire(), true).Face();
 }
 
-TopoDS_Face strip() { return flat_face({gp_Pnt(0, 0, 0), gp_Pnt(50, 0, 0), gp_Pnt(50, side, 0), gp_Pnt(0, side, 0)}); }
+TopoDS_Face strip() {
+  return flat_face({gp_Pnt(0, 0, 0), gp_Pnt(50, 0, 0), gp_Pnt(50, side, 0), gp_Pnt(0, side, 0)});
+}
 
 /// Up to x = 50, where it runs along x.
 TopoDS_Face part_of_a_cylinder() {
@@ -124,26 +131,36 @@ TopoDS_Face part_of_a_cylinder() {
   return BRepBuilderAPI_MakeFace(gp_Cylinder(axes, 40), -1, 0, 0, side).Face();
 }
 
-double rising(double x, double y) { return (x - 50) / 5 + 4 * std::sin((x - 50) / 30) * std::cos(y / 40); }
+double rising(double x, double y) {
+  return (x - 50) / 5 + 4 * std::sin((x - 50) / 30) * std::cos(y / 40);
+}
 
 std::vector<TopoDS_Face> faces_of(const std::string& name) {
   if (name == "planes") {
     const double z = 50 * std::tan(30 * std::numbers::pi / 180);
-    return {strip(), flat_face({gp_Pnt(50, 0, 0), gp_Pnt(side, 0, z), gp_Pnt(side, side, z), gp_Pnt(50, side, 0)})};
+    return {strip(), flat_face({gp_Pnt(50, 0, 0), gp_Pnt(side, 0, z), gp_Pnt(side, side, z),
+                                gp_Pnt(50, side, 0)})};
   }
-  if (name == "plane_and_wavy") return {strip(), whole(sheet(50, side, 0, side, 5, 8, rising, even))};
-  if (name == "plane_and_flat") return {strip(), whole(sheet(50, side, 0, side, 6, 11, flat, uneven))};
-  if (name == "cylinder_and_flat") return {part_of_a_cylinder(), whole(sheet(50, side, 0, side, 6, 11, flat, uneven))};
+  if (name == "plane_and_wavy")
+    return {strip(), whole(sheet(50, side, 0, side, 5, 8, rising, even))};
+  if (name == "plane_and_flat")
+    return {strip(), whole(sheet(50, side, 0, side, 6, 11, flat, uneven))};
+  if (name == "cylinder_and_flat")
+    return {part_of_a_cylinder(), whole(sheet(50, side, 0, side, 6, 11, flat, uneven))};
   if (name == "matching") {
-    return {whole(sheet(0, 50, 0, side, 5, 8, wavy, even)), whole(sheet(50, side, 0, side, 5, 8, wavy, even))};
+    return {whole(sheet(0, 50, 0, side, 5, 8, wavy, even)),
+            whole(sheet(50, side, 0, side, 5, 8, wavy, even))};
   }
   if (name == "other_parameters") {
-    return {whole(sheet(0, 50, 0, side, 5, 8, flat, even)), whole(sheet(50, side, 0, side, 6, 11, flat, uneven))};
+    return {whole(sheet(0, 50, 0, side, 5, 8, flat, even)),
+            whole(sheet(50, side, 0, side, 6, 11, flat, uneven))};
   }
   if (name == "inside") {
     const gp_Pnt a(40, 0, 0), b(60, side, 0);
-    return {part(sheet(-20, 90, -10, 110, 8, 9, flat, even), {gp_Pnt(0, 0, 0), a, b, gp_Pnt(0, side, 0)}),
-            part(sheet(20, 130, -15, 120, 7, 10, flat, even), {a, gp_Pnt(side, 0, 0), gp_Pnt(side, side, 0), b})};
+    return {part(sheet(-20, 90, -10, 110, 8, 9, flat, even),
+                 {gp_Pnt(0, 0, 0), a, b, gp_Pnt(0, side, 0)}),
+            part(sheet(20, 130, -15, 120, 7, 10, flat, even),
+                 {a, gp_Pnt(side, 0, 0), gp_Pnt(side, side, 0), b})};
   }
   if (name == "curved") {  // one wavy surface, on another net for the second face
     const gp_Pnt a(40, 0, 0), b(60, side, 0);
@@ -159,15 +176,20 @@ std::vector<TopoDS_Face> faces_of(const std::string& name) {
             part(finer, {a, gp_Pnt(side, 0, 0), gp_Pnt(side, side, 0), b})};
   }
   if (name == "strips") {  // a chain of three
-    return {whole(sheet(0, 35, 0, side, 5, 8, flat, even)), whole(sheet(35, 65, 0, side, 4, 10, flat, uneven)),
+    return {whole(sheet(0, 35, 0, side, 5, 8, flat, even)),
+            whole(sheet(35, 65, 0, side, 4, 10, flat, uneven)),
             whole(sheet(65, side, 0, side, 6, 7, flat, even))};
   }
   if (name == "smooth_corner") {
-    return {whole(sheet(0, 50, 0, 50, 5, 5, flat, even)), whole(sheet(50, side, 0, 50, 6, 7, flat, uneven)),
-            whole(sheet(0, 50, 50, side, 5, 6, flat, even)), whole(sheet(50, side, 50, side, 6, 8, flat, uneven))};
+    return {whole(sheet(0, 50, 0, 50, 5, 5, flat, even)),
+            whole(sheet(50, side, 0, 50, 6, 7, flat, uneven)),
+            whole(sheet(0, 50, 50, side, 5, 6, flat, even)),
+            whole(sheet(50, side, 50, side, 6, 8, flat, uneven))};
   }
-  return {whole(sheet(0, 50, 0, 50, 5, 5, wavy, even)), whole(sheet(50, side, 0, 50, 5, 5, wavy, even)),
-          whole(sheet(0, 50, 50, side, 5, 5, wavy, even)), whole(sheet(50, side, 50, side, 5, 5, wavy, even))};
+  return {whole(sheet(0, 50, 0, 50, 5, 5, wavy, even)),
+          whole(sheet(50, side, 0, 50, 5, 5, wavy, even)),
+          whole(sheet(0, 50, 50, side, 5, 5, wavy, even)),
+          whole(sheet(50, side, 50, side, 5, 5, wavy, even))};
 }
 
 TopoDS_Shape shell_of(const std::string& name) {
@@ -195,10 +217,13 @@ bool occt_write_shell(const std::string& name, const std::filesystem::path& path
   if (path.extension() == ".brep") return BRepTools::Write(shape, path.c_str());
   STEPControl_Writer writer;
   Interface_Static::SetCVal("write.step.unit", "MM");
-  return writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone && writer.Write(path.c_str()) == IFSelect_RetDone;
+  return writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone &&
+         writer.Write(path.c_str()) == IFSelect_RetDone;
 }
 
-std::vector<std::string> occt_brep_names() { return {"made_nested.brep", "made_triangulated.brep"}; }
+std::vector<std::string> occt_brep_names() {
+  return {"made_nested.brep", "made_triangulated.brep"};
+}
 
 bool occt_write_brep(const std::string& name, const std::filesystem::path& path) {
   if (name == "made_triangulated.brep") {

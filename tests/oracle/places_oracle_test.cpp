@@ -19,7 +19,8 @@ class Places : public ::testing::TestWithParam<std::string> {
   void SetUp() override { ASSERT_TRUE(occt_write_placed(GetParam(), path_)); }
   void TearDown() override { fs::remove(path_); }
 
-  fs::path path_ = fs::temp_directory_path() / ("knead-places-" + std::to_string(getpid()) + ".brep");
+  fs::path path_ =
+      fs::temp_directory_path() / ("knead-places-" + std::to_string(getpid()) + ".brep");
 };
 
 Point centre_of(const FaceMesh& mesh) {
@@ -50,20 +51,25 @@ void expect_places(const brep::Model& file, const OcctPlaces& other, double exac
   ASSERT_EQ(model->faces.size(), other.centres.size());
   std::vector<FaceMesh> left = model->faces;  // where parts are used again, in another order
   for (std::size_t k = 0; k < other.centres.size(); ++k) {
-    const auto off = [&](const FaceMesh& mesh) { return (centre_of(mesh) - other.centres[k]).norm(); };
+    const auto off = [&](const FaceMesh& mesh) {
+      return (centre_of(mesh) - other.centres[k]).norm();
+    };
     const auto same = std::ranges::min_element(left, {}, off);
     EXPECT_LE(off(*same), exactness) << "face " << k;
-    EXPECT_NEAR(testing::area_of(*same), other.areas[k], exactness * other.areas[k]) << "face " << k;
+    EXPECT_NEAR(testing::area_of(*same), other.areas[k], exactness * other.areas[k])
+        << "face " << k;
     left.erase(same);
   }
-  for (const Point& vertex : other.vertices) EXPECT_LE(distance_to(vertex, *model), 1e-9) << vertex.transpose();
+  for (const Point& vertex : other.vertices)
+    EXPECT_LE(distance_to(vertex, *model), 1e-9) << vertex.transpose();
 }
 
 TEST_P(Places, FacesAndVerticesAreWhereOpenCascadePutsThem) {
   const auto other = occt_places(path_);
   ASSERT_TRUE(other);
   const auto source = testing::open_or_die(*read_file(path_), path_.string());
-  expect_places(*source->model(), *other, GetParam() == "spline" || GetParam() == "again" ? 1e-3 : 1e-9);
+  expect_places(*source->model(), *other,
+                GetParam() == "spline" || GetParam() == "again" ? 1e-3 : 1e-9);
 }
 
 TEST_P(Places, AMovedSplineIsWrittenWhereItIs) {
@@ -79,7 +85,8 @@ TEST_P(Places, AMovedSplineIsWrittenWhereItIs) {
   const auto other = occt_places(path_);
   ASSERT_TRUE(other);
   const auto again = testing::open_or_die(*bytes, path_.string());
-  EXPECT_LE((again->surfaces()[0].surface->control_points() - points).norm(), 1e-12 * points.norm());
+  EXPECT_LE((again->surfaces()[0].surface->control_points() - points).norm(),
+            1e-12 * points.norm());
   expect_places(*again->model(), *other, 1e-3);
 }
 

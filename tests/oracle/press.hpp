@@ -26,7 +26,8 @@ struct Press {
   double radius = 0, depth = 0;
 };
 
-inline Expected<Press> press(const brep::Model& file, const brep::SplineSurface& s, const std::string& mode) {
+inline Expected<Press> press(const brep::Model& file, const brep::SplineSurface& s,
+                             const std::string& mode) {
   const auto region = visible_region(file, s.id);
   if (!region) return std::unexpected(region.error());
   const auto middle = visible_middle(s.surface, *region);
@@ -43,10 +44,12 @@ inline Expected<Press> press(const brep::Model& file, const brep::SplineSurface&
   const Point n = Point(jet->at({1, 0}).row(0)).cross(Point(jet->at({0, 1}).row(0))).normalized();
   char radius[32];
   std::snprintf(radius, sizeof radius, "%.17g", result.radius);
-  result.script = R"({"knead":2,"commands":[{"do":"select","surface":")" + s.id +
-                  R"("},{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]},{"do":"hold","mode":")" + mode +
-                  R"("},{"do":"tool","name":"ball","radius":)" + radius + R"(,"rigid":true,"position":)" +
-                  list_of(result.place + (result.radius - result.depth) * n) + R"(},{"do":"evolve","mode":"static"}]})";
+  result.script =
+      R"({"knead":2,"commands":[{"do":"select","surface":")" + s.id +
+      R"("},{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]},{"do":"hold","mode":")" +
+      mode + R"("},{"do":"tool","name":"ball","radius":)" + radius +
+      R"(,"rigid":true,"position":)" + list_of(result.place + (result.radius - result.depth) * n) +
+      R"(},{"do":"evolve","mode":"static"}]})";
   return result;
 }
 
@@ -55,7 +58,8 @@ inline Expected<std::string> carried_out(Session& session, const std::string& sc
   const auto commands = parse_script(script, "press");
   if (!commands) return std::unexpected(commands.error());
   for (const Command& command : *commands) {
-    if (const auto result = session.execute(command); !result) return std::unexpected(result.error());
+    if (const auto result = session.execute(command); !result)
+      return std::unexpected(result.error());
   }
   return session.save();
 }

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -18,16 +17,13 @@
 #include "knead/spline/evaluate.hpp"
 #include "oracle/occt_gaps.hpp"
 #include "session/session_state.hpp"
-#include "support/long_run.hpp"
 
 namespace knead::oracle {
 namespace {
 
-constexpr double closed = 1e-3;                   // mm: an edge that is no farther from its faces counts as closed
+constexpr double closed = 1e-3;  // mm: an edge that is no farther from its faces counts as closed
 constexpr double resolution = 1e-9;               // mm: to which distances are measured
-constexpr double least_size = 1e-3;               // of a surface: smaller tools are refused
 constexpr double smooth = 0.02, accepted = 0.05;  // degrees
-constexpr std::size_t most_pairs = 4, most_smooth = 2, most_closing = 2;
 
 constexpr const char* names[] = {"press", "groove", "grab"};
 
@@ -37,114 +33,26 @@ std::string quoted(const std::vector<std::string>& list) {
   return text;
 }
 
-std::string vector(const Point& p) { return fmt::format("[{:.17g},{:.17g},{:.17g}]", p.x(), p.y(), p.z()); }
-
-Point normal_at(const Surface& surface, const Eigen::Vector2d& at) {
-  const auto u = parameters_of(surface, at);
-  Parameters<2> here(1, 2);
-  here << u[0], u[1];
-  const auto jet = evaluate<2>(surface, here, 1);
-  return jet ? Point(Point(jet->at({1, 0}).row(0)).cross(Point(jet->at({0, 1}).row(0))).normalized()) : Point::Zero();
+std::string vector(const Point& p) {
+  return fmt::format("[{:.17g},{:.17g},{:.17g}]", p.x(), p.y(), p.z());
 }
 
-Eigen::Vector2d course_at(const TrimEdge& edge, const Point& p) {
-  const auto near = std::ranges::min_element(edge.points, {}, [&](const Point& q) { return (p - q).norm(); });
-  return edge.course[static_cast<std::size_t>(near - edge.points.begin())];
-}
-
-/// Where to press on an edge that surfaces share, or on the seam of a closed one. None where there is no room.
-std::optional<Pair> pair_at(const brep::Model& file, const std::map<std::string, VisibleRegion>& regions,
-                            const std::string& id, const std::vector<std::string>& surfaces) {
-  Pair result{{id}, surfaces};
-  result.radius = std::numeric_limits<double>::infinity();
-  double size = 0;
-  for (const std::string& surface : surfaces) {
-    const VisibleRegion& region = regions.at(surface);
-    std::vector<bool> others;
-    const TrimEdge* own = nullptr;
-    for (const TrimEdge& edge : region.edges) {
-      others.push_back(edge.id != id);
-      if (edge.id == id) own = &edge;
-    }
-    if (own->neighbours.size() != surfaces.size()) return std::nullopt;
-    if (result.normal.isZero()) result.place = own->points[own->points.size() / 2];
-    if (own->points.size() == 2 && result.normal.isZero()) result.place = 0.5 * (own->points[0] + own->points[1]);
-    const Surface& shape = file.find_surface(surface)->surface;
-    if (result.across.isZero()) {
-      const std::size_t k = own->points.size() / 2;
-      result.across = own->points[k] - own->points[k - 1];  // the direction of the edge, so far
-    }
-    Eigen::Vector2d at = course_at(*own, result.place);
-    if (own->points.size() == 2) at = 0.5 * (own->course[0] + own->course[1]);
-    const Point n = normal_at(shape, at);
-    result.normal += result.normal.dot(n) < 0 ? Point(-n) : n;
-    result.radius = std::min(result.radius, region.distance(result.place, others) / 2);
-    const Points& net = shape.control_points();
-    size = std::max(size, (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm());
-    if (own->seam) {  // small beside the other side of a tube
-      const Eigen::VectorXd heights = net * n;
-      result.radius = std::min(result.radius, (heights.maxCoeff() - heights.minCoeff()) / 4);
-    }
-  }
-  if (!(result.radius > least_size * size && std::isfinite(result.radius) && result.normal.norm() > 0.1))
-    return std::nullopt;
-  result.normal.normalize();
-  result.across = result.normal.cross(result.across).normalized();
-  result.depth = result.radius / 4;
-  return result;
-}
-
-std::map<std::string, VisibleRegion> regions_of(const brep::Model& file) {
-  std::map<std::string, VisibleRegion> regions;
-  for (const auto& s : file.surfaces) {
-    if (auto region = visible_region(file, s.id)) regions.emplace(s.id, std::move(*region));
-  }
-  return regions;
-}
-
-std::map<std::string, std::vector<std::string>> shared_edges(const std::map<std::string, VisibleRegion>& regions) {
-  std::map<std::string, std::vector<std::string>> shared;
-  for (const auto& [surface, region] : regions) {
-    for (const TrimEdge& edge : region.edges) shared[edge.id].push_back(surface);
-  }
-  std::erase_if(shared, [](const auto& entry) { return entry.second.size() < 2; });
-  return shared;
-}
-
-/// The edges with the same face on both of their sides.
-std::map<std::string, std::vector<std::string>> closing_edges(const std::map<std::string, VisibleRegion>& regions) {
-  std::map<std::string, std::vector<std::string>> result;
-  for (const auto& [surface, region] : regions) {
-    for (const TrimEdge& edge : region.edges) {
-      if (edge.seam) result[edge.id].push_back(surface);
-    }
-  }
-  return result;
-}
-
-/// So many of these at most, spread over them.
-std::vector<Pair> spread(const std::vector<Pair>& all, std::size_t most) {
-  if (all.size() <= most) return all;
-  std::vector<Pair> result;
-  for (std::size_t k = 0; k < most; ++k) result.push_back(all[k * (all.size() - 1) / (most - 1)]);
-  return result;
-}
-
-/// A row of the table in docs/evidence/trims.md, where its file is named.
 void write_row(const std::string& row) {
   std::cout << row << "\n";
-  if (const char* path = std::getenv("KNEAD_FOLLOW_TABLE")) std::ofstream(path, std::ios::app) << row << "\n";
+  if (const char* path = std::getenv("KNEAD_FOLLOW_TABLE"))
+    std::ofstream(path, std::ios::app) << row << "\n";
 }
 
-/// Records of `before` that are missing in `after`, except those that moved with the edges: surfaces, control points,
-/// edges, vertices, curves.
+/// Records of `before` that are missing in `after`, except those that moved with the edges:
+/// surfaces, control points, edges, vertices, curves.
 std::vector<std::string> lost_records(const std::string& before, const std::string& after) {
   const auto new_records = records_of(after);
   std::vector<std::string> lost;
   for (const std::string& record : records_of(before)) {
     const auto is = [&](const char* entity) { return record.find(entity) != std::string::npos; };
-    if (new_records.contains(record) || is("CARTESIAN_POINT") || is("B_SPLINE_SURFACE") || is("EDGE_CURVE") ||
-        is("VERTEX_POINT") || is("SURFACE_CURVE") || is("SEAM_CURVE") || is("INTERSECTION_CURVE")) {
+    if (new_records.contains(record) || is("CARTESIAN_POINT") || is("B_SPLINE_SURFACE") ||
+        is("EDGE_CURVE") || is("VERTEX_POINT") || is("SURFACE_CURVE") || is("SEAM_CURVE") ||
+        is("INTERSECTION_CURVE")) {
       continue;
     }
     lost.push_back(record);
@@ -152,9 +60,12 @@ std::vector<std::string> lost_records(const std::string& before, const std::stri
   return lost;
 }
 
-bool is_iges(const fs::path& path) { return path.extension() == ".igs" || path.extension() == ".iges"; }
+bool is_iges(const fs::path& path) {
+  return path.extension() == ".igs" || path.extension() == ".iges";
+}
 
-/// Entities of an IGES file whose parameters differ, except those that move with edges: surfaces, curves, vertex lists.
+/// Entities of an IGES file whose parameters differ, except those that move with edges: surfaces,
+/// curves, vertex lists.
 std::vector<std::string> lost_entities(const std::string& before, const std::string& after) {
   const auto entities = [](const std::string& bytes) {
     std::map<std::string, std::string> result;
@@ -178,7 +89,8 @@ std::vector<std::string> lost_entities(const std::string& before, const std::str
 /// What an IGES file says of the distances that it tells apart, in its own unit; 0: nothing.
 double resolution_of(const Source& source) {
   double result = 0;
-  for (const std::string& remark : source.remarks()) std::sscanf(remark.c_str(), "resolution %lg", &result);
+  for (const std::string& remark : source.remarks())
+    std::sscanf(remark.c_str(), "resolution %lg", &result);
   return result;
 }
 
@@ -197,21 +109,25 @@ bool is_pressed(const OcctCrease& crease, const brep::Model& file, const Pair& p
   return std::ranges::any_of(pair.edges, [&](const std::string& id) {
     const auto edge = SharedEdge::create(file, id);
     const auto& samples = edge->samples();
-    const Point middle = to_mm(file) * edge->at(0.5 * (samples.front().parameter + samples.back().parameter)).point;
-    return std::ranges::any_of(crease.points, [&](const Point& p) { return (p - middle).norm() < 0.01 * length; });
+    const Point middle =
+        to_mm(file) * edge->at(0.5 * (samples.front().parameter + samples.back().parameter)).point;
+    return std::ranges::any_of(crease.points,
+                               [&](const Point& p) { return (p - middle).norm() < 0.01 * length; });
   });
 }
 
-/// The largest angle, in degrees, between tangent planes along the pressed edges that have no angle above `smooth` as
-/// opened; −1: there are none.
-double bend_at(const OcctFaces& before, const OcctFaces& now, const brep::Model& file, const Pair& pair) {
+/// The largest angle, in degrees, between tangent planes along the pressed edges that have no angle
+/// above `smooth` as opened; −1: there are none.
+double bend_at(const OcctFaces& before, const OcctFaces& now, const brep::Model& file,
+               const Pair& pair) {
   double result = -1;
   for (const std::string& a : pair.surfaces) {
     for (const std::string& b : pair.surfaces) {
       if (a > b) continue;
       const auto was = before.creases(a, b), is = now.creases(a, b);
       for (std::size_t k = 0; k < std::min(was.size(), is.size()); ++k) {
-        if (was[k].angle <= smooth && is_pressed(was[k], file, pair)) result = std::max(result, is[k].angle);
+        if (was[k].angle <= smooth && is_pressed(was[k], file, pair))
+          result = std::max(result, is[k].angle);
       }
     }
   }
@@ -220,80 +136,40 @@ double bend_at(const OcctFaces& before, const OcctFaces& now, const brep::Model&
 
 }  // namespace
 
-/// Version 2 holds all other edges.
+/// All other edges are held.
 std::string Pair::script(const brep::Model& file, Motion motion) const {
-  std::string text = R"({"knead":2,"commands":[{"do":"select","surfaces":[)" + quoted(surfaces) + "]}";
-  for (const std::string& edge : edges) text += R"(,{"do":"edge","which":")" + edge + R"(","hold":"free"})";
+  std::string text =
+      R"({"knead":2,"commands":[{"do":"select","surfaces":[)" + quoted(surfaces) + "]}";
+  for (const std::string& edge : edges)
+    text += R"(,{"do":"edge","which":")" + edge + R"(","hold":"free"})";
   const std::string ball = R"(,{"do":"tool","name":"ball","radius":)";
   if (motion == Motion::grab) {
     const auto near = visible_near(file.find_surface(surfaces[0])->surface, {}, place);
     return text +
-           fmt::format(R"(,{{"do":"brush","kind":"grab","path":[[{:.17g},{:.17g}]],"radius":{:.17g},"by":{}}}]}})",
-                       near->at.x(), near->at.y(), radius, vector(-depth * normal));
+           fmt::format(
+               R"(,{{"do":"brush","kind":"grab","path":[[{:.17g},{:.17g}]],"radius":{:.17g},)"
+               R"("by":{}}}]}})",
+               near->at.x(), near->at.y(), radius, vector(-depth * normal));
   }
   if (motion == Motion::groove) {
     const double r = radius / 2;
-    const Point home = place + r * normal, centre = place + (r - depth) * normal, half = 0.4 * radius * across;
-    return text + fmt::format(R"(,{{"do":"material","preset":"clay"}}{}{:.17g},"plasticity":1,"position":{}}},)"
-                              R"({{"do":"stroke","path":[{},{}]}}]}})",
-                              ball, r, vector(home), vector(centre - half), vector(centre + half));
+    const Point home = place + r * normal, centre = place + (r - depth) * normal,
+                half = 0.4 * radius * across;
+    return text +
+           fmt::format(
+               R"(,{{"do":"material","preset":"clay"}}{}{:.17g},"plasticity":1,"position":{}}},)"
+               R"({{"do":"stroke","path":[{},{}]}}]}})",
+               ball, r, vector(home), vector(centre - half), vector(centre + half));
   }
   return text +
-         fmt::format(R"(,{{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]}}{}{:.17g},"stiffness":1e5,)"
+         fmt::format(R"(,{{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]}}{}{:.17g},)"
+                     R"("stiffness":1e5,)"
                      R"("position":{}}},{{"do":"evolve","mode":"static"}}]}})",
                      ball, radius, vector(place + (radius - depth) * normal));
 }
 
-std::vector<Pair> pairs_of(const brep::Model& file,
-                           const std::function<bool(const std::vector<std::string>& surfaces)>& wanted) {
-  const auto regions = regions_of(file);
-  std::vector<Pair> all;
-  for (const auto& [id, surfaces] : shared_edges(regions)) {
-    if (wanted && !wanted(surfaces)) continue;
-    if (auto pair = pair_at(file, regions, id, surfaces)) all.push_back(std::move(*pair));
-  }
-  std::vector<Pair> result = spread(all, most_pairs);
-  std::erase_if(all, [&](const Pair& pair) {
-    const auto edge = SharedEdge::create(file, pair.edges[0]);
-    return edge->angle() * 180 / std::numbers::pi > smooth ||
-           std::ranges::any_of(result, [&](const Pair& known) { return known.edges == pair.edges; });
-  });
-  std::ranges::copy(spread(all, most_smooth), std::back_inserter(result));
-  std::vector<Pair> closing;
-  for (const auto& [id, surfaces] : closing_edges(regions)) {
-    if (wanted && !wanted(surfaces)) continue;
-    if (auto pair = pair_at(file, regions, id, surfaces)) closing.push_back(std::move(*pair));
-  }
-  std::ranges::copy(spread(closing, most_closing), std::back_inserter(result));
-  return result;
-}
-
-std::vector<Pair> each_kind(const brep::Model& file, std::vector<Pair> pairs) {
-  if (testing::long_run()) return pairs;
-  std::set<int> known;
-  std::erase_if(pairs, [&](const Pair& pair) {
-    const bool closing = std::ranges::all_of(pair.surfaces, [&](const auto& id) { return id == pair.surfaces[0]; });
-    const auto edge = SharedEdge::create(file, pair.edges[0]);
-    const bool is_smooth = edge && edge->angle() * 180 / std::numbers::pi <= smooth;
-    return !known.insert(closing ? 2 : is_smooth ? 1 : 0).second;
-  });
-  return pairs;
-}
-
-Pair chain_of(const brep::Model& file, const Point& place) {
-  const auto regions = regions_of(file);
-  Pair result;
-  for (const auto& [id, surfaces] : shared_edges(regions)) result.edges.push_back(id);
-  for (const auto& [surface, region] : regions) result.surfaces.push_back(surface);
-  result.place = place;
-  result.normal = Point::UnitZ();
-  result.radius = 25;
-  result.depth = 6;
-  return result;
-}
-
-void move(const fs::path& path, const brep::Model& file, const Pair& pair, Motion motion, const fs::path& directory,
-          double least_reached) {
+void move(const fs::path& path, const brep::Model& file, const Pair& pair, Motion motion,
+          const fs::path& directory, double least_reached) {
   SCOPED_TRACE(names[static_cast<int>(motion)] + std::string(" ") + quoted(pair.edges) + " of " +
                quoted(pair.surfaces));
   const auto before = OcctFaces::read(path);
@@ -301,18 +177,20 @@ void move(const fs::path& path, const brep::Model& file, const Pair& pair, Motio
   const auto bytes_before = read_file(path);
   ASSERT_TRUE(bytes_before);
   const auto source = *open_source(*bytes_before, file.name);
-  const double accepted_gap = std::max(closed, is_iges(path) ? resolution_of(*source) * to_mm(file) : 0);
+  const double accepted_gap =
+      std::max(closed, is_iges(path) ? resolution_of(*source) * to_mm(file) : 0);
   Session session(Document::from(source));
   const auto commands = parse_script(pair.script(file, motion), "move");
   ASSERT_TRUE(commands) << commands.error().message();
-  const std::string what =
-      fmt::format("| {} | {} | {} | {}", path.filename().string(), names[static_cast<int>(motion)],
-                  pair.edges.size() == 1 ? pair.edges[0] : fmt::format("{} edges", pair.edges.size()),
-                  fmt::join(pair.surfaces, ", "));
+  const std::string what = fmt::format(
+      "| {} | {} | {} | {}", path.filename().string(), names[static_cast<int>(motion)],
+      pair.edges.size() == 1 ? pair.edges[0] : fmt::format("{} edges", pair.edges.size()),
+      fmt::join(pair.surfaces, ", "));
   for (const Command& command : *commands) {
     const auto result = session.execute(command);
     if (result) continue;
-    // A motion is refused that would fold a face, or part the faces by more than the tolerance; both are said.
+    // A motion is refused that would fold a face, or part the faces by more than the tolerance;
+    // both are said.
     EXPECT_EQ(result.error().kind, ErrorKind::numerical) << result.error().message();
     EXPECT_EQ(least_reached, 0) << result.error().message();
     write_row(fmt::format("{} | refused: {} | | | | |", what, result.error().what));
@@ -327,16 +205,20 @@ void move(const fs::path& path, const brep::Model& file, const Pair& pair, Motio
   EXPECT_EQ(before->topology(), after->topology());
   EXPECT_LE(after->bad_faces(), before->bad_faces());
   EXPECT_LE(after->bad_edges(), before->bad_edges());
-  const auto lost = is_iges(path) ? lost_entities(*bytes_before, *bytes) : lost_records(*bytes_before, *bytes);
+  const auto lost =
+      is_iges(path) ? lost_entities(*bytes_before, *bytes) : lost_records(*bytes_before, *bytes);
   for (const std::string& record : lost) ADD_FAILURE() << record << " is lost";
   double gap_before = 0, gap = 0, tolerance = 0, tolerance_before = 0;
   for (const std::string& surface : pair.surfaces) {
-    const auto old_edges = before->edges(surface, *before), new_edges = after->edges(surface, *after);
+    const auto old_edges = before->edges(surface, *before),
+               new_edges = after->edges(surface, *after);
     ASSERT_EQ(old_edges.size(), new_edges.size());
     for (std::size_t k = 0; k < new_edges.size(); ++k) {
-      EXPECT_LE(new_edges[k].gap, std::max({accepted_gap, old_edges[k].tolerance, old_edges[k].gap}) + resolution)
+      EXPECT_LE(new_edges[k].gap,
+                std::max({accepted_gap, old_edges[k].tolerance, old_edges[k].gap}) + resolution)
           << "edge " << k;
-      EXPECT_LE(new_edges[k].ends, std::max({accepted_gap, old_edges[k].tolerance, old_edges[k].ends}) + resolution)
+      EXPECT_LE(new_edges[k].ends,
+                std::max({accepted_gap, old_edges[k].tolerance, old_edges[k].ends}) + resolution)
           << "edge " << k;
       gap_before = std::max(gap_before, old_edges[k].gap);
       gap = std::max(gap, new_edges[k].gap);
@@ -345,7 +227,8 @@ void move(const fs::path& path, const brep::Model& file, const Pair& pair, Motio
     }
     EXPECT_FALSE(before->moved(surface, *after).folded);
   }
-  const double bend_before = bend_at(*before, *before, file, pair), bend = bend_at(*before, *after, file, pair);
+  const double bend_before = bend_at(*before, *before, file, pair),
+               bend = bend_at(*before, *after, file, pair);
   if (bend_before >= 0) {
     EXPECT_LE(bend, std::max(accepted, 2 * bend_before)) << "degrees across a smooth edge";
   }
@@ -355,16 +238,18 @@ void move(const fs::path& path, const brep::Model& file, const Pair& pair, Motio
     if (std::ranges::find(pair.surfaces, s.id) == pair.surfaces.end()) continue;
     const auto near = visible_near(*s.opened, {}, pair.place);
     ASSERT_TRUE(near);
-    if ((near->place - pair.place).norm() > 0.01 * pair.radius) continue;  // it is on another face of the chain
+    if ((near->place - pair.place).norm() > 0.01 * pair.radius)
+      continue;  // it is on another face of the chain
     const auto now = evaluate_point<2>(*s.current, parameters_of(*s.current, near->at));
     ASSERT_TRUE(now);
     reached = std::min(reached, (*now - near->place).norm() / pair.depth);
   }
   EXPECT_GE(reached, least_reached) << "of the depth that was asked for";
   const std::string bends =
-      bend_before < 0 ? "sharp | |" : fmt::format("{:.2g} | {:.2g} |", std::max(0.0, bend_before), bend);
-  write_row(fmt::format("{} | {:.0f} % | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {}", what, 100 * reached, gap_before, gap,
-                        tolerance_before, tolerance, bends));
+      bend_before < 0 ? "sharp | |"
+                      : fmt::format("{:.2g} | {:.2g} |", std::max(0.0, bend_before), bend);
+  write_row(fmt::format("{} | {:.0f} % | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {}", what,
+                        100 * reached, gap_before, gap, tolerance_before, tolerance, bends));
 }
 
 }  // namespace knead::oracle

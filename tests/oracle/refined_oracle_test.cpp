@@ -1,5 +1,5 @@
-// Open CASCADE 7.6 reads refined surfaces as what they are, on faces that stay what they were, and files made of
-// surfaces alone.
+// Open CASCADE 7.6 reads refined surfaces as what they are, on faces that stay what they were, and
+// files made of surfaces alone.
 
 #include <cmath>
 
@@ -69,8 +69,12 @@ TEST_P(RefinedOracle, FindsTheSameFacesOnRefinedSurfaces) {
         ++exact;
       } else if (nearly_holds(a->second.surfaces[f], file_->surfaces()[k].surface)) {
         EXPECT_TRUE(nearly_holds(b->second.surfaces[f], refined[k].surface)) << id;
-        EXPECT_TRUE(std::ranges::equal(b->second.surfaces[f].knots[0], refined[k].surface.knots(0).knots())) << id;
-        EXPECT_TRUE(std::ranges::equal(b->second.surfaces[f].knots[1], refined[k].surface.knots(1).knots())) << id;
+        EXPECT_TRUE(
+            std::ranges::equal(b->second.surfaces[f].knots[0], refined[k].surface.knots(0).knots()))
+            << id;
+        EXPECT_TRUE(
+            std::ranges::equal(b->second.surfaces[f].knots[1], refined[k].surface.knots(1).knots()))
+            << id;
         ++near;
       } else {
         ++altered;
@@ -82,18 +86,20 @@ TEST_P(RefinedOracle, FindsTheSameFacesOnRefinedSurfaces) {
       EXPECT_NEAR(a->second.area_ratios[f], b->second.area_ratios[f], 1e-3) << id;
     }
   }
-  std::cout << GetParam() << ": " << exact << " faces hold refined surfaces bit for bit, " << near << " to 1e-14, "
-            << altered << " are on surfaces that Open CASCADE alters anyway\n";
+  std::cout << GetParam() << ": " << exact << " faces hold refined surfaces bit for bit, " << near
+            << " to 1e-14, " << altered << " are on surfaces that Open CASCADE alters anyway\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, RefinedOracle, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, RefinedOracle, ::testing::ValuesIn(testing::step_files()),
+                         testing::file_test_name);
 
 TEST(StepTextOracle, ReadsNewSurfacesAsWholeFaces) {
   const auto surfaces = knead::testing::new_surfaces();
   for (const auto* unit : {"mm", "m"}) {
     const auto text = step::text_of(surfaces, {.unit = unit});
     ASSERT_TRUE(text);
-    const auto path = fs::temp_directory_path() / ("knead-new-" + std::to_string(getpid()) + ".step");
+    const auto path =
+        fs::temp_directory_path() / ("knead-new-" + std::to_string(getpid()) + ".step");
     ASSERT_TRUE(write_file_atomically(path, *text));
     auto model = occt_read(path, unit);
     fs::remove(path);
@@ -105,7 +111,8 @@ TEST(StepTextOracle, ReadsNewSurfacesAsWholeFaces) {
       const auto& result = model->results[file.surfaces()[k].id];
       ASSERT_EQ(result.surfaces.size(), 1U) << name;
       // It makes closed surfaces periodic and clamps open knots.
-      if (name == "sheet" || name == "thirds") expect_holds(result.surfaces[0], surfaces[k].surface, name);
+      if (name == "sheet" || name == "thirds")
+        expect_holds(result.surfaces[0], surfaces[k].surface, name);
       ASSERT_EQ(result.area_ratios.size(), 1U) << name;
       EXPECT_NEAR(result.area_ratios[0], 1, 1e-3) << name;
     }

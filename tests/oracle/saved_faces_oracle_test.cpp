@@ -1,4 +1,5 @@
-// What Open CASCADE finds in the new files that `save_faces` makes of others, beside what it finds in these.
+// What Open CASCADE finds in the new files that `save_faces` makes of others, beside what it finds
+// in these.
 
 #include <gtest/gtest.h>
 
@@ -24,9 +25,10 @@
 namespace knead::oracle {
 namespace {
 
-constexpr double same = 1e-5;        // of areas, as Open CASCADE integrates them
-constexpr double sewn = 1e-4;        // of volumes between faces that it sews
-constexpr double fixed = 0.05;       // of swept and rational faces, whose areas and volumes it finds at fixed points
+constexpr double same = 1e-5;  // of areas, as Open CASCADE integrates them
+constexpr double sewn = 1e-4;  // of volumes between faces that it sews
+// Of swept and rational faces, whose areas and volumes it finds at fixed points.
+constexpr double fixed = 0.05;
 constexpr double resolution = 1e-3;  // mm: of gaps
 
 struct Target {
@@ -45,7 +47,8 @@ class SavedFacesOracle : public BodyFile {
   void SetUp() override {
     BodyFile::SetUp();
     if (ended()) return;
-    if (source_->model() == nullptr || source_->model()->faces.empty()) GTEST_SKIP() << "it has no faces";
+    if (source_->model() == nullptr || source_->model()->faces.empty())
+      GTEST_SKIP() << "it has no faces";
     before_ = occt_bodies(path_);
     const auto held = OcctHeld::read(path_);
     ASSERT_TRUE(before_);
@@ -69,18 +72,21 @@ class SavedFacesOracle : public BodyFile {
 
 double volume_of_solids(const OcctBodies& bodies) {
   double result = 0;
-  for (const OcctBody& shell : bodies.shells.empty() ? bodies.sewn : bodies.shells) result += shell.volume;
+  for (const OcctBody& shell : bodies.shells.empty() ? bodies.sewn : bodies.shells)
+    result += shell.volume;
   return result;
 }
 
 void SavedFacesOracle::check(const Target& target) {
   SCOPED_TRACE(target.title);
   // Swept surfaces, and tori that cross themselves, are B-splines in IGES.
-  const bool swept = std::ranges::any_of(source_->model()->supports, [](const brep::Support& support) {
-    const auto* form = std::get_if<brep::ElementarySurface>(&support.form);
-    const bool crosses = form != nullptr && form->kind == brep::ElementarySurface::Kind::torus;
-    return std::holds_alternative<brep::SweptSurface>(support.form) || (crosses && form->second > form->radius);
-  });
+  const bool swept =
+      std::ranges::any_of(source_->model()->supports, [](const brep::Support& support) {
+        const auto* form = std::get_if<brep::ElementarySurface>(&support.form);
+        const bool crosses = form != nullptr && form->kind == brep::ElementarySurface::Kind::torus;
+        return std::holds_alternative<brep::SweptSurface>(support.form) ||
+               (crosses && form->second > form->radius);
+      });
   const bool rational = target.convert || (swept && std::string_view(target.format) == "iges");
   const auto saved = save_faces(*source_, *find_format(target.format), {}, target.convert);
   ASSERT_TRUE(saved) << saved.error().message();
@@ -112,11 +118,12 @@ void SavedFacesOracle::check(const Target& target) {
   }
   const double off = (after->whole.box.min() - before_->whole.box.min()).norm() +
                      (after->whole.box.max() - before_->whole.box.max()).norm();
-  const std::string row = fmt::format("| {} | {} | {} | {} | {} | {} | {:.1e} | {} | {:.1e} | {:.1e} | {:.1e} |",
-                                      GetParam(), target.title, saved->faces, left, after->solids,
-                                      held->bad_shapes() - bad_, std::abs(after->whole.area / before_->whole.area - 1),
-                                      volume != 0 ? fmt::format("{:.1e}", std::abs(now / volume - 1)) : "",
-                                      off / before_->whole.box.diagonal().norm(), gap_, gap);
+  const std::string row =
+      fmt::format("| {} | {} | {} | {} | {} | {} | {:.1e} | {} | {:.1e} | {:.1e} | {:.1e} |",
+                  GetParam(), target.title, saved->faces, left, after->solids,
+                  held->bad_shapes() - bad_, std::abs(after->whole.area / before_->whole.area - 1),
+                  volume != 0 ? fmt::format("{:.1e}", std::abs(now / volume - 1)) : "",
+                  off / before_->whole.box.diagonal().norm(), gap_, gap);
   std::cout << row << "\n";
   const char* table = std::getenv("KNEAD_SAVED_TABLE");
   if (table != nullptr && !testing::file_makers().contains(GetParam()))
@@ -127,7 +134,8 @@ TEST_P(SavedFacesOracle, OpenCascadeFindsTheSameFacesAreasAndVolumes) {
   for (const Target& target : targets) check(target);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, SavedFacesOracle, ::testing::ValuesIn(files_with_bodies(occt_shape_names())),
+INSTANTIATE_TEST_SUITE_P(Files, SavedFacesOracle,
+                         ::testing::ValuesIn(files_with_bodies(occt_shape_names())),
                          testing::file_test_name);
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace knead::oracle {
 namespace {
 
 /// Lengths of Open CASCADE are millimetres, `unit` of them long.
-void expect_same(const std::string& bytes, const std::filesystem::path& path, double unit, double tolerance) {
+void expect_same(const std::string& bytes, const std::filesystem::path& path, double unit,
+                 double tolerance) {
   const auto source = testing::open_or_die(bytes, path.string());
   const auto model = model_faces(*source->model(), tolerance);
   ASSERT_TRUE(model) << model.error().message();
@@ -40,7 +41,8 @@ TEST(SolidsOracle, MadeSolidsAndRingsHaveTheVolumesAndAreasThatOpenCascadeFinds)
         Made{testing::iges_ring_in_inch_backwards, 25.4}, Made{testing::iges_drum_in_mm, 1},
         Made{testing::iges_drum_in_inch, 25.4}, Made{testing::iges_dome_in_metres, 1000},
         Made{testing::iges_dome_in_inch, 25.4}}) {
-    const auto path = std::filesystem::temp_directory_path() / ("knead-solids-" + std::to_string(::getpid()) + ".igs");
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("knead-solids-" + std::to_string(::getpid()) + ".igs");
     ASSERT_TRUE(write_file_atomically(path, text()));
     expect_same(text(), path, unit, 1e-3);
     std::filesystem::remove(path);

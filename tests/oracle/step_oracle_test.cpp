@@ -1,5 +1,5 @@
-// Open CASCADE 7.6 reads what Knead writes: the same faces, and poles that differ where they were edited and only
-// there.
+// Open CASCADE 7.6 reads what Knead writes: the same faces, and poles that differ where they were
+// edited and only there.
 
 #include <cmath>
 #include <set>
@@ -11,8 +11,8 @@ namespace {
 
 using knead::testing::same_bits;
 
-// Control points moved so little that a face stays a face: inside the net, so that edges and seams stay where they are,
-// or, in a net without inside, one in the middle.
+// Control points moved so little that a face stays a face: inside the net, so that edges and seams
+// stay where they are, or, in a net without inside, one in the middle.
 Points moved(const Surface& surface) {
   Points points = surface.control_points();
   const auto net = surface.net();
@@ -20,9 +20,11 @@ Points moved(const Surface& surface) {
   const bool inside = net[0] > 2 && net[1] > 2;
   for (int i = 0; i < net[0]; ++i) {
     for (int j = 0; j < net[1]; ++j) {
-      const bool moves =
-          inside ? i > 0 && i < net[0] - 1 && j > 0 && j < net[1] - 1 : i == net[0] / 2 && j == net[1] / 2;
-      if (moves) points.row(i * net[1] + j) += size * Eigen::RowVector3d(0.3, std::sin(i + 1.0), std::cos(j + 2.0 * i));
+      const bool moves = inside ? i > 0 && i < net[0] - 1 && j > 0 && j < net[1] - 1
+                                : i == net[0] / 2 && j == net[1] / 2;
+      if (moves)
+        points.row(i * net[1] + j) +=
+            size * Eigen::RowVector3d(0.3, std::sin(i + 1.0), std::cos(j + 2.0 * i));
     }
   }
   return points;
@@ -40,14 +42,17 @@ struct Tally {
   int exact = 0;          // edited surfaces compared as a whole, bit for bit
   int altered = 0;        // edited surfaces that Open CASCADE already alters in the file as it was
   int altered_poles = 0;  // their poles
-  int kept_poles = 0;     // of those, the ones it holds as the file has them all the same: compared bit for bit
-  int near_poles = 0;     // and those it holds up to the rounding of a conversion of units: compared to 1e-14
+  // Of those, the ones it holds as the file has them all the same: compared bit for bit.
+  int kept_poles = 0;
+  // And those it holds up to the rounding of a conversion of units: compared to 1e-14.
+  int near_poles = 0;
 };
 
-// Poles of a surface that Open CASCADE alters (makes periodic, clamps, converts): where it held the old control point
-// it holds the new one likewise.
-void compare_altered(const OcctSurface& before, const OcctSurface& after, const Surface& old_surface,
-                     const Points& wanted, const std::string& id, Tally& tally) {
+// Poles of a surface that Open CASCADE alters (makes periodic, clamps, converts): where it held the
+// old control point it holds the new one likewise.
+void compare_altered(const OcctSurface& before, const OcctSurface& after,
+                     const Surface& old_surface, const Points& wanted, const std::string& id,
+                     Tally& tally) {
   ++tally.altered;
   tally.altered_poles += before.net[0] * before.net[1];
   const auto net = old_surface.net();
@@ -58,8 +63,11 @@ void compare_altered(const OcctSurface& before, const OcctSurface& after, const 
       const Eigen::Index m = i * net[1] + j;
       if (same_bits(before.poles.row(k), old_surface.control_points().row(m))) {
         ++tally.kept_poles;
-        EXPECT_TRUE(same_bits(after.poles.row(k), wanted.row(m))) << id << " pole " << i << ", " << j;
-      } else if ((before.poles.row(k) - old_surface.control_points().row(m)).cwiseAbs().maxCoeff() <= rounding) {
+        EXPECT_TRUE(same_bits(after.poles.row(k), wanted.row(m)))
+            << id << " pole " << i << ", " << j;
+      } else if ((before.poles.row(k) - old_surface.control_points().row(m))
+                     .cwiseAbs()
+                     .maxCoeff() <= rounding) {
         ++tally.near_poles;
         EXPECT_LE((after.poles.row(k) - wanted.row(m)).cwiseAbs().maxCoeff(), 2 * rounding)
             << id << " pole " << i << ", " << j;
@@ -87,13 +95,15 @@ Tally compare(const step::File& file, const OcctModel& before, const OcctModel& 
     EXPECT_NE(b, after.results.end()) << surface.id;
     if (a == before.results.end() || b == after.results.end()) continue;
     EXPECT_EQ(a->second.surfaces.size(), b->second.surfaces.size()) << surface.id;
-    for (std::size_t k = 0; k < std::min(a->second.surfaces.size(), b->second.surfaces.size()); ++k) {
+    for (std::size_t k = 0; k < std::min(a->second.surfaces.size(), b->second.surfaces.size());
+         ++k) {
       const auto& old_surface = a->second.surfaces[k];
       const auto& new_surface = b->second.surfaces[k];
       expect_same_but_poles(old_surface, new_surface, surface.id);
       const auto edit = edited.find(surface.id);
       if (edit == edited.end()) {
-        EXPECT_TRUE(same_bits(old_surface.poles, new_surface.poles)) << surface.id << " was not edited";
+        EXPECT_TRUE(same_bits(old_surface.poles, new_surface.poles))
+            << surface.id << " was not edited";
       } else if (old_surface.net == surface.surface.net() &&
                  same_bits(old_surface.poles, surface.surface.control_points())) {
         EXPECT_TRUE(same_bits(new_surface.poles, edit->second)) << surface.id;
@@ -113,11 +123,13 @@ TEST_P(StepOracle, FindsTheSameFacesAndOnlyTheEditedPolesDiffer) {
     edits.push_back({surface.id, moved(surface.surface)});
     edited.emplace(surface.id, edits.back().control_points);
   }
-  const auto tally = compare(*file_, *before_, read_written(file_->with_control_points(edits)), edited);
+  const auto tally =
+      compare(*file_, *before_, read_written(file_->with_control_points(edits)), edited);
   std::cout << GetParam() << ": " << tally.exact << " surfaces bit for bit";
   if (tally.altered > 0) {
-    std::cout << ", " << tally.altered << " that Open CASCADE alters on reading; of their " << tally.altered_poles
-              << " poles it keeps " << tally.kept_poles << " (compared bit for bit) and rounds " << tally.near_poles
+    std::cout << ", " << tally.altered << " that Open CASCADE alters on reading; of their "
+              << tally.altered_poles << " poles it keeps " << tally.kept_poles
+              << " (compared bit for bit) and rounds " << tally.near_poles
               << " (compared to 1e-14)";
   }
   std::cout << "\n";
@@ -128,7 +140,8 @@ TEST_P(StepOracle, OneEditedSurfaceLeavesAllOthersAlone) {
   if (file_->surfaces().empty()) GTEST_SKIP() << "no B-spline surfaces";
   const auto& surface = file_->surfaces()[file_->surfaces().size() / 2];
   const step::Edit edit{surface.id, moved(surface.surface)};
-  compare(*file_, *before_, read_written(file_->with_control_points({&edit, 1})), {{surface.id, edit.control_points}});
+  compare(*file_, *before_, read_written(file_->with_control_points({&edit, 1})),
+          {{surface.id, edit.control_points}});
 }
 
 // A face is whole where its area is that of its surface.
@@ -137,13 +150,15 @@ TEST_P(StepOracle, AgreesOnWhatIsTrimmed) {
     const auto found = before_->results.find(surface.id);
     if (found == before_->results.end() || found->second.area_ratios.empty()) continue;
     const auto& ratios = found->second.area_ratios;
-    const bool trimmed =
-        std::any_of(ratios.begin(), ratios.end(), [](double ratio) { return std::abs(ratio - 1) > 1e-3; });
-    EXPECT_EQ(surface.trimmed, trimmed) << surface.id << ": area " << ratios.front() << " of the whole";
+    const bool trimmed = std::any_of(ratios.begin(), ratios.end(),
+                                     [](double ratio) { return std::abs(ratio - 1) > 1e-3; });
+    EXPECT_EQ(surface.trimmed, trimmed)
+        << surface.id << ": area " << ratios.front() << " of the whole";
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, StepOracle, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, StepOracle, ::testing::ValuesIn(testing::step_files()),
+                         testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

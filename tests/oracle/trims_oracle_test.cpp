@@ -1,5 +1,5 @@
-// Faces of real solids are pressed in their visible middle, and Open CASCADE measures whether their neighbours still
-// fit.
+// Faces of real solids are pressed in their visible middle, and Open CASCADE measures whether their
+// neighbours still fit.
 
 #include <cmath>
 #include <cstdlib>
@@ -20,10 +20,11 @@
 namespace knead::oracle {
 namespace {
 
-constexpr double closed = 1e-3;      // mm: an edge that is no farther from its faces counts as closed
+constexpr double closed = 1e-3;  // mm: an edge that is no farther from its faces counts as closed
 constexpr double same_angle = 1e-3;  // degrees
 constexpr std::size_t most_faces = 6;
-constexpr double most_hinge = 0.05 * std::numbers::pi / 180;  // radians, at knot lines that were smooth
+// Radians, at knot lines that were smooth.
+constexpr double most_hinge = 0.05 * std::numbers::pi / 180;
 
 /// Up to six trimmed surfaces, small nets and large.
 std::vector<const brep::SplineSurface*> chosen(const brep::Model& file) {
@@ -31,7 +32,8 @@ std::vector<const brep::SplineSurface*> chosen(const brep::Model& file) {
   for (const auto& s : file.surfaces) {
     if (s.trimmed) trimmed.push_back(&s);
   }
-  std::ranges::stable_sort(trimmed, {}, [](const brep::SplineSurface* s) { return s->surface.size(); });
+  std::ranges::stable_sort(trimmed, {},
+                           [](const brep::SplineSurface* s) { return s->surface.size(); });
   if (trimmed.size() <= most_faces) return trimmed;
   std::vector<const brep::SplineSurface*> result;
   for (std::size_t k = 0; k < most_faces; ++k) {
@@ -40,14 +42,16 @@ std::vector<const brep::SplineSurface*> chosen(const brep::Model& file) {
   return result;
 }
 
-/// The largest angle between the normals of both sides of a knot line, at lines that were smooth before.
+/// The largest angle between the normals of both sides of a knot line, at lines that were smooth
+/// before.
 double hinge(const Surface& before, const Surface& after) {
   ConstraintList ignored(after.size());
   const auto was = keep_smooth(before, {}, ignored), is = keep_smooth(after, {}, ignored);
   EXPECT_TRUE(was && is);
   double largest = 0;
   for (std::size_t k = 0; was && is && k < is->size(); ++k) {
-    if ((*was)[k].state == SmoothLine::State::coupled || (*was)[k].state == SmoothLine::State::sampled) {
+    if ((*was)[k].state == SmoothLine::State::coupled ||
+        (*was)[k].state == SmoothLine::State::sampled) {
       largest = std::max(largest, (*is)[k].angle);
     }
   }
@@ -55,11 +59,13 @@ double hinge(const Surface& before, const Surface& after) {
 }
 
 /// Records of `before` that are not in `after`, but for the surface itself and control points.
-std::vector<std::string> lost_records(const std::string& before, const std::string& after, const std::string& surface) {
+std::vector<std::string> lost_records(const std::string& before, const std::string& after,
+                                      const std::string& surface) {
   const auto old_records = records_of(before), new_records = records_of(after);
   std::vector<std::string> lost;
   for (const std::string& record : old_records) {
-    if (new_records.contains(record) || record.find("CARTESIAN_POINT") != std::string::npos) continue;
+    if (new_records.contains(record) || record.find("CARTESIAN_POINT") != std::string::npos)
+      continue;
     const auto name = record.find_first_not_of(" \r\n");
     if (name != std::string::npos && record.compare(name, surface.size(), surface) == 0 &&
         !std::isdigit(static_cast<unsigned char>(record[name + surface.size()]))) {
@@ -73,7 +79,8 @@ std::vector<std::string> lost_records(const std::string& before, const std::stri
 /// A row of the table in docs/evidence/trims.md, where its file is named.
 void write_row(const std::string& row) {
   std::cout << row << "\n";
-  if (const char* path = std::getenv("KNEAD_TRIMS_TABLE")) std::ofstream(path, std::ios::app) << row << "\n";
+  if (const char* path = std::getenv("KNEAD_TRIMS_TABLE"))
+    std::ofstream(path, std::ios::app) << row << "\n";
 }
 
 class PressedFace : public StepOracle {
@@ -84,7 +91,8 @@ class PressedFace : public StepOracle {
 void PressedFace::press_all(const std::string& mode) {
   const auto before = OcctFaces::read(path_);
   ASSERT_TRUE(before);
-  if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its nets are large
+  if (GetParam() == "linkrods.step" && !testing::long_run())
+    GTEST_SKIP() << "with KNEAD_LONG=1";  // its nets are large
   testing::Sample sample(3);
   for (const brep::SplineSurface* s : chosen(file_->model())) {
     if (!sample.next()) continue;
@@ -102,14 +110,18 @@ void PressedFace::press_all(const std::string& mode) {
     EXPECT_EQ(before->topology(), after->topology());
     EXPECT_LE(after->bad_faces(), before->bad_faces());
     EXPECT_LE(after->bad_edges(), before->bad_edges());
-    for (const std::string& record : lost_records(file_->bytes(), *bytes, s->id)) ADD_FAILURE() << record << " is lost";
+    for (const std::string& record : lost_records(file_->bytes(), *bytes, s->id))
+      ADD_FAILURE() << record << " is lost";
 
-    const auto edges_before = before->edges(s->id, *before), edges_after = before->edges(s->id, *after);
+    const auto edges_before = before->edges(s->id, *before),
+               edges_after = before->edges(s->id, *after);
     ASSERT_EQ(edges_before.size(), edges_after.size());
     double gap_before = 0, gap = 0, turn = 0;
     int smooth = 0;
     for (std::size_t k = 0; k < edges_after.size(); ++k) {
-      EXPECT_LE(edges_after[k].gap, std::max({closed, edges_before[k].tolerance, edges_before[k].gap})) << "edge " << k;
+      EXPECT_LE(edges_after[k].gap,
+                std::max({closed, edges_before[k].tolerance, edges_before[k].gap}))
+          << "edge " << k;
       gap_before = std::max(gap_before, edges_before[k].gap);
       gap = std::max(gap, edges_after[k].gap);
       if (mode == "trim-g1") {
@@ -130,10 +142,11 @@ void PressedFace::press_all(const std::string& mode) {
     const auto [m, n] = s->surface.net();
     const auto [m2, n2] = now.current->net();
     char row[400];
-    std::snprintf(row, sizeof row,
-                  "| %s | %s | %s | %zu (%d smooth) | %d × %d | %d × %d | %.0f %% | %.2g | %.2g | %.1g |",
-                  GetParam().c_str(), s->id.c_str(), mode.c_str(), edges_after.size(), smooth, m, n, m2, n2,
-                  100 * reached, gap_before, gap, turn);
+    std::snprintf(
+        row, sizeof row,
+        "| %s | %s | %s | %zu (%d smooth) | %d × %d | %d × %d | %.0f %% | %.2g | %.2g | %.1g |",
+        GetParam().c_str(), s->id.c_str(), mode.c_str(), edges_after.size(), smooth, m, n, m2, n2,
+        100 * reached, gap_before, gap, turn);
     write_row(row);
   }
 }
@@ -142,7 +155,8 @@ TEST_P(PressedFace, StaysWithItsNeighboursWhereItsEdgesAreHeld) { press_all("tri
 
 TEST_P(PressedFace, KeepsItsTangentPlanesToo) { press_all("trim-g1"); }
 
-INSTANTIATE_TEST_SUITE_P(Files, PressedFace, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PressedFace, ::testing::ValuesIn(testing::step_files()),
+                         testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

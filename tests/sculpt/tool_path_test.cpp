@@ -26,9 +26,11 @@ TEST(ToolPath, PlacesHaveOneDistanceAlongThePathAndTheEndIsOne) {
 TEST(ToolPath, APathInManyPiecesHasThePlacesOfOneInFew) {
   std::vector<Point> many;
   for (int k = 0; k <= 480; ++k) many.emplace_back(150.0 * k / 480, 0, 12);
-  const std::vector<Point> few = places_of({{0, 0, 12}, {150, 0, 12}}, 2.5), fine = places_of(many, 2.5);
+  const std::vector<Point> few = places_of({{0, 0, 12}, {150, 0, 12}}, 2.5),
+                           fine = places_of(many, 2.5);
   ASSERT_EQ(few.size(), 61);
-  ASSERT_LE(std::max(fine.size(), few.size()) - std::min(fine.size(), few.size()), 1);  // the end, up to rounding
+  ASSERT_LE(std::max(fine.size(), few.size()) - std::min(fine.size(), few.size()),
+            1);  // the end, up to rounding
   for (std::size_t k = 0; k < few.size(); ++k) EXPECT_LT((few[k] - fine[k]).norm(), 1e-11);
 }
 

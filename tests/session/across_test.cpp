@@ -11,13 +11,15 @@ namespace {
 
 constexpr double radius = 20, depth = 8;
 
-/// How far the halves are apart at x = 100, and the largest angle between their tangent planes, degrees.
+/// How far the halves are apart at x = 100, and the largest angle between their tangent planes,
+/// degrees.
 struct Meeting {
   double gap = 0, angle = 0;
 };
 Meeting seam_of(const Session& session) {
   Meeting seam;
-  const Surface &a = *session.state().surfaces[0].current, &b = *session.state().surfaces[1].current;
+  const Surface &a = *session.state().surfaces[0].current,
+                &b = *session.state().surfaces[1].current;
   const auto jet = [](const Surface& s, double u, double v) {
     Parameters<2> at(1, 2);
     at << u, v;
@@ -29,20 +31,24 @@ Meeting seam_of(const Session& session) {
     const auto [p, m] = jet(a, 1, k / 1000.);
     const auto [q, n] = jet(b, 0, k / 1000.);
     seam.gap = std::max(seam.gap, (p - q).norm());
-    seam.angle = std::max(seam.angle, std::asin(std::min(1., m.cross(n).norm())) * 180 / std::numbers::pi);
+    seam.angle =
+        std::max(seam.angle, std::asin(std::min(1., m.cross(n).norm())) * 180 / std::numbers::pi);
   }
   return seam;
 }
 
 /// A brush led along points of the plane, over whichever surfaces they lie on.
-std::string over(const Session& session, const std::string& fields, const std::vector<Point>& points) {
+std::string over(const Session& session, const std::string& fields,
+                 const std::vector<Point>& points) {
   std::string path, surfaces;
   for (const Point& p : points) {
     const auto [surface, at] = where(session, p.x(), p.y());
     path += fmt::format("{}[{:.17g},{:.17g}]", path.empty() ? "" : ",", at[0], at[1]);
-    surfaces += fmt::format(R"({}"{}")", surfaces.empty() ? "" : ",", session.state().surfaces[surface].id);
+    surfaces +=
+        fmt::format(R"({}"{}")", surfaces.empty() ? "" : ",", session.state().surfaces[surface].id);
   }
-  return R"({"do":"brush",)" + fields + R"(,"path":[)" + path + R"(],"surfaces":[)" + surfaces + "]}";
+  return R"({"do":"brush",)" + fields + R"(,"path":[)" + path + R"(],"surfaces":[)" + surfaces +
+         "]}";
 }
 
 Point now(const Session& session, double x, double y) {
@@ -55,15 +61,17 @@ const std::vector<std::string> clay = {
     R"({"do":"tool","shape":"sphere","radius":20,"position":[100,100,60],"plasticity":1})"};
 
 std::string stroke(const Point& from, const Point& to) {
-  return fmt::format(R"({{"do":"stroke","path":[[{},{},12],[{},{},12]]}})", from.x(), from.y(), to.x(), to.y());
+  return fmt::format(R"({{"do":"stroke","path":[[{},{},12],[{},{},12]]}})", from.x(), from.y(),
+                     to.x(), to.y());
 }
 
-/// Leads the tool from one place to the other; the figures of docs/clay.md are those of a sheet in one piece.
+/// Leads the tool from one place to the other; the figures of docs/clay.md are those of a sheet in
+/// one piece.
 Session grooved(const std::vector<Quad>& sheet, const Point& from, const Point& to) {
   Session session = pieces(sheet, clay);
   run(session, {stroke(from, to)});
-  const Groove g = groove_of(shapes_of(session, &SceneSurface::current), shapes_of(session, &SceneSurface::opened),
-                             from, to, radius, depth);
+  const Groove g = groove_of(shapes_of(session, &SceneSurface::current),
+                             shapes_of(session, &SceneSurface::opened), from, to, radius, depth);
   const double chord = 2 * std::sqrt(radius * radius - (radius - depth / 2) * (radius - depth / 2));
   EXPECT_GT(g.shallowest, 0.92 * depth);
   EXPECT_LT(g.lowest, 1.08 * depth);
@@ -80,10 +88,11 @@ TEST(Across, AStrokeInClayLeavesOneGrooveInAllSurfaces) {
     Point from, to;
     bool only_long;
   };
-  for (const Case& c : {Case{"equal nets", halves(), {25, 97, 0}, {175, 97, 0}, true},
-                        {"along the seam", halves(), {100, 40, 0}, {100, 160, 0}, false},
-                        {"other nets", halves({64, 64}, {50, 71}), {47, 47, 0}, {153, 153, 0}, false},
-                        {"another degree", halves({48, 64}, {50, 58}, 4), {25, 97, 0}, {175, 97, 0}, true}}) {
+  for (const Case& c :
+       {Case{"equal nets", halves(), {25, 97, 0}, {175, 97, 0}, true},
+        {"along the seam", halves(), {100, 40, 0}, {100, 160, 0}, false},
+        {"other nets", halves({64, 64}, {50, 71}), {47, 47, 0}, {153, 153, 0}, false},
+        {"another degree", halves({48, 64}, {50, 58}, 4), {25, 97, 0}, {175, 97, 0}, true}}) {
     if (c.only_long && !long_run()) continue;
     SCOPED_TRACE(c.name);
     const Meeting seam = seam_of(grooved(c.sheet, c.from, c.to));
@@ -129,8 +138,8 @@ bool about_a_place(const std::string& kind) {
          kind.find("scale") != std::string::npos;
 }
 
-/// Largest distance of the shapes that two sessions have, of points of the plane as opened, and the largest
-/// displacement.
+/// Largest distance of the shapes that two sessions have, of points of the plane as opened, and the
+/// largest displacement.
 std::pair<double, double> compared(const Session& a, const Session& b) {
   double apart = 0, largest = 0;
   for (int i = 0; i <= 60; ++i) {
@@ -147,35 +156,44 @@ std::pair<double, double> compared(const Session& a, const Session& b) {
 /// What a brush does to a sheet with a bump.
 Session brushed(const std::vector<Quad>& sheet, const std::string& kind) {
   Session session = pieces(sheet);
-  const std::vector<Point> path = about_a_place(kind) ? std::vector<Point>{{97, 97, 0}}
-                                                      : std::vector<Point>{{70, 97, 0}, {90, 99, 0}, {125, 108, 0}};
+  const std::vector<Point> path = about_a_place(kind)
+                                      ? std::vector<Point>{{97, 97, 0}}
+                                      : std::vector<Point>{{70, 97, 0}, {90, 99, 0}, {125, 108, 0}};
   run(session, {over(session, R"("kind":"pull","radius":40,"height":6)", {{94, 104, 0}}),
                 over(session, kind + R"(,"radius":24)", path)});
   return session;
 }
 
-// On nets of the same spans the two halves can have every shape that the sheet in one piece can have.
+// On nets of the same spans the two halves can have every shape that the sheet in one piece can
+// have.
 TEST(Across, BrushesDoWhatTheyDoOnOneSurface) {
   const auto sheet = [](int m, int n) {
-    return std::vector<Quad>{
-        {{Point(0, 0, 0), {200, 0, 0}, {0, 200, 0}, {200, 200, 0}}, {m, n}, 3, {"u0", "u1", "v0", "v1"}}};
+    return std::vector<Quad>{{{Point(0, 0, 0), {200, 0, 0}, {0, 200, 0}, {200, 200, 0}},
+                              {m, n},
+                              3,
+                              {"u0", "u1", "v0", "v1"}}};
   };
   for (const char* kind : kinds) {
     const Session one = brushed(sheet(77, 40), kind);
-    const Session both = brushed(halves({40, 40}, {40, 40}), kind), turned = brushed(turned_halves({40, 40}), kind);
+    const Session both = brushed(halves({40, 40}, {40, 40}), kind),
+                  turned = brushed(turned_halves({40, 40}), kind);
     const auto [apart, largest] = compared(both, one);
     EXPECT_LT(apart, 0.03 * largest) << kind;
-    EXPECT_LT(compared(turned, both).first, 1e-6 * largest) << kind << ", whatever the side of the normals";
+    EXPECT_LT(compared(turned, both).first, 1e-6 * largest)
+        << kind << ", whatever the side of the normals";
     EXPECT_LT(seam_of(both).gap, 1e-12 * side) << kind;
     EXPECT_LT(seam_of(both).angle, 1e-6) << kind;
   }
 }
 
-// A crease is as sharp as its net: two sheets in one piece tell how much of a difference comes from nets.
+// A crease is as sharp as its net: two sheets in one piece tell how much of a difference comes from
+// nets.
 TEST(Across, BrushesDoSoOnOtherNets) {
   const auto sheet = [](int m, int n) {
-    return std::vector<Quad>{
-        {{Point(0, 0, 0), {200, 0, 0}, {0, 200, 0}, {200, 200, 0}}, {m, n}, 3, {"u0", "u1", "v0", "v1"}}};
+    return std::vector<Quad>{{{Point(0, 0, 0), {200, 0, 0}, {0, 200, 0}, {200, 200, 0}},
+                              {m, n},
+                              3,
+                              {"u0", "u1", "v0", "v1"}}};
   };
   for (const char* kind : {kinds[0], kinds[1], kinds[2], kinds[4], kinds[5], kinds[10]}) {
     const Session one = brushed(sheet(77, 40), kind), other = brushed(sheet(69, 47), kind);
@@ -191,8 +209,10 @@ TEST(Across, BrushesDoSoOnOtherNets) {
 TEST(Across, AMaskKeepsWhatItCoversOnBothSides) {
   Session session = pieces(halves());
   run(session, {over(session, R"("kind":"mask","radius":30)", {{97, 100, 0}, {103, 100, 0}})});
-  for (const SceneSurface& s : session.state().surfaces) EXPECT_GT(std::ranges::count(s.mask, 1.), 20) << s.id;
-  run(session, {over(session, R"("kind":"pull","radius":50,"height":5)", {{80, 100, 0}, {130, 100, 0}})});
+  for (const SceneSurface& s : session.state().surfaces)
+    EXPECT_GT(std::ranges::count(s.mask, 1.), 20) << s.id;
+  run(session,
+      {over(session, R"("kind":"pull","radius":50,"height":5)", {{80, 100, 0}, {130, 100, 0}})});
   for (const SceneSurface& s : session.state().surfaces) {
     for (std::size_t i = 0; i < s.mask.size(); ++i) {
       if (s.mask[i] < 1) continue;
@@ -212,7 +232,8 @@ TEST(Across, EventsOnBothSurfacesAreOneStroke) {
   const auto event = [&](double x, bool open) {
     const auto [surface, at] = where(session, x, 97);
     return fmt::format(R"({{"do":"brush",{},"surface":"{}","path":[[{:.17g},{:.17g}]]{}}})", fields,
-                       session.state().surfaces[surface].id, at[0], at[1], open ? R"(,"open":true)" : "");
+                       session.state().surfaces[surface].id, at[0], at[1],
+                       open ? R"(,"open":true)" : "");
   };
   for (int k = 0; k <= 60; ++k) {
     run(session, {event(70 + k, k < 60)});
@@ -232,18 +253,22 @@ TEST(Across, EventsOnBothSurfacesAreOneStroke) {
   for (const Command& command : session.journal()) ASSERT_TRUE(again.execute(command));
   run(at_once, {over(at_once, fields, {{70, 97, 0}, {100, 97, 0}, {130, 97, 0}})});
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_TRUE(same_bits(*again.state().surfaces[k].current, *session.state().surfaces[k].current));
+    EXPECT_TRUE(
+        same_bits(*again.state().surfaces[k].current, *session.state().surfaces[k].current));
   }
   EXPECT_LT(compared(session, at_once).first, 0.03 * 5);
   run(session, {R"({"do":"undo"})"});
-  for (const SceneSurface& s : session.state().surfaces) EXPECT_TRUE(same_bits(*s.current, *s.opened));
+  for (const SceneSurface& s : session.state().surfaces)
+    EXPECT_TRUE(same_bits(*s.current, *s.opened));
 }
 
 TEST(Across, NetsBesideTheSeamAreRefinedToo) {
   Session session = pieces(halves({12, 20}, {9, 14}), {R"({"do":"refine","permission":"auto"})"});
-  run(session, {over(session, R"("kind":"pull","radius":20,"height":5)", {{92, 60, 0}, {92, 140, 0}})});
+  run(session,
+      {over(session, R"("kind":"pull","radius":20,"height":5)", {{92, 60, 0}, {92, 140, 0}})});
   EXPECT_NEAR(now(session, 92, 100).z(), 5, 0.05);
-  EXPECT_NEAR(now(session, 102, 100).z(), 2.5, 0.15) << "half at half the radius, on the other surface";
+  EXPECT_NEAR(now(session, 102, 100).z(), 2.5, 0.15)
+      << "half at half the radius, on the other surface";
   EXPECT_LT(seam_of(session).gap, 1e-12 * side);
 }
 
@@ -252,11 +277,15 @@ TEST(Across, SmoothingAndDraggingReachOverTheSeam) {
   Session session = pieces(halves());
   run(session, {over(session, bump, {{100, 100, 0}})});
   const std::string right = session.state().surfaces[1].id;
-  run(session, {fmt::format(R"({{"do":"relax","at":[0.02,0.5],"radius":50,"strength":0.8,"surface":"{}"}})", right)});
+  run(session,
+      {fmt::format(R"({{"do":"relax","at":[0.02,0.5],"radius":50,"strength":0.8,"surface":"{}"}})",
+                   right)});
   EXPECT_LT(now(session, 100, 100).z(), 4);
   EXPECT_LT(now(session, 92, 100).z(), 4);
   EXPECT_LT(seam_of(session).gap, 1e-12 * side);
-  run(session, {fmt::format(R"({{"do":"drag","at":[0.3,0.5],"radius":20,"by":[0,0,9],"surface":"{}"}})", right)});
+  run(session,
+      {fmt::format(R"({{"do":"drag","at":[0.3,0.5],"radius":20,"by":[0,0,9],"surface":"{}"}})",
+                   right)});
   EXPECT_GT(now(session, 130, 100).z(), 3);
 }
 

@@ -20,8 +20,9 @@ std::vector<Command> all_of(std::initializer_list<const char*> list) {
   return commands;
 }
 
-constexpr const char *pull = R"({"do":"points","which":[27],"by":[0,0,1]})", *undo = R"({"do":"undo"})",
-                     *redo = R"({"do":"redo"})", *nowhere = R"({"do":"select","surface":"#77"})",
+constexpr const char *pull = R"({"do":"points","which":[27],"by":[0,0,1]})",
+                     *undo = R"({"do":"undo"})", *redo = R"({"do":"redo"})",
+                     *nowhere = R"({"do":"select","surface":"#77"})",
                      *rubber = R"({"do":"material","preset":"rubber"})", *step = R"({"do":"step"})";
 
 /// A sheet whose document ends here: what stands cannot be undone.
@@ -34,9 +35,12 @@ Session opened_sheet() {
   return session;
 }
 
-Points points_of(const Session& session) { return session.state().surfaces[0].current->control_points(); }
+Points points_of(const Session& session) {
+  return session.state().surfaces[0].current->control_points();
+}
 
-void expect_done(Session& session, std::initializer_list<const char*> commands, const ActOptions& options = {}) {
+void expect_done(Session& session, std::initializer_list<const char*> commands,
+                 const ActOptions& options = {}) {
   const auto done = session.act(all_of(commands), options);
   ASSERT_TRUE(done) << done.error().message();
 }
@@ -61,8 +65,8 @@ TEST(Act, ThatFailsChangesNothing) {
   expect_done(session, {undo});
   const Points before = points_of(session);
   for (const bool join : {false, true}) {
-    for (const auto& commands :
-         {all_of({pull, rubber, nowhere}), all_of({undo, pull, nowhere}), all_of({redo, nowhere}), all_of({nowhere})}) {
+    for (const auto& commands : {all_of({pull, rubber, nowhere}), all_of({undo, pull, nowhere}),
+                                 all_of({redo, nowhere}), all_of({nowhere})}) {
       EXPECT_FALSE(session.act(commands, {.join = join}));
       EXPECT_EQ(points_of(session), before);
       EXPECT_EQ(session.journal().size(), 3U);
@@ -79,7 +83,8 @@ TEST(Act, ThatChangesNothingIsNoEntry) {
   expect_done(session, {rubber});
   expect_done(session, {pull});
   expect_done(session, {undo});
-  for (const auto& commands : {all_of({step}), all_of({rubber}), all_of({R"({"do":"hold","rows":2})", step})}) {
+  for (const auto& commands :
+       {all_of({step}), all_of({rubber}), all_of({R"({"do":"hold","rows":2})", step})}) {
     const auto changed = session.act(commands);
     ASSERT_TRUE(changed) << changed.error().message();
     EXPECT_FALSE(*changed);

@@ -15,7 +15,8 @@ using testing::at;
 using testing::first;
 using testing::fresh;
 
-// The scripts of examples/analysis against the literature (docs/shell.md): linear ones, in the limit of small loads.
+// The scripts of examples/analysis against the literature (docs/shell.md): linear ones, in the
+// limit of small loads.
 
 /// The session after a script.
 Session session_after(const std::string& name) {
@@ -52,8 +53,9 @@ TEST(AnalysisScript, PinchedCylinder) {
 }
 
 TEST(AnalysisScript, BucklingCan) {
-  // E t² / (R √(3 (1 − ν²))), the classical load of a simply supported cylinder under axial compression, of waves of
-  // any length; the linear stress before it is not quite uniform, as the ends keep the cylinder from widening.
+  // E t² / (R √(3 (1 − ν²))), the classical load of a simply supported cylinder under axial
+  // compression, of waves of any length; the linear stress before it is not quite uniform, as the
+  // ends keep the cylinder from widening.
   const Session session = session_after("buckling_can");
   const auto& found = session.state().buckling;
   ASSERT_FALSE(found.empty());
@@ -67,12 +69,14 @@ TEST(AnalysisScript, PinchedHemisphere) {
 }
 
 TEST(AnalysisScript, RolledCantilever) {
-  // A moment m = 2π D / L closes a beam without stretch to a circle. Koiter's beam also gets shorter as it bends, λ <
-  // 1: no membrane force acts, t E ε + D θ'² = 0, and m = D λ² θ', ε = (λ² − 1)/2.
+  // A moment m = 2π D / L closes a beam without stretch to a circle. Koiter's beam also gets
+  // shorter as it bends, λ < 1: no membrane force acts, t E ε + D θ'² = 0, and m = D λ² θ', ε = (λ²
+  // − 1)/2.
   const double t = 0.1, young = 1.2e6, length = 10, bend = young * t * t * t / 12,
                m = 2 * std::numbers::pi * bend / length;
   double squared = 1;
-  for (int k = 0; k < 50; ++k) squared = 1 - 2 * bend / (young * t) * std::pow(m / (bend * squared), 2);
+  for (int k = 0; k < 50; ++k)
+    squared = 1 - 2 * bend / (young * t) * std::pow(m / (bend * squared), 2);
   const double turn = m / (bend * squared) * length, radius = std::sqrt(squared) * length / turn;
   const Point end = Point(length, 0, 0) + displacement_after("rolled_cantilever", 1, 0.5);
   EXPECT_NEAR(end[0], radius * std::sin(turn), 1e-5 * length);
@@ -96,7 +100,8 @@ TEST(AnalysisScript, ADrapeHangsInFoldsAndTheLinearOneIsStretched) {
   if (!testing::long_run()) GTEST_SKIP() << "the drape itself takes 12 s: KNEAD_LONG";
   const Session folded = session_after("drape_in_folds");
   EXPECT_LT(std::abs(hem_stretch(folded)), 2e-3);
-  // The hem of the linear one stays above its place; that in folds is drawn in, and corners hang lowest.
+  // The hem of the linear one stays above its place; that in folds is drawn in, and corners hang
+  // lowest.
   const Surface& cloth = *first(folded).current;
   EXPECT_GT(at(cloth, 0.5, 0)[1], at(*first(folded).opened, 0.5, 0)[1] + 10);
   EXPECT_LT(at(cloth, 0, 0)[2], at(cloth, 0.5, 0)[2]);
@@ -105,7 +110,8 @@ TEST(AnalysisScript, ADrapeHangsInFoldsAndTheLinearOneIsStretched) {
 TEST(AnalysisScript, TheModesOfAFreePlateAreThoseOfTheTable) {
   const Session plate = session_after("free_plate");
   // ω a² √(ρt/D) = 13.468 of the first mode that bends (docs/shell.md), in cycles per second.
-  const double bending = 210000 / (12 * (1 - 0.09)), lowest = 13.468 / (100 * 100) * std::sqrt(bending / 7.85e-9);
+  const double bending = 210000 / (12 * (1 - 0.09)),
+               lowest = 13.468 / (100 * 100) * std::sqrt(bending / 7.85e-9);
   const auto& modes = plate.state().modes;
   ASSERT_EQ(modes.size(), 10U);
   EXPECT_NEAR(modes[6].value, lowest / (2 * std::numbers::pi), 2e-4 * lowest);

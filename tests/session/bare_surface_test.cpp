@@ -37,7 +37,9 @@ const char* const held = R"({"do":"hold","mode":"trim","all":true})";
 const char* const ball = R"({"do":"tool","name":"b","radius":30,"position":[50,50,25]})";
 const char* const press = R"({"do":"step","count":15,"lambda":20})";
 
-std::string id_of(const Session& session, std::size_t k = 0) { return session.state().surfaces[k].id; }
+std::string id_of(const Session& session, std::size_t k = 0) {
+  return session.state().surfaces[k].id;
+}
 std::string select(const Session& session, std::size_t k = 0) {
   return fmt::format(R"({{"do":"select","surface":"{}"}})", id_of(session, k));
 }
@@ -50,7 +52,8 @@ std::array<double, 2> motion(const Session& session) {
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < n; ++j) {
       const double moved =
-          (s.current->control_points().row(i * n + j) - s.opened->control_points().row(i * n + j)).norm();
+          (s.current->control_points().row(i * n + j) - s.opened->control_points().row(i * n + j))
+              .norm();
       const bool side = i == 0 || j == 0 || i == m - 1 || j == n - 1;
       result[0] = std::max(result[0], side ? moved : 0);
       result[1] = std::max(result[1], moved);
@@ -60,7 +63,8 @@ std::array<double, 2> motion(const Session& session) {
 }
 
 bool notes(const Session& session, const std::string& what) {
-  return std::ranges::any_of(session.state().notes, [&](const std::string& n) { return n.find(what) != n.npos; });
+  return std::ranges::any_of(session.state().notes,
+                             [&](const std::string& n) { return n.find(what) != n.npos; });
 }
 
 constexpr int samples = 40;  // per direction
@@ -102,8 +106,8 @@ TEST(BareSurface, IsFreeWhereAskedAndThatIsNoted) {
 TEST(BareSurface, LetsASideGoByItsName) {
   for (const char* field : {"which", "edge"}) {
     Session session = opened({sheet()}, "step");
-    run(session,
-        {held, select(session), fmt::format(R"({{"do":"edge","{}":"u0","hold":"free"}})", field), ball, press});
+    run(session, {held, select(session),
+                  fmt::format(R"({{"do":"edge","{}":"u0","hold":"free"}})", field), ball, press});
     const SceneSurface& s = session.state().surfaces[0];
     const auto moved = [&](double u, double v) {
       const KnotVector &a = s.current->knots(0), &b = s.current->knots(1);
@@ -123,28 +127,32 @@ TEST(BareSurface, KeepsWhatItIsJoinedTo) {
   left.col(0) /= 2;
   Points right = left;
   right.col(0).array() += 50;
-  Session session = opened({*sheet().with_control_points(left), *sheet().with_control_points(right)}, "step");
-  run(session, {held, select(session), R"({"do":"tool","name":"b","radius":20,"position":[25,50,15]})", press});
+  Session session =
+      opened({*sheet().with_control_points(left), *sheet().with_control_points(right)}, "step");
+  run(session, {held, select(session),
+                R"({"do":"tool","name":"b","radius":20,"position":[25,50,15]})", press});
   EXPECT_EQ(motion(session)[0], 0);
   EXPECT_GT(motion(session)[1], 1);
 }
 
-// Stretch spreads what a tool presses far over a surface, clay much less. Nothing else holds them: without their place
-// held both would move by the whole depth, on the other side too.
+// Stretch spreads what a tool presses far over a surface, clay much less. Nothing else holds them:
+// without their place held both would move by the whole depth, on the other side too.
 TEST(BareSurface, AClosedOneDentsWhereItIsPressed) {
   for (const bool torus : {false, true}) {
     for (const bool clay : {false, true}) {
-      const Surface shape = torus ? *revolve(*circle_quarters({10, 0}, 4, 0, 4)) : testing::sphere();
+      const Surface shape =
+          torus ? *revolve(*circle_quarters({10, 0}, 4, 0, 4)) : testing::sphere();
       const double top = torus ? 4 : 1, x = torus ? 10 : 0, deep = 0.25 * top, r = 0.5 * top;
       const auto at = [&](double z) { return fmt::format("[{},0,{}]", x, z); };
       Session session = opened({shape}, "step");
       const char* const halved = R"({"do":"refine","region":[[0,1],[0,1]]})";
       run(session, {held, select(session), halved, halved});
       if (clay) run(session, {R"({"do":"material","preset":"clay"})"});
-      run(session, {fmt::format(R"({{"do":"tool","name":"b","radius":{},"position":{}}})", r,
-                                at(clay ? 9 * top : top + r - deep)),
-                    clay ? fmt::format(R"({{"do":"stroke","tool":"b","path":[{}]}})", at(top + r - deep))
-                         : R"({"do":"step","count":30,"lambda":1})"});
+      run(session,
+          {fmt::format(R"({{"do":"tool","name":"b","radius":{},"position":{}}})", r,
+                       at(clay ? 9 * top : top + r - deep)),
+           clay ? fmt::format(R"({{"do":"stroke","tool":"b","path":[{}]}})", at(top + r - deep))
+                : R"({"do":"step","count":30,"lambda":1})"});
       double pressed = 0, opposite = 0;
       for_each_way(session.state().surfaces[0], [&](const Point& from, const Point& way) {
         pressed = std::max(pressed, -way.z());
@@ -157,11 +165,12 @@ TEST(BareSurface, AClosedOneDentsWhereItIsPressed) {
   }
 }
 
-const char* const shell = R"({"do":"material","model":"shell","young":1000,"poisson":0,"thickness":0.05})";
+const char* const shell =
+    R"({"do":"material","model":"shell","young":1000,"poisson":0,"thickness":0.05})";
 
 TEST(BareSurface, AShellThatNothingHoldsIsNoted) {
-  for (const char* act :
-       {R"({"do":"step","count":2,"lambda":20})", R"({"do":"stroke","tool":"b","path":[[50,50,25]]})"}) {
+  for (const char* act : {R"({"do":"step","count":2,"lambda":20})",
+                          R"({"do":"stroke","tool":"b","path":[[50,50,25]]})"}) {
     Session session = opened({sheet()}, "step");
     run(session, {held, select(session), R"({"do":"hold","mode":"free"})", shell, ball, act});
     EXPECT_TRUE(notes(session, "nothing holds " + id_of(session))) << act;
@@ -173,9 +182,9 @@ TEST(BareSurface, AShellThatNothingHoldsIsNoted) {
 
 TEST(BareSurface, AClosedShellKeepsItsPlace) {
   Session session = opened({testing::sphere()}, "step");
-  run(session,
-      {held, select(session), R"({"do":"refine","region":[[0,1],[0,1]]})", shell,
-       R"({"do":"tool","name":"b","radius":0.5,"position":[0,0,1.35]})", R"({"do":"step","count":8,"lambda":0.01})"});
+  run(session, {held, select(session), R"({"do":"refine","region":[[0,1],[0,1]]})", shell,
+                R"({"do":"tool","name":"b","radius":0.5,"position":[0,0,1.35]})",
+                R"({"do":"step","count":8,"lambda":0.01})"});
   Point mean = Point::Zero();
   double deepest = 0;
   for_each_way(session.state().surfaces[0], [&](const Point& from, const Point& way) {

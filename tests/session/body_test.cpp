@@ -21,7 +21,9 @@ using testing::run;
 using testing::same_bits;
 using testing::same_state;
 
-const SceneBody& body(const Session& session, std::size_t k = 0) { return session.state().bodies[k]; }
+const SceneBody& body(const Session& session, std::size_t k = 0) {
+  return session.state().bodies[k];
+}
 const Curve& curve(const Session& session, std::size_t k = 0) {
   return *std::get<SceneCurve>(body(session, k)).current;
 }
@@ -41,9 +43,10 @@ double angle(const Point& a, const Point& b) { return std::atan2(a.cross(b).norm
 
 TEST(NewBody, ACircleIsExactAndAHelixSaysHowNear) {
   Session session = fresh();
-  run(session, {R"({"do":"new","shape":"curve","form":"circle","radius":2,"position":[1,0,0]})",
-                R"({"do":"new","shape":"curve","form":"helix","radius":2,"height":3,"turns":2,"net":40})",
-                R"({"do":"new","shape":"curve","size":5,"degree":2,"net":6,"unit":"mm"})"});
+  run(session,
+      {R"({"do":"new","shape":"curve","form":"circle","radius":2,"position":[1,0,0]})",
+       R"({"do":"new","shape":"curve","form":"helix","radius":2,"height":3,"turns":2,"net":40})",
+       R"({"do":"new","shape":"curve","size":5,"degree":2,"net":6,"unit":"mm"})"});
   EXPECT_EQ(session.state().body, 2);
   EXPECT_FALSE(session.state().selected);
   for (int k = 0; k <= 20; ++k) {
@@ -54,7 +57,8 @@ TEST(NewBody, ACircleIsExactAndAHelixSaysHowNear) {
   double error = 0;
   for (int k = 0; k <= 1000; ++k) {
     const double t = k / 1000., a = 4 * std::numbers::pi * t;
-    error = std::max(error, (on(curve(session, 1), t) - Point(2 * std::cos(a), 2 * std::sin(a), 3 * t)).norm());
+    error = std::max(
+        error, (on(curve(session, 1), t) - Point(2 * std::cos(a), 2 * std::sin(a), 3 * t)).norm());
   }
   ASSERT_EQ(session.state().notes.size(), 1U);
   const std::string& note = session.state().notes[0];
@@ -68,8 +72,9 @@ TEST(NewBody, ACircleIsExactAndAHelixSaysHowNear) {
 
 TEST(NewBody, VolumesHaveTheirVolume) {
   Session session = fresh();
-  run(session, {R"({"do":"new","shape":"volume","size":[2,3,4],"degree":[2,3,1],"net":[4,5,2]})",
-                R"({"do":"new","shape":"volume","form":"cylinder","radius":2,"height":3,"net":[5,4,4]})"});
+  run(session,
+      {R"({"do":"new","shape":"volume","size":[2,3,4],"degree":[2,3,1],"net":[4,5,2]})",
+       R"({"do":"new","shape":"volume","form":"cylinder","radius":2,"height":3,"net":[5,4,4]})"});
   EXPECT_EQ(volume(session).net(), (std::array<int, 3>{4, 5, 2}));
   EXPECT_NEAR((on(volume(session), 0.3, 0.6, 0.9) - Point(0.6, 1.8, 3.6)).norm(), 0, 8 * epsilon);
   EXPECT_EQ(volume(session, 1).net(), (std::array<int, 3>{5, 4, 4}));
@@ -108,9 +113,10 @@ TEST(NewBody, RefusesWithThePlace) {
 TEST(ActiveCurve, BendsAsAClampedBeam) {
   Session session = fresh();
   // β w'''' = q with both ends clamped: w = q x² (1 − x)² / (24 β), a polynomial of degree 4.
-  run(session, {R"({"do":"new","shape":"curve","degree":4,"net":9})", R"({"do":"scaling","mode":"raw"})",
-                R"({"do":"material","alpha":[0],"beta":[2]})", R"({"do":"edge","hold":"clamped"})",
-                R"({"do":"load","vector":[0,0,-48]})", R"({"do":"evolve","mode":"static"})", R"({"do":"step"})"});
+  run(session, {R"({"do":"new","shape":"curve","degree":4,"net":9})",
+                R"({"do":"scaling","mode":"raw"})", R"({"do":"material","alpha":[0],"beta":[2]})",
+                R"({"do":"edge","hold":"clamped"})", R"({"do":"load","vector":[0,0,-48]})",
+                R"({"do":"evolve","mode":"static"})", R"({"do":"step"})"});
   for (int k = 0; k <= 10; ++k) {
     const double x = k / 10.;
     const Point p = on(curve(session), x);
@@ -123,10 +129,11 @@ TEST(ActiveCurve, BendsAsAClampedBeam) {
 
 TEST(ActiveCurve, KeepsItsEndsAndTheCoordinatesThatAreHeld) {
   Session session = fresh();
-  run(session,
-      {R"({"do":"new","shape":"curve","net":12})", R"({"do":"edge","which":"u0"})",
-       R"({"do":"edge","which":"u1","components":"xz"})", R"({"do":"pin","at":[0.5],"to":[0.5,0,0.2]})",
-       R"({"do":"force","kind":"spring","at":[0.8],"to":[0.8,0.5,0.5],"strength":20})", R"({"do":"step","count":20})"});
+  run(session, {R"({"do":"new","shape":"curve","net":12})", R"({"do":"edge","which":"u0"})",
+                R"({"do":"edge","which":"u1","components":"xz"})",
+                R"({"do":"pin","at":[0.5],"to":[0.5,0,0.2]})",
+                R"({"do":"force","kind":"spring","at":[0.8],"to":[0.8,0.5,0.5],"strength":20})",
+                R"({"do":"step","count":20})"});
   const Curve& c = curve(session);
   EXPECT_EQ(on(c, 0), Point(0, 0, 0));
   EXPECT_EQ(on(c, 1).x(), 1);
@@ -140,9 +147,10 @@ TEST(ActiveCurve, KeepsItsEndsAndTheCoordinatesThatAreHeld) {
 
 TEST(ActiveCurve, ACircleUnderABallStaysClosedAndSmooth) {
   Session session = fresh();
-  run(session, {R"({"do":"new","shape":"curve","form":"circle","radius":1})", R"({"do":"refine"})",
-                R"({"do":"refine"})", R"({"do":"tool","radius":0.4,"position":[1.2,0.1,0],"rigid":true})",
-                R"({"do":"evolve","lambda":20})", R"({"do":"step","count":30})"});
+  run(session,
+      {R"({"do":"new","shape":"curve","form":"circle","radius":1})", R"({"do":"refine"})",
+       R"({"do":"refine"})", R"({"do":"tool","radius":0.4,"position":[1.2,0.1,0],"rigid":true})",
+       R"({"do":"evolve","lambda":20})", R"({"do":"step","count":30})"});
   const Curve& c = curve(session);
   EXPECT_NEAR((on(c, 0) - on(c, 1)).norm(), 0, 1e-14);
   EXPECT_LT(angle(tangent(c, 0, Side::right), tangent(c, 1, Side::left)), 1e-12);
@@ -151,7 +159,8 @@ TEST(ActiveCurve, ACircleUnderABallStaysClosedAndSmooth) {
   }
   // Out of the ball, and moved by it where it was deepest.
   double nearest = 10;
-  for (int k = 0; k <= 400; ++k) nearest = std::min(nearest, (on(c, k / 400.) - Point(1.2, 0.1, 0)).norm());
+  for (int k = 0; k <= 400; ++k)
+    nearest = std::min(nearest, (on(c, k / 400.) - Point(1.2, 0.1, 0)).norm());
   EXPECT_NEAR(nearest, 0.4, 4e-3);
   EXPECT_GT(session.state().steps.back().largest_displacement, 0.1);
 }
@@ -159,9 +168,11 @@ TEST(ActiveCurve, ACircleUnderABallStaysClosedAndSmooth) {
 TEST(ActiveVolume, StretchesAsItsEquationSays) {
   Session session = fresh();
   // α w'' = −q along z only, held at z = 0: w = q (z − z²/2) / α.
-  run(session, {R"({"do":"new","shape":"volume","degree":2,"net":4})", R"({"do":"scaling","mode":"raw"})",
-                R"({"do":"material","alpha":[3,0,0,3,0,3],"beta":[0,0,0,0,0,0]})", R"({"do":"edge","which":"w0"})",
-                R"({"do":"load","vector":[0,0,6]})", R"({"do":"evolve","mode":"static"})", R"({"do":"step"})"});
+  run(session,
+      {R"({"do":"new","shape":"volume","degree":2,"net":4})", R"({"do":"scaling","mode":"raw"})",
+       R"({"do":"material","alpha":[3,0,0,3,0,3],"beta":[0,0,0,0,0,0]})",
+       R"({"do":"edge","which":"w0"})", R"({"do":"load","vector":[0,0,6]})",
+       R"({"do":"evolve","mode":"static"})", R"({"do":"step"})"});
   for (const double z : {0., 0.25, 0.5, 1.}) {
     const Point x = on(volume(session), 0.3, 0.8, z);
     EXPECT_NEAR(x.z(), z + 2 * (z - z * z / 2), 1e-12);
@@ -171,9 +182,10 @@ TEST(ActiveVolume, StretchesAsItsEquationSays) {
 
 TEST(ActiveVolume, ABallDentsItAndItsHeldSideKeepsItsBits) {
   Session session = fresh();
-  run(session,
-      {R"({"do":"new","shape":"volume","net":[8,8,5]})", R"({"do":"edge","which":"w0","hold":"clamped"})",
-       R"({"do":"tool","radius":0.3,"position":[0.5,0.5,1.2],"rigid":true})", R"({"do":"evolve","lambda":20})"});
+  run(session, {R"({"do":"new","shape":"volume","net":[8,8,5]})",
+                R"({"do":"edge","which":"w0","hold":"clamped"})",
+                R"({"do":"tool","radius":0.3,"position":[0.5,0.5,1.2],"rigid":true})",
+                R"({"do":"evolve","lambda":20})"});
   const Points before = control_points_of(body(session));
   run(session, {R"({"do":"step","count":10})"});
   const Points& after = control_points_of(body(session));
@@ -187,13 +199,16 @@ TEST(ActiveVolume, ABallDentsItAndItsHeldSideKeepsItsBits) {
 TEST(Body, IsUndoneRestoredAndRepeatedToTheBit) {
   Session session = fresh();
   run(session,
-      {R"({"do":"new"})", R"({"do":"new","shape":"curve","net":10})", R"({"do":"pin","control_points":[[0],[9]]})",
-       R"({"do":"material","alpha":[1],"beta":[0.02],"mass":2})", R"({"do":"evolve","mode":"dynamic"})",
-       R"({"do":"load","gravity":[0,0,-1]})", R"({"do":"step","count":3})", R"({"do":"new","shape":"volume","net":4})",
+      {R"({"do":"new"})", R"({"do":"new","shape":"curve","net":10})",
+       R"({"do":"pin","control_points":[[0],[9]]})",
+       R"({"do":"material","alpha":[1],"beta":[0.02],"mass":2})",
+       R"({"do":"evolve","mode":"dynamic"})", R"({"do":"load","gravity":[0,0,-1]})",
+       R"({"do":"step","count":3})", R"({"do":"new","shape":"volume","net":4})",
        R"({"do":"edge","which":"v1","components":"z"})", R"({"do":"pin","at":[0.1,0.2,0.3]})",
-       R"({"do":"force","name":"pull","kind":"dead","at":[1,1,1],"vector":[0,0,1]})", R"({"do":"step","count":2})",
-       R"({"do":"points","which":[3,5],"by":[0.1,0,0]})", R"({"do":"select","body":"#2"})", R"({"do":"rest"})",
-       R"({"do":"step"})", R"({"do":"select","surface":"#1"})"});
+       R"({"do":"force","name":"pull","kind":"dead","at":[1,1,1],"vector":[0,0,1]})",
+       R"({"do":"step","count":2})", R"({"do":"points","which":[3,5],"by":[0.1,0,0]})",
+       R"({"do":"select","body":"#2"})", R"({"do":"rest"})", R"({"do":"step"})",
+       R"({"do":"select","surface":"#1"})"});
   EXPECT_EQ(session.state().forces.front().body, 1);
   auto restored = Session::restore(Document::fresh("test"), session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
@@ -209,7 +224,8 @@ TEST(Body, IsUndoneRestoredAndRepeatedToTheBit) {
     EXPECT_TRUE(same_state(session.state(), seen.back()));
   }
   Session again = fresh();
-  for (const Command& command : session.journal()) ASSERT_TRUE(again.execute(*parse_command(to_json(command))));
+  for (const Command& command : session.journal())
+    ASSERT_TRUE(again.execute(*parse_command(to_json(command))));
   EXPECT_TRUE(same_state(session.state(), again.state()));
   // What steps on goes on to the same bits, too.
   run(session, {R"({"do":"select","body":"#3"})", R"({"do":"step"})"});
@@ -237,7 +253,8 @@ TEST(Body, RefinesWithoutChangingItsShape) {
 
 TEST(Body, SidesOfAVolumeAreItsOwnAndFaceOutward) {
   Session session = fresh();
-  run(session, {R"({"do":"new","shape":"volume","form":"cylinder","radius":2,"height":3,"net":[4,5,4]})"});
+  run(session,
+      {R"({"do":"new","shape":"volume","form":"cylinder","radius":2,"height":3,"net":[4,5,4]})"});
   const Volume& whole = volume(session);
   const auto sides = sides_of(whole);
   ASSERT_TRUE(sides) << sides.error().message();
@@ -251,7 +268,8 @@ TEST(Body, SidesOfAVolumeAreItsOwnAndFaceOutward) {
       u[d] = k % 2 == 0 ? 0 : 1;
       u[first] = a;
       u[second] = b;
-      const Point there = *evaluate_point<3>(whole, u), here = *evaluate_point<2>((*sides)[k], {a, b});
+      const Point there = *evaluate_point<3>(whole, u),
+                  here = *evaluate_point<2>((*sides)[k], {a, b});
       EXPECT_NEAR((there - here).norm(), 0, 16 * epsilon) << k;
       Parameters<2> at(1, 2);
       at << a, b;
@@ -294,8 +312,9 @@ TEST(Body, CommandsOfSurfacesSayThatACurveIsSelected) {
   EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "pressure");
   run(session, {R"({"do":"select","surface":"#1"})"});
   for (const char* command :
-       {R"({"do":"edge","which":"w0"})", R"({"do":"pin","at":[0.5]})", R"({"do":"force","at":[0.5],"to":[0,0,0]})",
-        R"({"do":"material","alpha":[1]})", R"({"do":"pin","control_points":[[1]]})"}) {
+       {R"({"do":"edge","which":"w0"})", R"({"do":"pin","at":[0.5]})",
+        R"({"do":"force","at":[0.5],"to":[0,0,0]})", R"({"do":"material","alpha":[1]})",
+        R"({"do":"pin","control_points":[[1]]})"}) {
     EXPECT_FALSE(refusal(session, command).remedy.empty()) << command;
   }
 }
@@ -303,7 +322,8 @@ TEST(Body, CommandsOfSurfacesSayThatACurveIsSelected) {
 TEST(Body, KeepsToTheLimit) {
   Session session = fresh();
   run(session, {R"({"do":"new","shape":"curve","net":12})", R"({"do":"limit","distance":0.05})",
-                R"({"do":"force","at":[0.5],"to":[0.5,0,3],"strength":100})", R"({"do":"step","count":10})"});
+                R"({"do":"force","at":[0.5],"to":[0.5,0,3],"strength":100})",
+                R"({"do":"step","count":10})"});
   const double moved = session.state().steps.back().largest_displacement;
   EXPECT_GT(moved, 0.049);
   EXPECT_LT(moved, 0.05001);
@@ -311,9 +331,10 @@ TEST(Body, KeepsToTheLimit) {
 
 TEST(Body, IsReportedAndWritten) {
   Session session = fresh();
-  run(session, {R"({"do":"new","shape":"curve","form":"circle","radius":3,"unit":"inch","name":"ring"})",
-                R"({"do":"force","at":[0.5],"to":[-5,0,0]})", R"({"do":"step","count":2})",
-                R"({"do":"new","shape":"volume","net":4,"name":"block"})"});
+  run(session,
+      {R"({"do":"new","shape":"curve","form":"circle","radius":3,"unit":"inch","name":"ring"})",
+       R"({"do":"force","at":[0.5],"to":[-5,0,0]})", R"({"do":"step","count":2})",
+       R"({"do":"new","shape":"volume","net":4,"name":"block"})"});
   const auto info = nlohmann::json::parse(session_json(session));
   ASSERT_EQ(info["bodies"].size(), 2U);
   EXPECT_EQ(info["bodies"][0]["kind"], "curve");

@@ -1,4 +1,5 @@
-// Surfaces that are bounded by curves alone are sculpted as faces are: edges hold, follow, and stay closed.
+// Surfaces that are bounded by curves alone are sculpted as faces are: edges hold, follow, and stay
+// closed.
 
 #include <gtest/gtest.h>
 
@@ -18,8 +19,8 @@ using testing::BoundedSheets;
 using testing::MadeSheets;
 using testing::run;
 
-/// The largest distance of each edge from the surfaces of its faces. Edges without a name in the file have other ids in
-/// another file.
+/// The largest distance of each edge from the surfaces of its faces. Edges without a name in the
+/// file have other ids in another file.
 std::vector<double> gaps_of(const brep::Model& model) {
   std::vector<double> result;
   for (const brep::Edge& edge : model.edges) {
@@ -47,16 +48,18 @@ class PressedBoundedSurfaces : public ::testing::TestWithParam<MadeSheets> {
     return result;
   }
   /// Presses a ball into a place of the roof, times the scale, by `depth`; returns what is saved.
-  [[nodiscard]] std::string pressed(const std::string& before, double x, double y, double depth, double radius = 0.4) {
+  [[nodiscard]] std::string pressed(const std::string& before, double x, double y, double depth,
+                                    double radius = 0.4) {
     Session session(Document::from(source_));
     const double s = sheets_.scale;
     const auto done =
-        run(session, R"({"do":"select","surfaces":[")" + sheets_.surfaces[0] + R"(",")" + sheets_.surfaces[1] +
-                         R"("]},)" + before +
-                         fmt::format(R"({{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]}},
+        run(session,
+            R"({"do":"select","surfaces":[")" + sheets_.surfaces[0] + R"(",")" +
+                sheets_.surfaces[1] + R"("]},)" + before +
+                fmt::format(R"({{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]}},
         {{"do":"tool","name":"ball","radius":{},"rigid":true,"position":[{},{},{}]}},
         {{"do":"evolve","mode":"static"}})",
-                                     s * radius, s * x, s * y, s * (testing::roof(x, y) + radius - depth)));
+                            s * radius, s * x, s * y, s * (testing::roof(x, y) + radius - depth)));
     EXPECT_TRUE(done) << done.error().message();
     moved_ = std::max(session.largest_displacement(0), session.largest_displacement(1));
     const auto bytes = session.save();
@@ -69,7 +72,8 @@ class PressedBoundedSurfaces : public ::testing::TestWithParam<MadeSheets> {
     ASSERT_TRUE(after) << after.error().message();
     const auto was = gaps_of(*source_->model()), now = gaps_of(*(*after)->model());
     ASSERT_EQ(now.size(), was.size());
-    for (std::size_t k = 0; k < now.size(); ++k) EXPECT_LE(now[k], was[k] + 1e-6 * size()) << "edge " << k;
+    for (std::size_t k = 0; k < now.size(); ++k)
+      EXPECT_LE(now[k], was[k] + 1e-6 * size()) << "edge " << k;
   }
 
   BoundedSheets sheets_;
@@ -84,8 +88,9 @@ TEST_P(PressedBoundedSurfaces, KeepTheirEdges) {
 }
 
 TEST_P(PressedBoundedSurfaces, StayClosedWhereTheirEdgeFollows) {
-  const std::string bytes =
-      pressed(R"({"do":"edge","which":")" + shared_edges(*source_->model()).at(0) + R"(","hold":"free"},)", 2, 1, 0.1);
+  const std::string bytes = pressed(
+      R"({"do":"edge","which":")" + shared_edges(*source_->model()).at(0) + R"(","hold":"free"},)",
+      2, 1, 0.1);
   EXPECT_GT(moved_, 0.08 * sheets_.scale);
   expect_closed(bytes);
   double lowest = std::numeric_limits<double>::infinity();
@@ -94,7 +99,8 @@ TEST_P(PressedBoundedSurfaces, StayClosedWhereTheirEdgeFollows) {
     const auto edge = SharedEdge::create(*after->model(), id);
     ASSERT_TRUE(edge);
     for (const auto& sample : edge->samples()) {
-      if (std::abs(sample.point.y() - sheets_.scale) < 0.1 * sheets_.scale) lowest = std::min(lowest, sample.point.z());
+      if (std::abs(sample.point.y() - sheets_.scale) < 0.1 * sheets_.scale)
+        lowest = std::min(lowest, sample.point.z());
     }
   }
   EXPECT_NEAR(lowest, sheets_.scale * (testing::roof(2, 1) - 0.1), 0.01 * sheets_.scale);
@@ -102,8 +108,10 @@ TEST_P(PressedBoundedSurfaces, StayClosedWhereTheirEdgeFollows) {
 
 TEST_P(PressedBoundedSurfaces, LeadTheirOwnEdgesAlong) {
   const brep::Model& model = *source_->model();
-  const std::string own = model.edges[brep::edges_around(model.faces[0]).front()].id;  // along y = 0
-  const std::string bytes = pressed(R"({"do":"edge","which":")" + own + R"(","hold":"free"},)", 1, 0.1, 0.1);
+  // Along y = 0.
+  const std::string own = model.edges[brep::edges_around(model.faces[0]).front()].id;
+  const std::string bytes =
+      pressed(R"({"do":"edge","which":")" + own + R"(","hold":"free"},)", 1, 0.1, 0.1);
   EXPECT_GT(moved_, 0.05 * sheets_.scale);
   expect_closed(bytes);
 }

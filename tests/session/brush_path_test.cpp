@@ -14,8 +14,10 @@ Surface tube(std::size_t closed) {
     for (int end = 0; end < 2; ++end)
       points.row(closed == 0 ? 2 * k + end : 5 * end + k) << corners[k][0], corners[k][1], 4 * end;
   }
-  const KnotVector around = *KnotVector::clamped_uniform(1, 5, 0, 3), along = *KnotVector::clamped_uniform(1, 2, 0, 1);
-  return *Surface::create(closed == 0 ? std::array{around, along} : std::array{along, around}, points);
+  const KnotVector around = *KnotVector::clamped_uniform(1, 5, 0, 3),
+                   along = *KnotVector::clamped_uniform(1, 2, 0, 1);
+  return *Surface::create(closed == 0 ? std::array{around, along} : std::array{along, around},
+                          points);
 }
 
 TEST(BrushPath, TakesTheShorterWayAroundInEitherDirection) {
@@ -31,7 +33,8 @@ TEST(BrushPath, TakesTheShorterWayAroundInEitherDirection) {
       from.at[1 - d] = to.at[1 - d] = 0.5;
       const auto places = path.places(from, to, from);
       ASSERT_TRUE(places) << places.error().message();
-      EXPECT_EQ(places->size(), 15U) << "0.2 of a circumference of 8, a place every 0.11; direction " << d;
+      EXPECT_EQ(places->size(), 15U)
+          << "0.2 of a circumference of 8, a place every 0.11; direction " << d;
       for (const BrushPoint& p : *places) {
         EXPECT_LE(std::min(p.at[d], 1 - p.at[d]), 0.1 + 1e-12) << p.at[d];
         EXPECT_EQ(p.at[1 - d], 0.5);

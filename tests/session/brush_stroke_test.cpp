@@ -1,4 +1,5 @@
-// What strokes of all brushes have in common: events, copies, what is held, masks, snapshots, errors.
+// What strokes of all brushes have in common: events, copies, what is held, masks, snapshots,
+// errors.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -13,7 +14,9 @@ namespace {
 TEST(BrushStroke, StatesOfAnOpenStrokeShareItsPath) {
   Session session = flat(12);
   const auto step = [](int k) {
-    return fmt::format(R"({{"do":"brush","kind":"pull","radius":20,"path":[[{},0.5]],"open":true}})", 0.2 + 0.001 * k);
+    return fmt::format(
+        R"({{"do":"brush","kind":"pull","radius":20,"path":[[{},0.5]],"open":true}})",
+        0.2 + 0.001 * k);
   };
   for (int k = 0; k < 300; ++k) run(session, {step(k)});
   const BrushPoint* first = &session.state().brush->path.front();
@@ -25,11 +28,13 @@ TEST(BrushStroke, StatesOfAnOpenStrokeShareItsPath) {
 
 TEST(BrushStroke, IsTheSameForManyEventsAndForFew) {
   const Point from(60, 97, 0), to(130, 110, 0);
-  const int events = long_run() ? 480 : 120;  // pieces of 0.15 or 0.6: both are short beside the radius of 20
+  // Pieces of 0.15 or 0.6: both are short beside the radius of 20.
+  const int events = long_run() ? 480 : 120;
   for (const char* fields :
        {R"("kind":"push","radius":20,"height":5)", R"("kind":"inflate","radius":20,"height":5)",
-        R"("kind":"flatten","radius":20)", R"("kind":"smooth","radius":20)", R"("kind":"pinch","radius":20)",
-        R"("kind":"crease","radius":20,"height":5)", R"("kind":"push","radius":20,"height":5,"steady":0.5)"}) {
+        R"("kind":"flatten","radius":20)", R"("kind":"smooth","radius":20)",
+        R"("kind":"pinch","radius":20)", R"("kind":"crease","radius":20,"height":5)",
+        R"("kind":"push","radius":20,"height":5,"steady":0.5)"}) {
     const std::string bump = dab(R"("kind":"pull","radius":50,"height":9)", {95, 100, 0});
     Session few = flat(40, {bump}), many = flat(40, {bump});
     const Surface before = shape(few);
@@ -52,7 +57,8 @@ TEST(BrushStroke, IsTheSameForManyEventsAndForFew) {
     EXPECT_TRUE(same_bits(shape(many), before)) << fields;
     Session again = fresh();
     for (const Command& command : journal) ASSERT_TRUE(again.execute(command));
-    EXPECT_TRUE(same_bits(shape(again), left)) << "the joined stroke is the one that was done; " << fields;
+    EXPECT_TRUE(same_bits(shape(again), left))
+        << "the joined stroke is the one that was done; " << fields;
   }
 }
 
@@ -60,15 +66,17 @@ TEST(BrushStroke, PassingTwiceAddsNothingToADepth) {
   const Point from(60, 97, 0), to(130, 97, 0);
   Session once = flat(40), twice = flat(40);
   run(once, {brush(R"("kind":"push","radius":20,"height":5)", from, to)});
-  run(twice, {fmt::format(R"({{"do":"brush","kind":"push","radius":20,"height":5,"path":[{0},{1},{0}]}})", place(from),
-                          place(to))});
+  run(twice,
+      {fmt::format(R"({{"do":"brush","kind":"push","radius":20,"height":5,"path":[{0},{1},{0}]}})",
+                   place(from), place(to))});
   EXPECT_LT(difference(shape(once), shape(twice)), 1e-9);
 }
 
 TEST(BrushStroke, AHandDragsTheGrabbedPointOn) {
   Session session = flat(40);
   const auto by = [&](int z, const char* path, const char* open) {
-    return fmt::format(R"({{"do":"brush","kind":"grab","radius":30,"by":[0,0,{}],"path":{}{}}})", z, path, open);
+    return fmt::format(R"({{"do":"brush","kind":"grab","radius":30,"by":[0,0,{}],"path":{}{}}})", z,
+                       path, open);
   };
   run(session, {by(0, "[[0.5,0.5]]", R"(,"open":true)")});
   for (int z = 1; z < 6; ++z) {
@@ -82,11 +90,12 @@ TEST(BrushStroke, AHandDragsTheGrabbedPointOn) {
 }
 
 TEST(BrushStroke, IsRepeatedInAMirrorAndAroundAnAxis) {
-  for (const char* kind :
-       {R"("kind":"push","height":4)", R"("kind":"grab","by":[3,2,8])", R"("kind":"twist","angle":40)"}) {
+  for (const char* kind : {R"("kind":"push","height":4)", R"("kind":"grab","by":[3,2,8])",
+                           R"("kind":"twist","angle":40)"}) {
     Session session = flat(43);
     // Near the plane x = 100, so that both overlap.
-    run(session, {dab(fmt::format(R"({},"radius":25,"mirror":[[100,0,0],[2,0,0]])", kind), {88, 91, 0})});
+    run(session,
+        {dab(fmt::format(R"({},"radius":25,"mirror":[[100,0,0],[2,0,0]])", kind), {88, 91, 0})});
     double most = 0;
     for (int i = 0; i <= 40; ++i) {
       for (int j = 0; j <= 40; ++j) {
@@ -99,8 +108,11 @@ TEST(BrushStroke, IsRepeatedInAMirrorAndAroundAnAxis) {
     EXPECT_GT(most, 1);
   }
   Session session = flat(43);
-  run(session, {dab(R"("kind":"pull","height":4,"radius":20,"radial":4,"axis":[[100,100,0],[0,0,1]])", {140, 100, 0})});
-  for (const Point& p : {Point(140, 100, 4), Point(100, 140, 4), Point(60, 100, 4), Point(100, 60, 4)}) {
+  run(session,
+      {dab(R"("kind":"pull","height":4,"radius":20,"radial":4,"axis":[[100,100,0],[0,0,1]])",
+           {140, 100, 0})});
+  for (const Point& p :
+       {Point(140, 100, 4), Point(100, 140, 4), Point(60, 100, 4), Point(100, 60, 4)}) {
     EXPECT_NEAR(on(shape(session), p.x(), p.y()).z(), 4, 0.02 * 4);
   }
   EXPECT_NEAR(on(shape(session), 100, 100).z(), 0, 1e-12);
@@ -110,11 +122,14 @@ TEST(BrushStroke, IsRepeatedInAMirrorAndAroundAnAxis) {
 TEST(BrushStroke, IsRepeatedInAMirrorWhereItEndsAtASample) {
   for (const char* kind : {"push", "crease"}) {
     Session session = flat(43);
-    run(session, {brush(fmt::format(R"("kind":"{}","height":4,"radius":20,"mirror":[[100,0,0],[1,0,0]])", kind),
-                        {60, 70, 0}, {70, 130, 0})});
+    run(session,
+        {brush(
+            fmt::format(R"("kind":"{}","height":4,"radius":20,"mirror":[[100,0,0],[1,0,0]])", kind),
+            {60, 70, 0}, {70, 130, 0})});
     for (int i = 0; i <= 40; ++i) {
       for (int j = 0; j <= 40; ++j) {
-        const Point p = on(shape(session), 2.5 * i, 5 * j), q = on(shape(session), 200 - 2.5 * i, 5 * j);
+        const Point p = on(shape(session), 2.5 * i, 5 * j),
+                    q = on(shape(session), 200 - 2.5 * i, 5 * j);
         EXPECT_LT((Point(200 - p.x(), p.y(), p.z()) - q).norm(), 1e-9 * side) << kind;
       }
     }
@@ -136,7 +151,8 @@ TEST(BrushStroke, WhatIsHeldKeepsItsBitsAndTheShapeComesToItSmoothly) {
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < n; ++j) {
       if (std::min({i, j, m - 1 - i, n - 1 - j}) < 3) {
-        EXPECT_EQ(shape(session).control_points().row(i * n + j), before.control_points().row(i * n + j));
+        EXPECT_EQ(shape(session).control_points().row(i * n + j),
+                  before.control_points().row(i * n + j));
       }
     }
   }
@@ -144,7 +160,8 @@ TEST(BrushStroke, WhatIsHeldKeepsItsBitsAndTheShapeComesToItSmoothly) {
   EXPECT_GT(on(shape(session), 100, 60).z(), 4);
   double steepest = 0;  // from the edge on
   for (int y = 0; y < 60; ++y) {
-    steepest = std::max(steepest, on(shape(session), 100, y + 1).z() - on(shape(session), 100, y).z());
+    steepest =
+        std::max(steepest, on(shape(session), 100, y + 1).z() - on(shape(session), 100, y).z());
   }
   EXPECT_LT(steepest, 1.2) << "no cliff beside what is held: 6 within a span would be 2";
 }
@@ -156,7 +173,8 @@ TEST(BrushStroke, AMaskKeepsWhatItCovers) {
   ASSERT_EQ(mask.size(), 64U * 64U);
   EXPECT_TRUE(same_bits(shape(session), *first(session).opened));
   EXPECT_GT(std::ranges::count(mask, 1.), 20);
-  EXPECT_GT(std::ranges::count_if(mask, [](double m) { return m > 0 && m < 1; }), 20) << "it falls off";
+  EXPECT_GT(std::ranges::count_if(mask, [](double m) { return m > 0 && m < 1; }), 20)
+      << "it falls off";
   const auto keeps = [&](const Surface& before, const Surface& after) {
     for (Eigen::Index i = 0; i < before.size(); ++i) {
       if (mask[static_cast<std::size_t>(i)] < 1) continue;
@@ -164,17 +182,18 @@ TEST(BrushStroke, AMaskKeepsWhatItCovers) {
     }
   };
   const Surface before = shape(session);
-  for (const char* kind :
-       {R"("kind":"pull","height":5)", R"("kind":"grab","by":[1,2,8])", R"("kind":"twist","angle":20)"}) {
+  for (const char* kind : {R"("kind":"pull","height":5)", R"("kind":"grab","by":[1,2,8])",
+                           R"("kind":"twist","angle":20)"}) {
     run(session, {dab(fmt::format(R"({},"radius":50)", kind), {112, 100, 0})});
     keeps(before, shape(session));
     EXPECT_GT(difference(before, shape(session)), 1) << "beside it things move";
     run(session, {R"({"do":"undo"})"});
   }
   // Half a mask is half of the displacement, and steps of tools are held by a whole one.
-  run(session, {R"({"do":"material","preset":"clay"})",
-                R"({"do":"tool","shape":"sphere","radius":20,"position":[100,100,60],"plasticity":1})",
-                R"({"do":"stroke","path":[[60,100,14],[140,100,14]]})"});
+  run(session,
+      {R"({"do":"material","preset":"clay"})",
+       R"({"do":"tool","shape":"sphere","radius":20,"position":[100,100,60],"plasticity":1})",
+       R"({"do":"stroke","path":[[60,100,14],[140,100,14]]})"});
   keeps(before, shape(session));
   EXPECT_LT(on(shape(session), 60, 100).z(), -4);
   EXPECT_GT(on(shape(session), 100, 100).z(), -0.1);
@@ -206,18 +225,21 @@ TEST(BrushStroke, AMaskIsChangedAsAWholeAndFollowsTheNet) {
   run(session, {R"({"do":"release","what":["mask"]})"});
   EXPECT_TRUE(first(session).mask.empty());
   run(session, {R"({"do":"mask","change":"fill"})"});
-  EXPECT_NE(refusal(session, dab(R"("kind":"pull","radius":30)", {100, 100, 0})).what.find("nothing is free"),
+  EXPECT_NE(refusal(session, dab(R"("kind":"pull","radius":30)", {100, 100, 0}))
+                .what.find("nothing is free"),
             std::string::npos);
-  run(session,
-      {dab(R"("kind":"unmask","radius":30)", {100, 100, 0}), dab(R"("kind":"pull","radius":20)", {100, 100, 0})});
+  run(session, {dab(R"("kind":"unmask","radius":30)", {100, 100, 0}),
+                dab(R"("kind":"pull","radius":20)", {100, 100, 0})});
   EXPECT_GT(on(shape(session), 100, 100).z(), 4);
 }
 
 TEST(BrushStroke, SnapshotsHoldMasksAndOpenBrushes) {
   Session session = flat(40, {dab(R"("kind":"mask","radius":30)", {100, 100, 0})});
   const std::string open =
-      R"({"do":"brush","kind":"push","radius":20,"mirror":[[100,0,0],[1,0,0]],"path":[[0.3,0.3],[0.35,0.4]],"open":true})";
-  const std::string on = R"({"do":"brush","kind":"push","radius":20,"mirror":[[100,0,0],[1,0,0]],"path":[[0.4,0.45]]})";
+      R"({"do":"brush","kind":"push","radius":20,"mirror":[[100,0,0],[1,0,0]],)"
+      R"("path":[[0.3,0.3],[0.35,0.4]],"open":true})";
+  const std::string on = R"({"do":"brush","kind":"push","radius":20,"mirror":[[100,0,0],[1,0,0]],)"
+                         R"("path":[[0.4,0.45]]})";
   run(session, {open});
   auto back = Session::restore(session.document(), session.snapshot());
   ASSERT_TRUE(back) << back.error().message();
@@ -231,13 +253,15 @@ TEST(BrushStroke, SnapshotsHoldMasksAndOpenBrushes) {
 }
 
 TEST(BrushStroke, ATrimmedFaceStaysWithinItsEdges) {
-  const std::string middle = "[0.45,0.5]", beside = "[0.15,0.5],[0.15,0.8]";  // in the middle, and over the edges
-  for (const auto& [fields, path] : {std::pair{R"("kind":"inflate","height":20)", middle + ",[0.55,0.52]"},
-                                     {R"("kind":"grab","by":[0,0,30])", middle},
-                                     {R"("kind":"smooth")", middle},
-                                     {R"("kind":"flatten")", middle},
-                                     {R"("kind":"inflate","height":20)", beside},
-                                     {R"("kind":"crease","height":20)", beside}}) {
+  const std::string middle = "[0.45,0.5]",
+                    beside = "[0.15,0.5],[0.15,0.8]";  // in the middle, and over the edges
+  for (const auto& [fields, path] :
+       {std::pair{R"("kind":"inflate","height":20)", middle + ",[0.55,0.52]"},
+        {R"("kind":"grab","by":[0,0,30])", middle},
+        {R"("kind":"smooth")", middle},
+        {R"("kind":"flatten")", middle},
+        {R"("kind":"inflate","height":20)", beside},
+        {R"("kind":"crease","height":20)", beside}}) {
     Session session = open_sample();
     run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"trim"})",
                   fmt::format(R"({{"do":"brush",{},"radius":200,"path":[{}]}})", fields, path)});
@@ -258,21 +282,26 @@ TEST(BrushStroke, SaysWhatIsWrong) {
   EXPECT_EQ(wrong(R"({"do":"brush","kind":"grab","path":[[0.5,0.5],[0.6,0.6]]})"), "path");
   EXPECT_EQ(wrong(R"({"do":"brush","kind":"push","radius":-1,"path":[[0.5,0.5]]})"), "radius");
   EXPECT_EQ(wrong(R"({"do":"brush","kind":"push","radius":0.5,"path":[[0.51,0.51]]})"), "radius");
-  EXPECT_EQ(wrong(R"({"do":"brush","kind":"flatten","strength":1.5,"path":[[0.5,0.5]]})"), "strength");
+  EXPECT_EQ(wrong(R"({"do":"brush","kind":"flatten","strength":1.5,"path":[[0.5,0.5]]})"),
+            "strength");
   EXPECT_EQ(wrong(R"({"do":"brush","kind":"push","radial":3,"path":[[0.5,0.5]]})"), "axis");
-  EXPECT_EQ(wrong(R"({"do":"brush","kind":"push","mirror":[[0,0,0],[0,0,0]],"path":[[0.5,0.5]]})"), "mirror");
+  EXPECT_EQ(wrong(R"({"do":"brush","kind":"push","mirror":[[0,0,0],[0,0,0]],"path":[[0.5,0.5]]})"),
+            "mirror");
   EXPECT_EQ(wrong(R"({"do":"mask","change":"grow","radius":0})"), "radius");
   run(session, {R"({"do":"hold","rows":12})"});
-  EXPECT_NE(refusal(session, R"({"do":"brush","kind":"push","path":[[0.5,0.5]]})").what.find("nothing is free"),
+  EXPECT_NE(refusal(session, R"({"do":"brush","kind":"push","path":[[0.5,0.5]]})")
+                .what.find("nothing is free"),
             std::string::npos);
 }
 
 TEST(BrushStroke, ATremblingHandIsSteadiedByARope) {
   const auto trembling = [](const char* steady) {
     std::string path;
-    for (int k = 0; k <= 100; ++k) path += (k == 0 ? "" : ",") + place({50. + k, 100 + (k % 2 == 0 ? 3. : -3.), 0});
+    for (int k = 0; k <= 100; ++k)
+      path += (k == 0 ? "" : ",") + place({50. + k, 100 + (k % 2 == 0 ? 3. : -3.), 0});
     Session session = flat(64);
-    run(session, {R"({"do":"brush","kind":"push","radius":12,"height":4,"path":[)" + path + "]" + steady + "}"});
+    run(session, {R"({"do":"brush","kind":"push","radius":12,"height":4,"path":[)" + path + "]" +
+                  steady + "}"});
     double width = 0;
     for (double y = 80; y <= 120; y += 0.25) width += on(shape(session), 95, y).z() < -2 ? 0.25 : 0;
     return width;

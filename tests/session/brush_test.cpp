@@ -29,12 +29,15 @@ TEST(Brush, PushAndPullAreAsDeepAsSaidAlongTheirWholePath) {
 TEST(Brush, InflatesAlongNormals) {
   for (const double height : {3., -3.}) {
     Session session = fresh();
-    run(session, {R"({"do":"new","shape":"sphere","radius":100})", R"({"do":"refine","region":[[0,1],[0,1]]})",
-                  R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"refine","region":[[0,1],[0,1]]})",
-                  R"({"do":"refine","region":[[0,1],[0,1]]})"});
+    run(session,
+        {R"({"do":"new","shape":"sphere","radius":100})",
+         R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"refine","region":[[0,1],[0,1]]})",
+         R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"refine","region":[[0,1],[0,1]]})"});
     const Surface before = shape(session);
     run(session,
-        {fmt::format(R"({{"do":"brush","kind":"inflate","radius":60,"height":{},"path":[[0.3,0.5]]}})", height)});
+        {fmt::format(
+            R"({{"do":"brush","kind":"inflate","radius":60,"height":{},"path":[[0.3,0.5]]}})",
+            height)});
     const Point centre = at(before, 0.3, 0.5);
     double largest = 0;
     for (int i = -6; i <= 6; ++i) {
@@ -53,8 +56,9 @@ TEST(Brush, InflatesAlongNormals) {
 
 TEST(Brush, FlattensToAPlane) {
   const Point middle(100, 100, 0);
-  const std::vector<std::string> bumps = {dab(R"("kind":"pull","radius":45,"height":8)", {90, 104, 0}),
-                                          dab(R"("kind":"push","radius":15,"height":2)", {104, 98, 0})};
+  const std::vector<std::string> bumps = {
+      dab(R"("kind":"pull","radius":45,"height":8)", {90, 104, 0}),
+      dab(R"("kind":"push","radius":15,"height":2)", {104, 98, 0})};
   Session session = flat(64, bumps);
   const auto rms = [&] {  // of the distances from the plane that fits best
     std::vector<Point> points;
@@ -82,8 +86,9 @@ TEST(Brush, FlattensToAPlane) {
 TEST(Brush, SmoothsWithoutMovingEdges) {
   std::vector<std::string> bumps;
   for (int k = 0; k < 12; ++k) {
-    bumps.push_back(dab(fmt::format(R"("kind":"{}","radius":14,"height":1.5)", k % 2 == 0 ? "pull" : "push"),
-                        {30 + 12. * k, 90 + 9. * (k % 3), 0}));
+    bumps.push_back(
+        dab(fmt::format(R"("kind":"{}","radius":14,"height":1.5)", k % 2 == 0 ? "pull" : "push"),
+            {30 + 12. * k, 90 + 9. * (k % 3), 0}));
   }
   Session session = flat(64, bumps);
   const Surface before = shape(session);
@@ -94,7 +99,8 @@ TEST(Brush, SmoothsWithoutMovingEdges) {
         Parameters<2> here(1, 2);
         here << s.knots(0).domain().upper * i / 100, s.knots(1).domain().upper * j / 100;
         const auto jet = *evaluate<2>(s, here, 2);
-        sum += jet.at({2, 0}).squaredNorm() + 2 * jet.at({1, 1}).squaredNorm() + jet.at({0, 2}).squaredNorm();
+        sum += jet.at({2, 0}).squaredNorm() + 2 * jet.at({1, 1}).squaredNorm() +
+               jet.at({0, 2}).squaredNorm();
       }
     }
     return sum;
@@ -107,7 +113,8 @@ TEST(Brush, SmoothsWithoutMovingEdges) {
   const auto [m, n] = before.net();
   for (int i = 0; i < m; ++i) {
     for (int k : {i * n, i * n + n - 1, i, (m - 1) * n + i}) {
-      EXPECT_EQ(shape(session).control_points().row(k), before.control_points().row(k)) << "an edge is held";
+      EXPECT_EQ(shape(session).control_points().row(k), before.control_points().row(k))
+          << "an edge is held";
     }
   }
 }
@@ -121,10 +128,12 @@ TEST(Brush, GrabTakesAPointAlong) {
     const double span = side / (net - 3);
     for (int k = 0; k < 36; ++k) {
       const Point way = (30 + 2.83 * span) * Point(std::cos(k), std::sin(k), 0);
-      EXPECT_LT((on(shape(session), x + way.x(), 103 + way.y()) - Point(x, 103, 0) - way).norm(), 1e-12 * side);
+      EXPECT_LT((on(shape(session), x + way.x(), 103 + way.y()) - Point(x, 103, 0) - way).norm(),
+                1e-12 * side);
     }
     // Control points beyond the radius keep their bits.
-    const Points &now = shape(session).control_points(), &was = first(session).opened->control_points();
+    const Points &now = shape(session).control_points(),
+                 &was = first(session).opened->control_points();
     for (Eigen::Index i = 0; i < now.rows(); ++i) {
       const int m = net;
       const Point g(side * shape(session).knots(0).greville(static_cast<int>(i) / m),
@@ -148,7 +157,8 @@ TEST(Brush, PinchesTowardsThePath) {
       EXPECT_LT(std::abs(p.z()), 1e-9) << "within the surface";
     }
   }
-  EXPECT_NEAR(on(shape(session), 100, 102).y() - 97, 5 * (1 - 0.6 * brush_falloff(5, 20, 0)), 0.02 * 5);
+  EXPECT_NEAR(on(shape(session), 100, 102).y() - 97, 5 * (1 - 0.6 * brush_falloff(5, 20, 0)),
+              0.02 * 5);
 }
 
 // κ of the crest: the kink of slope 4 h / R is as sharp as spans of this length show it.
@@ -159,8 +169,8 @@ TEST(Brush, CreasesAreAsSharpAsTheNetAllows) {
       Session session = flat(net);
       run(session, {brush(fmt::format(R"("kind":"{}","radius":24,"height":6)", kind), from, to)});
       const double span = side / (net - 3);
-      const auto bent = *curvature(
-          shape(session), {shape(session).knots(0).domain().upper / 2, shape(session).knots(1).domain().upper / 2});
+      const auto bent = *curvature(shape(session), {shape(session).knots(0).domain().upper / 2,
+                                                    shape(session).knots(1).domain().upper / 2});
       const double radius = 1 / std::max(std::abs(bent.principal[0]), std::abs(bent.principal[1]));
       EXPECT_LT(radius, 1.5 * span) << kind << " with spans of " << span;
       EXPECT_NEAR(on(shape(session), 100, 100).z(), sign * 6, 0.15 * 6);
@@ -186,12 +196,15 @@ TEST(Brush, TwistsAndScalesAboutAPoint) {
     const Point off = 4 * Point(std::cos(k), std::sin(k), 0);
     const Point turned(std::cos(angle) * off.x() - std::sin(angle) * off.y(),
                        std::sin(angle) * off.x() + std::cos(angle) * off.y(), 0);
-    EXPECT_LT((on(shape(session), 100 + off.x(), 100 + off.y()) - middle - turned).norm(), 1e-3 * 4);
+    EXPECT_LT((on(shape(session), 100 + off.x(), 100 + off.y()) - middle - turned).norm(),
+              1e-3 * 4);
   }
-  run(session, {R"({"do":"undo"})", dab(R"("kind":"scale","radius":40,"factor":1.5,"core":0.25)", middle)});
+  run(session,
+      {R"({"do":"undo"})", dab(R"("kind":"scale","radius":40,"factor":1.5,"core":0.25)", middle)});
   for (int k = 0; k < 12; ++k) {
     const Point off = 4 * Point(std::cos(k), std::sin(k), 0);
-    EXPECT_LT((on(shape(session), 100 + off.x(), 100 + off.y()) - middle - 1.5 * off).norm(), 1e-3 * 4);
+    EXPECT_LT((on(shape(session), 100 + off.x(), 100 + off.y()) - middle - 1.5 * off).norm(),
+              1e-3 * 4);
   }
 }
 

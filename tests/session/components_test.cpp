@@ -13,8 +13,8 @@ using testing::refusal;
 using testing::run;
 using testing::same_state;
 
-// Constraints on single coordinates, on sheets of size 10 by 10 with nets of 10 by 10. Edge v0 has the control points
-// 10 i.
+// Constraints on single coordinates, on sheets of size 10 by 10 with nets of 10 by 10. Edge v0 has
+// the control points 10 i.
 
 constexpr const char* pull_load = R"({"do":"load","vector":[1,2,3]})";
 
@@ -42,7 +42,8 @@ TEST(Components, OfAnEdgeKeepTheirBitsAndTheOthersMove) {
 }
 
 TEST(Components, OfAClampedEdgeHoldItsSlopeToo) {
-  const Session session = dragged_sheet({R"({"do":"edge","which":"v0","hold":"clamped","components":"zy"})"});
+  const Session session =
+      dragged_sheet({R"({"do":"edge","which":"v0","hold":"clamped","components":"zy"})"});
   for (int i = 0; i < 10; ++i) {
     EXPECT_EQ(kept_components(session, 10 * i), (Components{false, true, true})) << i;
     EXPECT_EQ(kept_components(session, 10 * i + 1), (Components{false, true, true})) << i;
@@ -51,12 +52,16 @@ TEST(Components, OfAClampedEdgeHoldItsSlopeToo) {
 }
 
 TEST(Components, OfOneLoadMoveAsInTheModelWithoutTheOthers) {
-  // Coordinates of the linear model are independent: x and z move as with the whole edge held, y as with a free one.
-  const Session some =
-      dragged_sheet({R"({"do":"edge","which":"u0"})", R"({"do":"edge","which":"v0","components":"xz"})"});
-  const Session all = dragged_sheet({R"({"do":"edge","which":"u0"})", R"({"do":"edge","which":"v0"})"});
+  // Coordinates of the linear model are independent: x and z move as with the whole edge held, y as
+  // with a free one.
+  const Session some = dragged_sheet(
+      {R"({"do":"edge","which":"u0"})", R"({"do":"edge","which":"v0","components":"xz"})"});
+  const Session all =
+      dragged_sheet({R"({"do":"edge","which":"u0"})", R"({"do":"edge","which":"v0"})"});
   const Session none = dragged_sheet({R"({"do":"edge","which":"u0"})"});
-  const auto column = [](const Session& s, int c) { return first(s).current->control_points().col(c).eval(); };
+  const auto column = [](const Session& s, int c) {
+    return first(s).current->control_points().col(c).eval();
+  };
   // 1e-12 of lengths up to 10: the condition of the factored matrix with lambda 1 is below 1e4.
   EXPECT_LT((column(some, 0) - column(all, 0)).cwiseAbs().maxCoeff(), 1e-11);
   EXPECT_LT((column(some, 1) - column(none, 1)).cwiseAbs().maxCoeff(), 1e-11);
@@ -66,15 +71,17 @@ TEST(Components, OfOneLoadMoveAsInTheModelWithoutTheOthers) {
 
 TEST(Components, OfAPinHoldThePointInThemAlone) {
   const Session session = dragged_sheet({R"({"do":"pin","at":[0.4,0.3],"components":"z"})"});
-  const Point now = at(*first(session).current, 0.4, 0.3), then = at(*first(session).opened, 0.4, 0.3);
+  const Point now = at(*first(session).current, 0.4, 0.3),
+              then = at(*first(session).opened, 0.4, 0.3);
   EXPECT_NEAR(now[2], then[2], 1e-13);
   EXPECT_GT(now[0] - then[0], 1e-3);
   EXPECT_GT(now[1] - then[1], 1e-3);
 }
 
 TEST(Components, OfAPinThatMovesGoThereAlone) {
-  const Session session = dragged_sheet(
-      {R"({"do":"edge","which":"u0"})", R"({"do":"pin","at":[0.6,0.3],"to":[99,99,0.5],"components":"z"})"});
+  const Session session =
+      dragged_sheet({R"({"do":"edge","which":"u0"})",
+                     R"({"do":"pin","at":[0.6,0.3],"to":[99,99,0.5],"components":"z"})"});
   const Point now = at(*first(session).current, 0.6, 0.3);
   EXPECT_NEAR(now[2], 0.5, 1e-12);
   EXPECT_LT(now[0], 20);
@@ -82,9 +89,10 @@ TEST(Components, OfAPinThatMovesGoThereAlone) {
 
 TEST(Components, OfAnEdgeAreHeldAndFreedOneByOne) {
   Session session = fresh();
-  run(session,
-      {new_sheet, R"({"do":"edge","which":"v0"})", R"({"do":"edge","which":"v0","hold":"free","components":"x"})",
-       R"({"do":"edge","which":"v0","hold":"clamped","components":"z"})", pull_load, R"({"do":"step"})"});
+  run(session, {new_sheet, R"({"do":"edge","which":"v0"})",
+                R"({"do":"edge","which":"v0","hold":"free","components":"x"})",
+                R"({"do":"edge","which":"v0","hold":"clamped","components":"z"})", pull_load,
+                R"({"do":"step"})"});
   EXPECT_EQ(kept_components(session, 30), (Components{false, true, true}));
   EXPECT_EQ(kept_components(session, 31), (Components{false, false, true}));
   run(session, {R"({"do":"edge","which":"v0","hold":"free"})"});
@@ -95,7 +103,8 @@ TEST(Components, WhatNothingHoldsHasNoEquilibrium) {
   Session session = fresh();
   run(session, {new_sheet, R"({"do":"edge","which":"u0","components":"xz"})"});
   const std::string to_equilibrium = R"({"do":"evolve","mode":"static"})";
-  EXPECT_NE(refusal(session, to_equilibrium).message().find("nothing holds the model in place"), std::string::npos);
+  EXPECT_NE(refusal(session, to_equilibrium).message().find("nothing holds the model in place"),
+            std::string::npos);
   run(session, {R"({"do":"edge","which":"v0","components":"y"})", to_equilibrium});
 }
 
@@ -118,11 +127,13 @@ TEST(Components, NamesWhatIsWrong) {
   Session session = fresh();
   run(session, {new_sheet});
   for (const char* text : {"", "w", "xx", "xyzx", "x z"}) {
-    const Error error = refusal(session, std::string(R"({"do":"edge","which":"v0","components":")") + text + R"("})");
+    const Error error = refusal(
+        session, std::string(R"({"do":"edge","which":"v0","components":")") + text + R"("})");
     EXPECT_EQ(error.where, "components") << text;
   }
   EXPECT_EQ(refusal(session, R"({"do":"edge","edge":"#4","components":"x"})").where, "components");
-  EXPECT_EQ(refusal(session, R"({"do":"pin","control_points":[[0,0]],"components":"x"})").where, "components");
+  EXPECT_EQ(refusal(session, R"({"do":"pin","control_points":[[0,0]],"components":"x"})").where,
+            "components");
 }
 
 }  // namespace

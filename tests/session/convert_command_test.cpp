@@ -1,4 +1,5 @@
-// Surfaces of other forms that become B-spline surfaces: what the scene gets, what is written, and what follows then.
+// Surfaces of other forms that become B-spline surfaces: what the scene gets, what is written, and
+// what follows then.
 
 #include <set>
 
@@ -56,7 +57,8 @@ TEST(Convert, AnEdgeToItFollowsThen) {
   EXPECT_LE(apart->angle, asked_angle);
   const auto bytes = session.save();
   ASSERT_TRUE(bytes) << bytes.error().message();
-  const auto edge = SharedEdge::create(testing::parse_or_die(*bytes).model(), TwoSheets::name(sheets.edge));
+  const auto edge =
+      SharedEdge::create(testing::parse_or_die(*bytes).model(), TwoSheets::name(sheets.edge));
   ASSERT_TRUE(edge) << edge.error().message();
   EXPECT_LE(edge->gap(), 2 * apart->tolerance);
   EXPECT_NEAR(edge->at(0.5).point.z(), -0.04, 0.004);
@@ -67,7 +69,8 @@ TEST(Convert, WithoutItTheErrorNamesTheFaceAndTheCommand) {
   Session session = opened(sheets);
   const auto refused = run(session, R"({"do":"select","surface":"#10"},)" + free_edge(sheets));
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().what.find(TwoSheets::name(sheets.faces[1])), std::string::npos) << refused.error().what;
+  EXPECT_NE(refused.error().what.find(TwoSheets::name(sheets.faces[1])), std::string::npos)
+      << refused.error().what;
   EXPECT_NE(refused.error().what.find("#20 PLANE"), std::string::npos) << refused.error().what;
   EXPECT_EQ(testing::code_of(refused.error()), ErrorCode::edge_face_not_spline);
   const std::vector<Fix> fixes = fixes_for(*refused.error().diagnostic);
@@ -78,14 +81,16 @@ TEST(Convert, WithoutItTheErrorNamesTheFaceAndTheCommand) {
     ASSERT_TRUE(done) << done.error().message();
   }
   EXPECT_EQ(fixed.state().followed.size(), 1U);
-  EXPECT_NE(refused.error().remedy.find(R"({"do":"convert","surfaces":["#20"]})"), std::string::npos)
+  EXPECT_NE(refused.error().remedy.find(R"({"do":"convert","surfaces":["#20"]})"),
+            std::string::npos)
       << refused.error().remedy;
   EXPECT_NE(refused.error().remedy.find(both), std::string::npos) << refused.error().remedy;
   const auto select = run(session, both);
   ASSERT_FALSE(select);
   EXPECT_NE(select.error().remedy.find(convert), std::string::npos) << select.error().message();
   EXPECT_EQ(testing::code_of(select.error()), ErrorCode::not_a_spline);
-  const auto alone = run(session, convert + R"(,{"do":"select","surface":"#10"},)" + free_edge(sheets));
+  const auto alone =
+      run(session, convert + R"(,{"do":"select","surface":"#10"},)" + free_edge(sheets));
   ASSERT_FALSE(alone);
   EXPECT_NE(alone.error().what.find("not selected"), std::string::npos) << alone.error().message();
   EXPECT_EQ(testing::code_of(alone.error()), ErrorCode::edge_face_not_selected);
@@ -93,7 +98,8 @@ TEST(Convert, WithoutItTheErrorNamesTheFaceAndTheCommand) {
 
 TEST(Convert, NeighboursOfTheSelectionAreFound) {
   Session session = opened(two_sheets(false, true));
-  const auto done = run(session, R"({"do":"select","surface":"#10"},{"do":"convert","neighbours":true})");
+  const auto done =
+      run(session, R"({"do":"select","surface":"#10"},{"do":"convert","neighbours":true})");
   ASSERT_TRUE(done) << done.error().message();
   ASSERT_EQ(session.state().surfaces.size(), 2U);
   EXPECT_EQ(session.state().surfaces[1].id, "#20");
@@ -105,7 +111,8 @@ TEST(Convert, NeighboursOfTheSelectionAreFound) {
 
 TEST(Convert, RegionsBesideItKnowItsNewForm) {
   Session session = opened(two_sheets(false, true));
-  ASSERT_TRUE(run(session, R"({"do":"select","surface":"#10"},{"do":"hold","mode":"trim"},)" + convert));
+  ASSERT_TRUE(
+      run(session, R"({"do":"select","surface":"#10"},{"do":"hold","mode":"trim"},)" + convert));
   ASSERT_TRUE(session.state().surfaces[0].visible);
   std::set<std::string> supports;
   for (const TrimEdge& edge : session.state().surfaces[0].visible->edges) {
@@ -119,7 +126,8 @@ TEST(Convert, ASnapshotKeepsIt) {
   const TwoSheets sheets = two_sheets(false, true);
   Session session = opened(sheets);
   ASSERT_TRUE(run(session, convert + "," + both + "," + free_edge(sheets) + "," + press));
-  auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")), session.snapshot());
+  auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")),
+                                   session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
   EXPECT_EQ(*restored->save(), *session.save());
   EXPECT_TRUE(restored->state().followed.at(0).course);

@@ -1,4 +1,5 @@
-// Seams that were smooth and are coupled in position only: what is said of them, and what keeps them smooth.
+// Seams that were smooth and are coupled in position only: what is said of them, and what keeps
+// them smooth.
 #include "pieces.hpp"
 #include "support/error_codes.hpp"
 
@@ -20,7 +21,8 @@ std::vector<std::string> creases(const Session& session) {
   return found;
 }
 
-/// Largest angle, degrees, between the tangent planes at the three seams of `three`, and the largest gap.
+/// Largest angle, degrees, between the tangent planes at the three seams of `three`, and the
+/// largest gap.
 std::pair<double, double> worst(const Session& session) {
   const auto jet = [&](std::size_t k, double s, double t) {
     const Surface& surface = *session.state().surfaces[k].current;
@@ -33,10 +35,12 @@ std::pair<double, double> worst(const Session& session) {
   double angle = 0, gap = 0;
   for (int k = 0; k <= 997; ++k) {
     const double t = k / 997.;
-    for (const auto& [a, b] :
-         {std::pair{jet(0, t, 0), jet(1, 0, t)}, {jet(0, 0, t), jet(2, t, 0)}, {jet(1, t, 0), jet(2, 0, t)}}) {
+    for (const auto& [a, b] : {std::pair{jet(0, t, 0), jet(1, 0, t)},
+                               {jet(0, 0, t), jet(2, t, 0)},
+                               {jet(1, t, 0), jet(2, 0, t)}}) {
       gap = std::max(gap, (a.first - b.first).norm());
-      angle = std::max(angle, std::atan2(a.second.cross(b.second).norm(), std::abs(a.second.dot(b.second))));
+      angle = std::max(
+          angle, std::atan2(a.second.cross(b.second).norm(), std::abs(a.second.dot(b.second))));
     }
   }
   return {angle * 180 / std::numbers::pi, gap};

@@ -32,8 +32,9 @@ const SceneCurve& shapes(const Session& session, std::size_t k) {
 /// A file of a sheet, a rational circle and a cubic called "rail".
 std::string three_of_them() {
   Session session = fresh();
-  run(session, {R"({"do":"new","size":[4,4]})", R"({"do":"new","shape":"curve","form":"circle","radius":3})",
-                R"({"do":"new","shape":"curve","size":5,"net":8,"name":"rail"})"});
+  run(session,
+      {R"({"do":"new","size":[4,4]})", R"({"do":"new","shape":"curve","form":"circle","radius":3})",
+       R"({"do":"new","shape":"curve","size":5,"net":8,"name":"rail"})"});
   return *session.save();
 }
 
@@ -61,8 +62,8 @@ TEST(CurveFile, HasItsCurvesAsBodiesAndUntouchedItsBytes) {
   EXPECT_EQ(shapes(session, 1).current->size(), 8);
   EXPECT_EQ(session.save(), bytes);
   // Steps that move nothing write nothing.
-  run(session,
-      {R"({"do":"select","body":")" + common_of(session.state().bodies[1]).id + R"("})", R"({"do":"step","count":2})"});
+  run(session, {R"({"do":"select","body":")" + common_of(session.state().bodies[1]).id + R"("})",
+                R"({"do":"step","count":2})"});
   EXPECT_EQ(session.save(), bytes);
 }
 
@@ -72,10 +73,15 @@ TEST(CurveFile, AMovedCurveChangesItsOwnPointsAlone) {
     SCOPED_TRACE(k);
     Session session(document_of(bytes));
     const std::string id = common_of(session.state().bodies[k]).id;
-    run(session, {R"({"do":"select","body":")" + id + R"("})", R"({"do":"edge","which":"u0","hold":"position"})",
-                  R"({"do":"force","at":[0.5],"to":[1,2,6],"strength":50})", R"({"do":"step","count":4})"});
+    run(session,
+        {R"({"do":"select","body":")" + id + R"("})",
+         R"({"do":"edge","which":"u0","hold":"position"})",
+         R"({"do":"force","at":[0.5],"to":[1,2,6],"strength":50})", R"({"do":"step","count":4})"});
     const Curve& moved = *shapes(session, k).current;
-    EXPECT_GT((moved.control_points() - shapes(session, k).opened->control_points()).cwiseAbs().maxCoeff(), 0.1);
+    EXPECT_GT((moved.control_points() - shapes(session, k).opened->control_points())
+                  .cwiseAbs()
+                  .maxCoeff(),
+              0.1);
     const auto saved = session.save();
     ASSERT_TRUE(saved) << saved.error().message();
     for (const std::string& line : new_lines(bytes, *saved)) {
@@ -84,8 +90,8 @@ TEST(CurveFile, AMovedCurveChangesItsOwnPointsAlone) {
     const Session again(document_of(*saved));
     EXPECT_TRUE(same_bits(shapes(again, k).current->control_points(), moved.control_points()));
     EXPECT_TRUE(std::ranges::equal(shapes(again, k).current->weights(), moved.weights()));
-    EXPECT_TRUE(
-        same_bits(shapes(again, 1 - k).current->control_points(), shapes(session, 1 - k).opened->control_points()));
+    EXPECT_TRUE(same_bits(shapes(again, 1 - k).current->control_points(),
+                          shapes(session, 1 - k).opened->control_points()));
     EXPECT_EQ(common_of(again.state().bodies[k]).id, id);
   }
 }
@@ -95,8 +101,8 @@ TEST(CurveFile, ARefinedCurveIsWrittenAnewUnderItsNameAndLabel) {
   for (const std::size_t k : {0U, 1U}) {
     SCOPED_TRACE(k);
     Session session(document_of(bytes));
-    run(session,
-        {R"({"do":"select","body":")" + common_of(session.state().bodies[k]).id + R"("})", R"({"do":"refine"})"});
+    run(session, {R"({"do":"select","body":")" + common_of(session.state().bodies[k]).id + R"("})",
+                  R"({"do":"refine"})"});
     const auto saved = session.save();
     ASSERT_TRUE(saved) << saved.error().message();
     const Session again(document_of(*saved));
@@ -120,7 +126,8 @@ TEST(CurveFile, SurfacesAndCurvesAreSavedTogetherAndUndone) {
                 R"({"do":"select","body":")" + common_of(session.state().bodies[1]).id + R"("})",
                 R"({"do":"points","which":[3],"by":[0,0,2]})"});
   const Session again(document_of(*session.save()));
-  EXPECT_TRUE(same_bits(shapes(again, 1).current->control_points(), shapes(session, 1).current->control_points()));
+  EXPECT_TRUE(same_bits(shapes(again, 1).current->control_points(),
+                        shapes(session, 1).current->control_points()));
   EXPECT_TRUE(same_bits(*again.state().surfaces[0].current, *session.state().surfaces[0].current));
   const auto restored = Session::restore(session.document(), session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
@@ -136,15 +143,16 @@ TEST(CurveFile, OfOneCurveAloneHasItSelected) {
   Session session(document_of(*made.save()));
   EXPECT_EQ(session.state().body, 0);
   // As scripts begin: the edges of all faces are held, of which there are none.
-  run(session, {R"({"do":"hold","mode":"trim","all":true})", R"({"do":"tool","radius":1,"position":[2.6,0,0]})",
-                R"({"do":"step","count":4})"});
+  run(session, {R"({"do":"hold","mode":"trim","all":true})",
+                R"({"do":"tool","radius":1,"position":[2.6,0,0]})", R"({"do":"step","count":4})"});
   EXPECT_GT(largest_displacement(session.state().bodies[0]), 0.1);
   EXPECT_NE(*session.save(), *made.save());
 }
 
 TEST(CurveFile, WithoutASurfaceOffersOneOfItsCurves) {
   Session made = fresh();
-  run(made, {R"({"do":"new","shape":"curve","size":5,"net":8})", R"({"do":"new","shape":"curve","size":5,"net":8})"});
+  run(made, {R"({"do":"new","shape":"curve","size":5,"net":8})",
+             R"({"do":"new","shape":"curve","size":5,"net":8})"});
   Session session(document_of(*made.save()));
   const Error error = refusal(session, R"({"do":"limit","distance":1,"relative":true})");
   EXPECT_EQ(testing::code_of(error), ErrorCode::no_spline_surface) << error.message();
@@ -160,7 +168,8 @@ TEST(CurveFile, CurvesOfEdgesAreNotFree) {
   const std::size_t at = bytes.find("B_SPLINE_CURVE_WITH_KNOTS");
   ASSERT_NE(at, std::string::npos);
   const std::size_t begin = bytes.rfind('#', at);
-  const std::string id = bytes.substr(begin, bytes.find_first_not_of("0123456789", begin + 1) - begin);
+  const std::string id =
+      bytes.substr(begin, bytes.find_first_not_of("0123456789", begin + 1) - begin);
   EXPECT_TRUE(session.state().bodies.empty());
   const Error refused = refusal(session, R"({"do":"select","body":")" + id + R"("})");
   EXPECT_NE(refused.what.find("made of the curve " + id), std::string::npos) << refused.message();
@@ -179,14 +188,16 @@ TEST(CurveFile, OfRealWorkComesBackWithOneCurveChanged) {
   ASSERT_EQ(session.state().bodies.size(), 24U);
   EXPECT_EQ(*session.save(), bytes);
   const std::string id = common_of(session.state().bodies[7]).id;
-  run(session, {R"({"do":"select","body":")" + id + R"("})", R"({"do":"edge","which":"u0","hold":"position"})",
-                R"({"do":"edge","which":"u1","hold":"position"})", R"({"do":"points","which":[9],"by":[0.25,0,0]})",
-                R"({"do":"step","count":2})"});
+  run(session, {R"({"do":"select","body":")" + id + R"("})",
+                R"({"do":"edge","which":"u0","hold":"position"})",
+                R"({"do":"edge","which":"u1","hold":"position"})",
+                R"({"do":"points","which":[9],"by":[0.25,0,0]})", R"({"do":"step","count":2})"});
   const auto saved = session.save();
   ASSERT_TRUE(saved) << saved.error().message();
   const Session again(document_of(*saved, "blade.stp"));
   for (std::size_t k = 0; k < 24; ++k) {
-    EXPECT_TRUE(same_bits(shapes(again, k).current->control_points(), shapes(session, k).current->control_points()))
+    EXPECT_TRUE(same_bits(shapes(again, k).current->control_points(),
+                          shapes(session, k).current->control_points()))
         << k;
   }
   for (const std::string& line : new_lines(bytes, *saved)) {

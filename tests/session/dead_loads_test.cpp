@@ -15,8 +15,8 @@ using testing::refusal;
 using testing::run;
 using testing::same_bits;
 
-// Loads that keep their direction, in raw units on sheets held at one edge: what they do is compared where it must
-// agree.
+// Loads that keep their direction, in raw units on sheets held at one edge: what they do is
+// compared where it must agree.
 
 Points displaced_by(const std::vector<std::string>& commands) {
   Session session = fresh();
@@ -35,43 +35,50 @@ TEST(DeadLoads, OnASquareSheetAreaIsTheParameterMeasureTimesItsSpeed) {
   const Points area = displaced_by({R"({"do":"load","vector":[0,0,1],"per":"area"})"});
   const Points parameters = displaced_by({R"({"do":"load","vector":[0,0,100]})"});
   EXPECT_GT(area.cwiseAbs().maxCoeff(), 1);
-  EXPECT_LT(relative_difference(area, parameters), 1e-11);  // condition of a 10 × 10 plate times rounding
+  EXPECT_LT(relative_difference(area, parameters),
+            1e-11);  // condition of a 10 × 10 plate times rounding
 }
 
 TEST(DeadLoads, SamplesPerAreaAreThoseOfTheParametersTimesTheSpeed) {
-  const Points area =
-      displaced_by({R"({"do":"load","counts":[2,2],"samples":[[0,0,0],[0,0,0],[0,0,1],[0,0,1]],"per":"area"})"});
+  const Points area = displaced_by(
+      {R"({"do":"load","counts":[2,2],"samples":[[0,0,0],[0,0,0],[0,0,1],[0,0,1]],"per":"area"})"});
   const Points parameters = displaced_by({R"({"do":"load","formula":["0","0","100*s"]})"});
   EXPECT_GT(area.cwiseAbs().maxCoeff(), 1);
   EXPECT_LT(relative_difference(area, parameters), 1e-9);
 }
 
 TEST(DeadLoads, ALineOfForceBalancesThePointForceOfItsResultantInSymmetricSheets) {
-  // Under a load along x, y or z the mean displacement of the loaded edge by a line force p and that of the whole force
-  // at its middle follow Betti's theorem: the work of each in the other's displacement is the same.
-  const Points line = displaced_by({R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,2]})"});
-  const Points point = displaced_by({R"({"do":"force","kind":"dead","at":[0.7,0.3],"vector":[0,0,3]})"});
+  // Under a load along x, y or z the mean displacement of the loaded edge by a line force p and
+  // that of the whole force at its middle follow Betti's theorem: the work of each in the other's
+  // displacement is the same.
+  const Points line =
+      displaced_by({R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,2]})"});
+  const Points point =
+      displaced_by({R"({"do":"force","kind":"dead","at":[0.7,0.3],"vector":[0,0,3]})"});
   Session a = fresh();
   run(a, {new_sheet});
   const auto spline = [&](const Points& d) { return *first(a).current->with_control_points(d); };
   const double work_of_point = 3 * at(spline(line), 0.7, 0.3)[2];
-  // The line force is 2 per length, 10 long: 20 times the mean along u = 1, of a cubic on 7 equal spans: by Simpson.
+  // The line force is 2 per length, 10 long: 20 times the mean along u = 1, of a cubic on 7 equal
+  // spans: by Simpson.
   double mean = 0;
   const Surface d = spline(point);
   for (int k = 0; k < 7; ++k) {
-    mean += (at(d, 1, k / 7.0)[2] + 4 * at(d, 1, (k + 0.5) / 7)[2] + at(d, 1, (k + 1) / 7.0)[2]) / 42;
+    mean +=
+        (at(d, 1, k / 7.0)[2] + 4 * at(d, 1, (k + 0.5) / 7)[2] + at(d, 1, (k + 1) / 7.0)[2]) / 42;
   }
   EXPECT_GT(std::abs(work_of_point), 1e-3);
   EXPECT_NEAR(20 * mean, work_of_point, 1e-9 * std::abs(work_of_point));
 }
 
 TEST(DeadLoads, AMirrorReflectsForces) {
-  const std::string point = R"({"do":"force","name":"a","kind":"dead","at":[0.7,0.2],"vector":[1,2,3]})",
-                    line = R"({"do":"force","name":"b","kind":"line","edge":"v0","vector":[0.1,0.2,0.3]})";
+  const std::string
+      point = R"({"do":"force","name":"a","kind":"dead","at":[0.7,0.2],"vector":[1,2,3]})",
+      line = R"({"do":"force","name":"b","kind":"line","edge":"v0","vector":[0.1,0.2,0.3]})";
   const Points mirrored = displaced_by({R"({"do":"symmetry","mirror":"v"})", point, line});
-  const Points both =
-      displaced_by({point, R"({"do":"force","name":"c","kind":"dead","at":[0.7,0.8],"vector":[1,-2,3]})", line,
-                    R"({"do":"force","name":"d","kind":"line","edge":"v1","vector":[0.1,-0.2,0.3]})"});
+  const Points both = displaced_by(
+      {point, R"({"do":"force","name":"c","kind":"dead","at":[0.7,0.8],"vector":[1,-2,3]})", line,
+       R"({"do":"force","name":"d","kind":"line","edge":"v1","vector":[0.1,-0.2,0.3]})"});
   EXPECT_GT(both.col(1).cwiseAbs().maxCoeff(), 1e-3);
   EXPECT_LT(relative_difference(mirrored, both), 1e-9);
 }
@@ -91,9 +98,10 @@ TEST(DeadLoads, AForceKeepsItsDirectionAndGoesWithRemove) {
 
 TEST(DeadLoads, AreInSnapshots) {
   Session session = fresh();
-  run(session, {new_sheet, R"({"do":"force","name":"a","kind":"dead","at":[1,0.5],"vector":[0,0,-1]})",
-                R"({"do":"force","name":"b","kind":"line","edge":"v1","vector":[0,1,0]})",
-                R"({"do":"load","vector":[0,0,1],"per":"area"})"});
+  run(session,
+      {new_sheet, R"({"do":"force","name":"a","kind":"dead","at":[1,0.5],"vector":[0,0,-1]})",
+       R"({"do":"force","name":"b","kind":"line","edge":"v1","vector":[0,1,0]})",
+       R"({"do":"load","vector":[0,0,1],"per":"area"})"});
   const auto restored = Session::restore(session.document(), session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
   EXPECT_EQ(restored->state().forces, session.state().forces);

@@ -114,7 +114,8 @@ TEST(DescribedArchive, LengthsAreNotBelieved) {
       EXPECT_FALSE(reads(item, text));
       EXPECT_FALSE(reads(item, step));
       EXPECT_EQ(reads(item, number), kind == '\x3b' && size == many);  // the least integer
-      EXPECT_FALSE(reads("\x82" + (kind + size), numbers));            // as the number of those that are known
+      EXPECT_FALSE(
+          reads("\x82" + (kind + size), numbers));  // as the number of those that are known
     }
   }
 }
@@ -128,7 +129,8 @@ TEST(DescribedArchive, NestingIsThatOfTheDescription) {
 }
 
 TEST(DescribedArchive, MemoryIsLimited) {
-  std::string bytes = "\x9a" + std::string("\0\x01\0\x01", 4) + std::string(1, '\0');  // 65536 empty records
+  std::string bytes =
+      "\x9a" + std::string("\0\x01\0\x01", 4) + std::string(1, '\0');  // 65536 empty records
   bytes += std::string(65536, '\xa0');
   std::vector<StepRecord> steps;
   EXPECT_TRUE(reads(bytes, steps, std::size_t{1} << 30U));

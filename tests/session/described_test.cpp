@@ -1,4 +1,5 @@
-// What is made of descriptions: JSON, help, tables, schemas, TypeScript; on a small record and on the shapes of tools.
+// What is made of descriptions: JSON, help, tables, schemas, TypeScript; on a small record and on
+// the shapes of tools.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -10,7 +11,8 @@ namespace knead::testing {
 
 enum class Glaze { matt, shiny };
 std::span<const Choice> choices(Glaze) {
-  static constexpr Choice list[] = {{"matt", Glaze::matt, "soft light"}, {"shiny", Glaze::shiny, "hard light"}};
+  static constexpr Choice list[] = {{"matt", Glaze::matt, "soft light"},
+                                    {"shiny", Glaze::shiny, "hard light"}};
   return list;
 }
 
@@ -37,8 +39,9 @@ void describe(Pot& p, Fields& fields) {
   fields.name("pot", "holds | keeps");
   fields.add("name", p.name, {.help = "what it is called"});
   fields.add("glaze", p.glaze, {.help = "of its outside"});
-  fields.add("height", p.height,
-             {.help = "of all", .unit = Unit::length, .range = above(0), .fallback = "twice the lid"});
+  fields.add(
+      "height", p.height,
+      {.help = "of all", .unit = Unit::length, .range = above(0), .fallback = "twice the lid"});
   fields.add("dots", p.dots);
   fields.add("handles", p.handles);
   fields.add("radii", p.radii, {.uniform = true});
@@ -53,14 +56,17 @@ Expected<Pot> read(const std::string& text) {
   const auto json = parse_json(text);
   if (!json) return std::unexpected(json.error());
   Pot pot;
-  if (auto done = read_record(*json, type_of<Pot>(), &pot); !done) return std::unexpected(done.error());
+  if (auto done = read_record(*json, type_of<Pot>(), &pot); !done)
+    return std::unexpected(done.error());
   return pot;
 }
 std::string write(const Pot& pot) { return to_json(type_of<Pot>(), &pot); }
 
 TEST(Described, JsonIsReadBackAsWritten) {
   const std::string text =
-      R"({"name":"a \"b\"","glaze":"shiny","height":0.10000000000000001,"dots":[[1,2],[3,4]],"handles":[{"at":[0.25,-0.0]}],"radii":[1,2],"lid":3,"fired":true,"shape":"box","sizes":[1,2,3],"rounding":0.5})";
+      R"({"name":"a \"b\"","glaze":"shiny","height":0.10000000000000001,"dots":[[1,2],[3,4]],)"
+      R"("handles":[{"at":[0.25,-0.0]}],"radii":[1,2],"lid":3,"fired":true,"shape":"box",)"
+      R"("sizes":[1,2,3],"rounding":0.5})";
   const auto pot = read(text);
   ASSERT_TRUE(pot) << pot.error().message();
   EXPECT_EQ(write(*pot), text);
@@ -70,9 +76,11 @@ TEST(Described, JsonIsReadBackAsWritten) {
 
 TEST(Described, DefaultsStayAndOptionalsAreLeftOutOrNull) {
   const Pot pot = *read("{}");
-  const std::string rest = R"("dots":[],"handles":[],"radii":1,"lid":0.5,"fired":false,"shape":"sphere","radius":1})";
+  const std::string rest =
+      R"("dots":[],"handles":[],"radii":1,"lid":0.5,"fired":false,"shape":"sphere","radius":1})";
   EXPECT_EQ(write(pot), R"({"name":"pot","glaze":"matt",)" + rest);
-  EXPECT_EQ(to_json(type_of<Pot>(), &pot, Absent::null), R"({"name":"pot","glaze":"matt","height":null,)" + rest);
+  EXPECT_EQ(to_json(type_of<Pot>(), &pot, Absent::null),
+            R"({"name":"pot","glaze":"matt","height":null,)" + rest);
 }
 
 TEST(Described, ErrorsNameThePlaceAndWhatWouldBeRight) {
@@ -81,7 +89,8 @@ TEST(Described, ErrorsNameThePlaceAndWhatWouldBeRight) {
   EXPECT_NE(error(R"({"nmae":"x"})").remedy.find("name, glaze, height"), std::string::npos);
   EXPECT_EQ(error(R"({"glaze":"dull"})").remedy, "use one of: matt, shiny");
   EXPECT_EQ(error(R"({"height":"x"})").remedy, "give a number");
-  EXPECT_EQ(error(R"({"dots":[[1,2],[3]]})").remedy, "give a list, each entry a list of 2 whole numbers");
+  EXPECT_EQ(error(R"({"dots":[[1,2],[3]]})").remedy,
+            "give a list, each entry a list of 2 whole numbers");
   EXPECT_EQ(error(R"({"handles":[{"at":[0,1]},{}]})").where, "handles[1].at");
   EXPECT_EQ(error(R"({"handles":[{"at":[0,1]},{"at":3}]})").where, "handles[1].at");
   EXPECT_EQ(error(R"({"fired":1})").remedy, "give true or false");
@@ -104,21 +113,27 @@ TEST(Described, OneNumberStandsForEqualOnes) {
 
 TEST(Described, HelpNamesFieldsWithMeaningAndDefault) {
   const std::string help = full_help(type_of<Pot>());
-  EXPECT_NE(help.find("  name            what it is called (default \"pot\")\n"), std::string::npos) << help;
-  EXPECT_NE(help.find("  height          of all; > 0 (default twice the lid)\n"), std::string::npos) << help;
-  EXPECT_NE(help.find("  glaze           of its outside: matt (soft light), shiny (hard light) (default \"matt\")\n"),
+  EXPECT_NE(help.find("  name            what it is called (default \"pot\")\n"), std::string::npos)
+      << help;
+  EXPECT_NE(help.find("  height          of all; > 0 (default twice the lid)\n"), std::string::npos)
+      << help;
+  EXPECT_NE(help.find("  glaze           of its outside: matt (soft light), shiny (hard light) "
+                      "(default \"matt\")\n"),
             std::string::npos)
       << help;
   EXPECT_NE(help.find("  lid             (default 0.5)\n"), std::string::npos) << help;
   EXPECT_NE(help.find("  exponents "), std::string::npos) << "the shapes' fields count: " << help;
-  EXPECT_NE(brief_help(type_of<Pot>()).find("name \"pot\", glaze \"matt\", height, dots,"), std::string::npos);
+  EXPECT_NE(brief_help(type_of<Pot>()).find("name \"pot\", glaze \"matt\", height, dots,"),
+            std::string::npos);
 }
 
 TEST(Described, TablesEscapeWhatEndsACell) {
   const std::string table = markdown_table(type_of<Pot>());
   EXPECT_NE(table.find("| `height` | twice the lid | of all; > 0 |\n"), std::string::npos) << table;
-  EXPECT_NE(table.find(R"(| `glaze` | `"matt"` | of its outside: `"matt"`: soft light. `"shiny"`: hard light |)"),
-            std::string::npos)
+  EXPECT_NE(
+      table.find(R"(| `glaze` | `"matt"` | of its outside: `"matt"`: soft light. `"shiny"`: hard )"
+                 R"(light |)"),
+      std::string::npos)
       << table;
 }
 
@@ -127,8 +142,9 @@ TEST(Described, TheSchemaTellsTypesRangesAndWhatIsRequired) {
   EXPECT_EQ(schema.at("additionalProperties"), false);
   const auto& members = schema.at("properties");
   EXPECT_EQ(members.at("height").at("exclusiveMinimum"), 0);
-  EXPECT_EQ(members.at("glaze").at("oneOf"), nlohmann::json({{{"const", "matt"}, {"description", "soft light"}},
-                                                             {{"const", "shiny"}, {"description", "hard light"}}}));
+  EXPECT_EQ(members.at("glaze").at("oneOf"),
+            nlohmann::json({{{"const", "matt"}, {"description", "soft light"}},
+                            {{"const", "shiny"}, {"description", "hard light"}}}));
   EXPECT_EQ(members.at("name").at("default"), "pot");
   EXPECT_EQ(members.at("handles").at("items").at("required"), nlohmann::json::array({"at"}));
   EXPECT_EQ(members.at("shape").at("enum").size(), std::variant_size_v<Shape>);
@@ -169,7 +185,9 @@ TEST(DescribedShapes, EveryShapeIsReadAndWrittenByItsName) {
   }
   Shape made;
   const auto unknown = parse_json(R"({"shape":"cube"})");
-  EXPECT_NE(read_variant(*unknown, shapes, &made, "shape").error().remedy.find("the shapes are: sphere, ellipsoid"),
+  EXPECT_NE(read_variant(*unknown, shapes, &made, "shape")
+                .error()
+                .remedy.find("the shapes are: sphere, ellipsoid"),
             std::string::npos);
 }
 
@@ -177,7 +195,8 @@ TEST(DescribedShapes, LengthsAreThoseOfTheWholeShape) {
   const Shape cylinder = CylinderShape{.radius = 1, .half_height = 3};
   EXPECT_EQ(to_json(type_of<Shape>(), &cylinder), R"({"shape":"cylinder","radius":1,"height":6})");
   const Shape ring = SupertoroidShape{2, {0.5, 0.5}, 0.5, 3};
-  EXPECT_EQ(to_json(type_of<Shape>(), &ring), R"({"shape":"supertoroid","radius":2,"minor":0.5,"exponents":[0.5,3]})");
+  EXPECT_EQ(to_json(type_of<Shape>(), &ring),
+            R"({"shape":"supertoroid","radius":2,"minor":0.5,"exponents":[0.5,3]})");
 }
 
 }  // namespace

@@ -18,7 +18,9 @@ namespace {
 using testing::two_sheets;
 using testing::TwoSheets;
 
-Session opened(const std::string& text) { return Session(Document::from(*open_source(text, "sheets.step"))); }
+Session opened(const std::string& text) {
+  return Session(Document::from(*open_source(text, "sheets.step")));
+}
 
 void run(Session& session, const std::vector<std::string>& commands) {
   for (const std::string& json : commands) {
@@ -47,7 +49,8 @@ const std::string right = R"({"do":"select","surface":"#20"})";
 TEST(EdgeCheck, SheetsThatContinueEachOtherAreSmoothAndClosed) {
   const TwoSheets sheets = two_sheets();
   const EdgeCheck check = check_of(opened(sheets.text), sheets.edge);
-  EXPECT_EQ(check.faces, (std::vector{TwoSheets::name(sheets.faces[0]), TwoSheets::name(sheets.faces[1])}));
+  EXPECT_EQ(check.faces,
+            (std::vector{TwoSheets::name(sheets.faces[0]), TwoSheets::name(sheets.faces[1])}));
   EXPECT_LE(check.gap, 1e-15);
   ASSERT_TRUE(check.angle);
   EXPECT_LE(*check.angle, 1e-15);
@@ -63,7 +66,8 @@ TEST(EdgeCheck, AFoldIsTheLargestAngleAlongTheEdge) {
   EXPECT_LE(check.opened_angle.value_or(1), 1e-15);
   EXPECT_LE(check.gap, 1e-15);
   // Twisted: S_u = (1, 0, v / 2) along the edge.
-  run(session, {R"({"do":"points","which":[2],"by":[0,0,-1]})", R"({"do":"points","which":[3],"by":[0,0,-0.5]})"});
+  run(session, {R"({"do":"points","which":[2],"by":[0,0,-1]})",
+                R"({"do":"points","which":[3],"by":[0,0,-0.5]})"});
   check = check_of(session, sheets.edge);
   EXPECT_NEAR(check.angle.value_or(0), std::atan(0.5), 1e-14);
   // The same seen from the other face.
@@ -81,12 +85,15 @@ TEST(EdgeCheck, APartedEdgeHasAGap) {
   const EdgeCheck outer = check_of(session, sheets.outer);
   EXPECT_LE(outer.gap, 1e-15);
   EXPECT_FALSE(outer.angle);
-  run(session, {R"({"do":"select","surface":"#10"})", R"({"do":"points","which":[0],"by":[0,0,2]})"});
+  run(session,
+      {R"({"do":"select","surface":"#10"})", R"({"do":"points","which":[0],"by":[0,0,2]})"});
   EXPECT_NEAR(check_of(session, sheets.outer).gap, 2, 1e-14);
 }
 
-// The right sheet as z = (x - 1)², which bends by 2 across the edge, where it is tangent to the flat one.
-const std::string parabola[] = {R"({"do":"elevate","by":[1,0]})", R"({"do":"points","which":[4,5],"by":[0,0,1]})"};
+// The right sheet as z = (x - 1)², which bends by 2 across the edge, where it is tangent to the
+// flat one.
+const std::string parabola[] = {R"({"do":"elevate","by":[1,0]})",
+                                R"({"do":"points","which":[4,5],"by":[0,0,1]})"};
 
 TEST(EdgeCheck, ATangentEdgeHasADifferenceInCurvature) {
   const TwoSheets sheets = two_sheets();
@@ -99,16 +106,19 @@ TEST(EdgeCheck, ATangentEdgeHasADifferenceInCurvature) {
   EXPECT_LE(check.opened_curvature.value_or(1), 1e-15);
   EXPECT_FALSE(check_of(session, sheets.outer).curvature);
   // Bent alike on both sides, there is none: the left sheet becomes z = (x - 1)², too.
-  run(session, {R"({"do":"select","surface":"#10"})", parabola[0], R"({"do":"points","which":[0,1],"by":[0,0,1]})"});
+  run(session, {R"({"do":"select","surface":"#10"})", parabola[0],
+                R"({"do":"points","which":[0,1],"by":[0,0,1]})"});
   check = check_of(session, sheets.edge);
   EXPECT_LE(check.angle.value_or(1), 1e-14);
   EXPECT_LE(check.curvature.value_or(1), 1e-13);
 }
 
 TEST(EdgeCheck, TheCurvatureOfAnotherSurfaceIsKnown) {
-  // The plane of the right sheet becomes a cylinder of radius 4 below it, an extruded circle, or a cone.
+  // The plane of the right sheet becomes a cylinder of radius 4 below it, an extruded circle, or a
+  // cone.
   const std::string place =
-      "#22=CARTESIAN_POINT('',(1.,0.,-4.));#23=DIRECTION('',(0.,1.,0.));#24=DIRECTION('',(1.,0.,0.));"
+      "#22=CARTESIAN_POINT('',(1.,0.,-4.));#23=DIRECTION('',(0.,1.,0.));#24=DIRECTION('',(1.,0.,0.)"
+      ");"
       "#25=AXIS2_PLACEMENT_3D('',#22,#23,#24);";
   const std::string extruded =
       "#26=CIRCLE('',#25,4.);#27=VECTOR('',#23,1.);#20=SURFACE_OF_LINEAR_EXTRUSION('',#26,#27);";
@@ -116,7 +126,8 @@ TEST(EdgeCheck, TheCurvatureOfAnotherSurfaceIsKnown) {
   const std::string turned =
       "#26=LINE('',#3,#27);#27=VECTOR('',#23,1.);#28=AXIS1_PLACEMENT('',#22,#23);"
       "#20=SURFACE_OF_REVOLUTION('',#26,#28);";
-  for (const std::string& surface : {std::string("#20=CYLINDRICAL_SURFACE('',#25,4.);"), extruded, turned}) {
+  for (const std::string& surface :
+       {std::string("#20=CYLINDRICAL_SURFACE('',#25,4.);"), extruded, turned}) {
     TwoSheets sheets = two_sheets(false, true);
     const std::string plane = "#20=PLANE('',#21);";
     const auto at = sheets.text.find(plane);
@@ -124,7 +135,8 @@ TEST(EdgeCheck, TheCurvatureOfAnotherSurfaceIsKnown) {
     sheets.text.replace(at, plane.size(), place + surface);
     const EdgeCheck check = check_of(opened(sheets.text), sheets.edge);
     ASSERT_EQ(check.unknown, "") << surface;
-    EXPECT_NEAR(check.curvature.value_or(0), 0.25, 1e-13) << surface << " angle " << check.angle.value_or(9);
+    EXPECT_NEAR(check.curvature.value_or(0), 0.25, 1e-13)
+        << surface << " angle " << check.angle.value_or(9);
   }
   const TwoSheets flat = two_sheets(false, true);
   EXPECT_LE(check_of(opened(flat.text), flat.edge).curvature.value_or(1), 1e-15);
@@ -135,14 +147,17 @@ TEST(EdgeCheck, CurvaturesCountTowardsTheNormalsOfTheFaces) {
   TwoSheets sheets = two_sheets(false, true);
   const std::string plane = "#20=PLANE('',#21);";
   sheets.text.replace(sheets.text.find(plane), plane.size(),
-                      "#22=CARTESIAN_POINT('',(1.,0.,-4.));#23=DIRECTION('',(0.,1.,0.));#24=DIRECTION('',(1.,0.,0.));"
+                      "#22=CARTESIAN_POINT('',(1.,0.,-4.));#23=DIRECTION('',(0.,1.,0.));#24="
+                      "DIRECTION('',(1.,0.,0.));"
                       "#25=AXIS2_PLACEMENT_3D('',#22,#23,#24);#20=CYLINDRICAL_SURFACE('',#25,4.);");
   for (const bool turned : {false, true}) {
     for (const std::string face : {"),#10,.T.)", "),#20,.T.)"}) {
-      if (turned) sheets.text.replace(sheets.text.find(face), face.size(), face.substr(0, 6) + ".F.)");
+      if (turned)
+        sheets.text.replace(sheets.text.find(face), face.size(), face.substr(0, 6) + ".F.)");
     }
     Session session = opened(sheets.text);
-    run(session, {R"({"do":"select","surface":"#10"})", parabola[0], R"({"do":"points","which":[0,1],"by":[0,0,1]})"});
+    run(session, {R"({"do":"select","surface":"#10"})", parabola[0],
+                  R"({"do":"points","which":[0,1],"by":[0,0,1]})"});
     EXPECT_NEAR(check_of(session, sheets.edge).curvature.value_or(0), 2.25, 1e-12) << turned;
   }
 }
@@ -160,7 +175,8 @@ TEST(EdgeCheck, AFaceOnAPlaneIsAsInTheFile) {
   const TwoSheets sheets = two_sheets(false, true);
   Session session = opened(sheets.text);
   EXPECT_LE(check_of(session, sheets.edge).angle.value_or(1), 1e-15);
-  run(session, {R"({"do":"select","surface":"#10"})", R"({"do":"points","which":[0,1],"by":[0,0,-1]})"});
+  run(session,
+      {R"({"do":"select","surface":"#10"})", R"({"do":"points","which":[0,1],"by":[0,0,-1]})"});
   const EdgeCheck check = check_of(session, sheets.edge);
   EXPECT_NEAR(check.angle.value_or(0), std::numbers::pi / 4, 1e-14);
   EXPECT_LE(check.gap, 1e-15);
@@ -172,7 +188,8 @@ TEST(EdgeCheck, TheNormalsAreThoseOfTheFaces) {
   const auto at = sheets.text.find(face);
   ASSERT_NE(at, std::string::npos);
   sheets.text.replace(at, face.size(), "),#20,.F.)");
-  EXPECT_NEAR(check_of(opened(sheets.text), sheets.edge).angle.value_or(0), std::numbers::pi, 1e-15);
+  EXPECT_NEAR(check_of(opened(sheets.text), sheets.edge).angle.value_or(0), std::numbers::pi,
+              1e-15);
 }
 
 TEST(EdgeCheck, WhatCannotBeFollowedIsSaid) {

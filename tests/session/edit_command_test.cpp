@@ -19,7 +19,8 @@ using testing::run;
 using testing::same_bits;
 using testing::same_state;
 
-// Editing control points, weights and knots by hand, on sheets of size 10 by 10 with nets of 10 by 10.
+// Editing control points, weights and knots by hand, on sheets of size 10 by 10 with nets of 10
+// by 10.
 
 /// Nothing is left to do: what was made by hand stays under steps, to rounding.
 void expect_at_rest(Session& session) {
@@ -35,7 +36,8 @@ TEST(PointsCommand, OnlyNamedPointsChangeABitAndTheShapeStays) {
   const SceneSurface& s = first(session);
   for (Eigen::Index k = 0; k < before.rows(); ++k) {
     const Eigen::RowVector3d expected =
-        before.row(k) + (k == 44 || k == 45 ? Eigen::RowVector3d(0.1, 0, 1.7) : Eigen::RowVector3d(0, 0, 0));
+        before.row(k) +
+        (k == 44 || k == 45 ? Eigen::RowVector3d(0.1, 0, 1.7) : Eigen::RowVector3d(0, 0, 0));
     EXPECT_EQ(s.current->control_points().row(k), expected) << k;
   }
   EXPECT_EQ(s.rest, s.current);
@@ -48,31 +50,37 @@ TEST(PointsCommand, OnlyNamedPointsChangeABitAndTheShapeStays) {
 TEST(PointsCommand, RowsAndPlacesAreTakenInOrderEachOnce) {
   Session session = fresh();
   run(session, {R"({"do":"new","net":[4,5]})",
-                R"({"do":"points","which":[7],"rows_u":[1],"to":[[7,0,0],[5,0,0],[6,0,0],[8,0,0],[9,0,-0.0]]})",
+                R"({"do":"points","which":[7],"rows_u":[1],)"
+                R"("to":[[7,0,0],[5,0,0],[6,0,0],[8,0,0],[9,0,-0.0]]})",
                 R"({"do":"points","rows_v":[4],"rows_u":[3],"by":[0,0,2],"relative":true})"});
   const Points& p = first(session).current->control_points();
   for (int k = 5; k < 9; ++k) EXPECT_EQ(p.row(k)[0], k);
   const double diagonal = bounding_box(*first(session).reference).diagonal();
-  for (int k = 0; k < 20; ++k) EXPECT_EQ(p.row(k)[2], k % 5 == 4 || k >= 15 ? 2 * diagonal : 0) << k;
+  for (int k = 0; k < 20; ++k)
+    EXPECT_EQ(p.row(k)[2], k % 5 == 4 || k >= 15 ? 2 * diagonal : 0) << k;
   run(session, {R"({"do":"points","which":[0],"to":[[-0.0,0.1,3]]})"});
   EXPECT_TRUE(std::signbit(first(session).current->control_points()(0, 0)));
 }
 
 TEST(PointsCommand, WhatIsDisplacedStaysDisplacedByAsMuch) {
   Session session = on_sheet({testing::ball, R"({"do":"step","count":5})"});
-  const Points displaced = first(session).current->control_points() - first(session).rest->control_points();
+  const Points displaced =
+      first(session).current->control_points() - first(session).rest->control_points();
   const double energy = *session.energy();
   ASSERT_GT(energy, 0);
   run(session, {R"({"do":"points","rows_u":[2,3],"by":[0,0.5,-1]})"});
-  const Points after = first(session).current->control_points() - first(session).rest->control_points();
-  EXPECT_LT((after - displaced).cwiseAbs().maxCoeff(), 16 * std::numeric_limits<double>::epsilon() * 10);
+  const Points after =
+      first(session).current->control_points() - first(session).rest->control_points();
+  EXPECT_LT((after - displaced).cwiseAbs().maxCoeff(),
+            16 * std::numeric_limits<double>::epsilon() * 10);
   EXPECT_NEAR(*session.energy(), energy, 1e-12 * energy);
 }
 
 TEST(PointsCommand, HandsMoveWhatIsHeldAndItIsHeldThere) {
-  Session session = on_sheet({R"({"do":"edge","hold":"clamped"})", R"({"do":"hold","rows":1})",
-                              R"({"do":"pin","control_points":[[4,4]]})", R"({"do":"pin","at":[0.3,0.6]})",
-                              R"({"do":"points","which":[5,44,26,36],"by":[0,0,1]})"});
+  Session session =
+      on_sheet({R"({"do":"edge","hold":"clamped"})", R"({"do":"hold","rows":1})",
+                R"({"do":"pin","control_points":[[4,4]]})", R"({"do":"pin","at":[0.3,0.6]})",
+                R"({"do":"points","which":[5,44,26,36],"by":[0,0,1]})"});
   expect_at_rest(session);
   EXPECT_GT(at(*first(session).current, 0, 0.55)[2], 0.1);
 }
@@ -85,10 +93,13 @@ TEST(PointsCommand, FrozenRegionsSymmetriesAndLimitsStand) {
   run(session, {R"({"do":"points","which":[1],"by":[0,0,1]})"});
 
   Session mirrored = on_sheet({R"({"do":"symmetry","mirror":"u"})"});
-  EXPECT_NE(refusal(mirrored, R"({"do":"points","which":[22],"by":[0,0,1]})").message().find("symmetry"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(mirrored, R"({"do":"points","which":[22],"by":[0,0,1]})").message().find("symmetry"),
+      std::string::npos);
   run(mirrored, {R"({"do":"points","which":[22,72],"by":[0,0,1]})"});
-  EXPECT_NE(refusal(mirrored, R"({"do":"points","which":[22,72],"by":[1,0,0]})").message().find("symmetry"),
+  EXPECT_NE(refusal(mirrored, R"({"do":"points","which":[22,72],"by":[1,0,0]})")
+                .message()
+                .find("symmetry"),
             std::string::npos);
   expect_at_rest(mirrored);
 
@@ -121,10 +132,12 @@ TEST(PointsCommand, RefusesWithThePlace) {
     EXPECT_FALSE(e.remedy.empty()) << e.message();
   }
   Session two = open_sample();
-  EXPECT_NE(refusal(two, R"({"do":"points","which":[1],"by":[0,0,1]})").remedy.find("select"), std::string::npos);
+  EXPECT_NE(refusal(two, R"({"do":"points","which":[1],"by":[0,0,1]})").remedy.find("select"),
+            std::string::npos);
   run(two, {R"({"do":"select","surfaces":["#285","#1044"]})"});
-  for (const char* json : {R"({"do":"points","which":[1],"by":[0,0,1]})", R"({"do":"weights","which":[1],"weight":2})",
-                           R"({"do":"knots","direction":"u","knots":[0,1]})"}) {
+  for (const char* json :
+       {R"({"do":"points","which":[1],"by":[0,0,1]})", R"({"do":"weights","which":[1],"weight":2})",
+        R"({"do":"knots","direction":"u","knots":[0,1]})"}) {
     EXPECT_NE(refusal(two, json).message().find("2 surfaces are selected"), std::string::npos);
   }
 }
@@ -134,11 +147,15 @@ TEST(WeightsCommand, PullTheSurfaceToThePointForGood) {
   const Points points = first(session).current->control_points();
   const auto opened = first(session).opened;
   const double before = at(*first(session).current, 0.45, 0.45)[2];
-  run(session, {R"({"do":"weights","which":[44],"weight":4})", R"({"do":"weights","rows_v":[4],"by":0.5})"});
+  run(session,
+      {R"({"do":"weights","which":[44],"weight":4})", R"({"do":"weights","rows_v":[4],"by":0.5})"});
   const SceneSurface& s = first(session);
   ASSERT_TRUE(s.current->rational());
   for (int k = 0; k < 100; ++k) {
-    EXPECT_EQ(s.current->weights()[static_cast<std::size_t>(k)], k == 44 ? 2 : k % 10 == 4 ? 0.5 : 1) << k;
+    EXPECT_EQ(s.current->weights()[static_cast<std::size_t>(k)], k == 44       ? 2
+                                                                 : k % 10 == 4 ? 0.5
+                                                                               : 1)
+        << k;
   }
   EXPECT_TRUE(same_bits(s.current->control_points(), points));
   EXPECT_GT(at(*s.current, 0.45, 0.45)[2], before);
@@ -147,7 +164,8 @@ TEST(WeightsCommand, PullTheSurfaceToThePointForGood) {
   EXPECT_EQ(*session.energy(), 0);
   EXPECT_EQ(session.moved_control_points(0), 10);
   expect_at_rest(session);
-  run(session, {R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"coarsen","tolerance":1e-9})"});
+  run(session,
+      {R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"coarsen","tolerance":1e-9})"});
   EXPECT_EQ(first(session).opened, opened);
   run(session, {testing::ball, R"({"do":"step","count":3})"});
   EXPECT_EQ(session.largest_displacement(0), session.state().steps.back().largest_displacement);
@@ -155,7 +173,8 @@ TEST(WeightsCommand, PullTheSurfaceToThePointForGood) {
 
 TEST(WeightsCommand, MakeAQuarterOfACylinderOfASheet) {
   Session session = fresh();
-  run(session, {R"({"do":"new","degree":[2,1],"net":[3,2],"points":[[1,0,0],[1,0,1],[1,1,0],[1,1,1],[0,1,0],[0,1,1]]})",
+  run(session, {R"({"do":"new","degree":[2,1],"net":[3,2],)"
+                R"("points":[[1,0,0],[1,0,1],[1,1,0],[1,1,1],[0,1,0],[0,1,1]]})",
                 R"({"do":"weights","rows_u":[1],"weight":0.70710678118654757})"});
   const Surface& s = *first(session).current;
   for (double a : {0., 0.1, 0.5, 0.8, 1.}) {
@@ -165,8 +184,10 @@ TEST(WeightsCommand, MakeAQuarterOfACylinderOfASheet) {
   // From the parabola before, at equal parameters.
   double largest = 0;
   for (int k = 0; k <= 100000; ++k) {
-    const double u = k / 1e5, a = (1 - u) * (1 - u), b = 2 * u * (1 - u), c = u * u, w = std::sqrt(0.5);
-    const double x = (a + b * w) / (a + b * w + c) - (a + b), y = (b * w + c) / (a + b * w + c) - (b + c);
+    const double u = k / 1e5, a = (1 - u) * (1 - u), b = 2 * u * (1 - u), c = u * u,
+                 w = std::sqrt(0.5);
+    const double x = (a + b * w) / (a + b * w + c) - (a + b),
+                 y = (b * w + c) / (a + b * w + c) - (b + c);
     largest = std::max(largest, std::hypot(x, y));
   }
   EXPECT_NEAR(session.largest_displacement(0), largest, 1e-9);
@@ -200,19 +221,21 @@ TEST(KnotsCommand, ChangeTheShapeForGoodAndAreSaved) {
   ASSERT_TRUE(saved) << saved.error().message();
   EXPECT_TRUE(same_bits(saved->model().find_surface("#285")->surface, *first(session).current));
   Session replay = open_sample();
-  for (const Command& c : session.journal()) ASSERT_TRUE(replay.execute(*parse_command(to_json(c))));
+  for (const Command& c : session.journal())
+    ASSERT_TRUE(replay.execute(*parse_command(to_json(c))));
   EXPECT_TRUE(same_state(replay.state(), session.state()));
 }
 
 TEST(KnotsCommand, KeepConstraintsWhereTheyLead) {
   Session session = fresh();
-  run(session, {R"({"do":"new","size":[10,10],"degree":[2,2],"net":[5,5]})", R"({"do":"edge","hold":"clamped"})",
-                R"({"do":"points","which":[12],"by":[0,0,1]})",
+  run(session, {R"({"do":"new","size":[10,10],"degree":[2,2],"net":[5,5]})",
+                R"({"do":"edge","hold":"clamped"})", R"({"do":"points","which":[12],"by":[0,0,1]})",
                 R"({"do":"knots","direction":"v","knots":[0,0,0,0.2,0.9,1,1,1]})"});
   expect_at_rest(session);
   run(session, {R"({"do":"symmetry","mirror":"u"})"});
   EXPECT_FALSE(session.state().surfaces.front().constraints.empty());
-  const Error e = refusal(session, R"({"do":"knots","direction":"u","knots":[0,0,0,0.2,0.9,1,1,1]})");
+  const Error e =
+      refusal(session, R"({"do":"knots","direction":"u","knots":[0,0,0,0.2,0.9,1,1,1]})");
   EXPECT_EQ(e.kind, ErrorKind::input) << "the mirror image would have other knots";
 }
 
@@ -244,13 +267,16 @@ TEST(BasisCommands, RefuseWithThePlace) {
   EXPECT_FALSE(first(session).current->rational());
   Session torn = fresh();
   run(torn, {R"({"do":"new","degree":[2,2],"net":[6,5]})"});
-  EXPECT_NE(refusal(torn, R"({"do":"knots","direction":"u","knots":[0,0,0,0.5,0.5,0.5,1,1,1]})").message().find("torn"),
+  EXPECT_NE(refusal(torn, R"({"do":"knots","direction":"u","knots":[0,0,0,0.5,0.5,0.5,1,1,1]})")
+                .message()
+                .find("torn"),
             std::string::npos);
 }
 
 TEST(BasisCommands, AndALimitExcludeEachOther) {
   Session session = on_sheet({R"({"do":"limit","distance":1})"});
-  EXPECT_NE(refusal(session, R"({"do":"weights","which":[44],"weight":2})").remedy.find("limit"), std::string::npos);
+  EXPECT_NE(refusal(session, R"({"do":"weights","which":[44],"weight":2})").remedy.find("limit"),
+            std::string::npos);
   run(session, {R"({"do":"limit"})", R"({"do":"weights","which":[44],"weight":2})"});
   EXPECT_EQ(refusal(session, R"({"do":"limit","distance":1})").where, "limit");
 }

@@ -18,7 +18,8 @@ using testing::run;
 const Tool& tool_of(const Session& session) { return session.state().tools.front(); }
 
 const std::vector<std::string> turned_box = {
-    R"({"do":"tool","name":"b","shape":"box","sizes":[2,1,0.5],"rounding":0.1,"axis":[1,1,1],"position":[5,5,2],"mode":"proximity","stiffness":50,"range":3,"plasticity":0.5})",
+    R"({"do":"tool","name":"b","shape":"box","sizes":[2,1,0.5],"rounding":0.1,"axis":[1,1,1],)"
+    R"("position":[5,5,2],"mode":"proximity","stiffness":50,"range":3,"plasticity":0.5})",
     R"({"do":"turn","tool":"b","axis":[1,1,1],"angle":40})"};
 
 TEST(EditTool, ChangesWhatItNamesAndNothingElse) {
@@ -38,7 +39,9 @@ TEST(EditTool, ChangesWhatItNamesAndNothingElse) {
       {R"("position":[1,2,3])",
        [](Tool& t) { t.shape = *t.shape.moved(t.shape.placement().rotation, Point(1, 2, 3)); }},
       {R"("orientation":[0,0,0,2])",
-       [](Tool& t) { t.shape = *t.shape.moved(Eigen::Quaterniond::Identity(), t.shape.placement().position); }},
+       [](Tool& t) {
+         t.shape = *t.shape.moved(Eigen::Quaterniond::Identity(), t.shape.placement().position);
+       }},
       {R"("stiffness":70)", [](Tool& t) { t.stiffness = 70; }},
       {R"("range":1)", [](Tool& t) { t.range = 1; }},
       {R"("mode":"collision")", [](Tool& t) { t.mode = ToolMode::collision; }},
@@ -73,8 +76,9 @@ TEST(EditTool, AnotherAxisKeepsTheTurnAboutIt) {
 }
 
 TEST(EditTool, AnotherShapeKeepsTheMeasuresThatBothHave) {
-  Session session = on_sheet({R"({"do":"tool","shape":"torus","radius":2,"minor":0.7,"position":[5,5,3]})",
-                              R"({"do":"edit_tool","shape":"supertoroid","exponents":[0.5,2]})"});
+  Session session =
+      on_sheet({R"({"do":"tool","shape":"torus","radius":2,"minor":0.7,"position":[5,5,3]})",
+                R"({"do":"edit_tool","shape":"supertoroid","exponents":[0.5,2]})"});
   EXPECT_EQ(tool_of(session).shape.shape(), Shape(SupertoroidShape{2, {0.7, 0.7}, 0.5, 2}));
   run(session, {R"({"do":"edit_tool","shape":"cylinder"})"});
   EXPECT_EQ(tool_of(session).shape.shape(), Shape(CylinderShape{2, 2}));
@@ -93,14 +97,18 @@ TEST(EditTool, RefusesWhatTheShapeOrTheSceneDoesNotHave) {
   EXPECT_EQ(refusal(session, R"({"do":"edit_tool","shape":"potato"})").where, "shape");
   EXPECT_EQ(refusal(session, R"({"do":"edit_tool","sizes":[1,0,1]})").where, "sizes");
   EXPECT_EQ(refusal(session, R"({"do":"edit_tool","orientation":[0,0,0,0]})").where, "orientation");
-  EXPECT_EQ(refusal(session, R"({"do":"edit_tool","orientation":[0,0,0,1],"axis":[1,0,0]})").where, "orientation");
+  EXPECT_EQ(refusal(session, R"({"do":"edit_tool","orientation":[0,0,0,1],"axis":[1,0,0]})").where,
+            "orientation");
 }
 
 TEST(Tool, TakesAnOrientation) {
   const double half = std::sqrt(0.5);
-  Session session = on_sheet({fmt::format(
-      R"({{"do":"tool","shape":"box","sizes":[1,2,3],"orientation":[0,0,{0},{0}],"position":[5,5,5]}})", half)});
-  EXPECT_LE((tool_of(session).shape.placement().rotation * Point::UnitX() - Point::UnitY()).norm(), 1e-15);
+  Session session = on_sheet(
+      {fmt::format(R"({{"do":"tool","shape":"box","sizes":[1,2,3],"orientation":[0,0,{0},{0}],)"
+                   R"("position":[5,5,5]}})",
+                   half)});
+  EXPECT_LE((tool_of(session).shape.placement().rotation * Point::UnitX() - Point::UnitY()).norm(),
+            1e-15);
 }
 
 TEST(Tool, FieldsThatTheShapeDoesNotHaveAreRefused) {
@@ -108,12 +116,14 @@ TEST(Tool, FieldsThatTheShapeDoesNotHaveAreRefused) {
     const char *shape, *field, *value, *has;
   };
   for (const auto& [shape, field, value, has] :
-       {Case{"supertoroid", "sizes", "[1,1,1]", "radius, minor, exponents"}, Case{"sphere", "minor", "1", "radius"},
-        Case{"plane", "radius", "1", ""}, Case{"capsule", "rounding", "0.1", "radius, height"},
+       {Case{"supertoroid", "sizes", "[1,1,1]", "radius, minor, exponents"},
+        Case{"sphere", "minor", "1", "radius"}, Case{"plane", "radius", "1", ""},
+        Case{"capsule", "rounding", "0.1", "radius, height"},
         Case{"box", "surface", "\"#1\"", "radius, rounding, sizes"}}) {
     Session session = on_sheet();
-    const Error error = refusal(
-        session, fmt::format(R"({{"do":"tool","shape":"{}","position":[5,5,9],"{}":{}}})", shape, field, value));
+    const Error error =
+        refusal(session, fmt::format(R"({{"do":"tool","shape":"{}","position":[5,5,9],"{}":{}}})",
+                                     shape, field, value));
     EXPECT_EQ(error.where, field);
     EXPECT_NE(error.what.find(shape), std::string::npos) << error.what;
     EXPECT_NE(error.remedy.find(has), std::string::npos) << error.remedy;
@@ -122,12 +132,15 @@ TEST(Tool, FieldsThatTheShapeDoesNotHaveAreRefused) {
 
 TEST(New, FieldsThatTheShapeDoesNotHaveAreRefused) {
   Session session = fresh();
-  EXPECT_EQ(refusal(session, R"({"do":"new","shape":"sphere","radius":2,"height":3})").where, "height");
-  EXPECT_EQ(refusal(session, R"({"do":"new","shape":"sphere","radius":2,"size":[1,1]})").where, "size");
+  EXPECT_EQ(refusal(session, R"({"do":"new","shape":"sphere","radius":2,"height":3})").where,
+            "height");
+  EXPECT_EQ(refusal(session, R"({"do":"new","shape":"sphere","radius":2,"size":[1,1]})").where,
+            "size");
 }
 
 const char* const painted =
-    R"({"do":"material","alpha":[4,0,4],"beta":[0.5,0.5,0.5],"region":[[0.2,0.6],[0.2,0.6]],"falloff":0.2})";
+    R"({"do":"material","alpha":[4,0,4],"beta":[0.5,0.5,0.5],"region":[[0.2,0.6],[0.2,0.6]],)"
+    R"("falloff":0.2})";
 
 TEST(Material, MassAndDampingLeaveStretchAndBendAsTheyAre) {
   Session session = on_sheet({painted});
@@ -147,7 +160,8 @@ TEST(Material, StretchLeavesBendAndBendLeavesStretch) {
     run(session, {fmt::format(R"({{"do":"material","alpha":[2,0,2]{}}})", region)});
     EXPECT_EQ(first(session).material.beta, before.beta);
     EXPECT_NE(first(session).material.alpha, before.alpha);
-    run(session, {R"({"do":"undo"})", fmt::format(R"({{"do":"material","beta":[1,1,1]{}}})", region)});
+    run(session,
+        {R"({"do":"undo"})", fmt::format(R"({{"do":"material","beta":[1,1,1]{}}})", region)});
     EXPECT_EQ(first(session).material.alpha, before.alpha);
     EXPECT_NE(first(session).material.beta, before.beta);
   }
@@ -160,8 +174,9 @@ double value(const Coefficient<2>& coefficient, double u, double v) {
 }
 
 TEST(Material, ARegionKeepsRegionsPaintedBefore) {
-  Session session =
-      on_sheet({painted, R"({"do":"material","alpha":[2,0,2],"region":[[0.4,0.9],[0.1,0.5]],"falloff":0.2})"});
+  Session session = on_sheet(
+      {painted,
+       R"({"do":"material","alpha":[2,0,2],"region":[[0.4,0.9],[0.1,0.5]],"falloff":0.2})"});
   const MaterialFieldOf<2>& material = first(session).material;
   EXPECT_NEAR(value(material.alpha[0], 0.2, 0.6), 4, 1e-2);
   EXPECT_NEAR(value(material.alpha[0], 0.05, 0.9), 1, 1e-2);
@@ -181,9 +196,10 @@ TEST(Material, ThatNamesNothingIsRefused) {
 TEST(Material, AResetIsOfAllOfItAndComesFirst) {
   const SceneSurface fresh_one = first(on_sheet());
   for (const char* const more : {"", R"(,"mass":3,"beta":[1,1,1])"}) {
-    Session session = on_sheet({painted, R"({"do":"material","preset":"sheet metal","mass":7,"damping":2})",
-                                R"({"do":"material","model":"shell","young":210,"thickness":1})",
-                                R"({"do":"material","coefficient":"alpha11","formula":"1 + s"})"});
+    Session session =
+        on_sheet({painted, R"({"do":"material","preset":"sheet metal","mass":7,"damping":2})",
+                  R"({"do":"material","model":"shell","young":210,"thickness":1})",
+                  R"({"do":"material","coefficient":"alpha11","formula":"1 + s"})"});
     run(session, {fmt::format(R"({{"do":"material","reset":true{}}})", more)});
     MaterialFieldOf<2> wanted = fresh_one.material;
     if (*more != 0) {
@@ -198,9 +214,11 @@ TEST(Material, AResetIsOfAllOfItAndComesFirst) {
 
 TEST(Material, ACurveIsResetToo) {
   Session session = fresh(), wanted = fresh();
-  for (Session* const s : {&session, &wanted}) run(*s, {R"({"do":"new","shape":"curve","form":"helix"})"});
-  run(session, {R"({"do":"material","alpha":[3],"beta":[2],"mass":4,"damping":1,"model":"fundamental"})",
-                R"({"do":"material","reset":true})"});
+  for (Session* const s : {&session, &wanted})
+    run(*s, {R"({"do":"new","shape":"curve","form":"helix"})"});
+  run(session,
+      {R"({"do":"material","alpha":[3],"beta":[2],"mass":4,"damping":1,"model":"fundamental"})",
+       R"({"do":"material","reset":true})"});
   const auto& curve = std::get<SceneCurve>(session.state().bodies.at(0));
   const auto& other = std::get<SceneCurve>(wanted.state().bodies.at(0));
   EXPECT_EQ(curve.material, other.material);
@@ -217,7 +235,8 @@ TEST(Release, FreesWhatItNames) {
     run(session, {fmt::format(R"({{"do":"release"{}}})", what)});
     const SceneSurface& s = first(session);
     std::string text = fmt::format("{} {}", s.hold_rows, s.pins.size());
-    for (const KeptConstraint& kept : s.constraints) text += fmt::format(" {}", kept.constraint.index());
+    for (const KeptConstraint& kept : s.constraints)
+      text += fmt::format(" {}", kept.constraint.index());
     return text;
   };
   EXPECT_EQ(left(R"(,"what":["hold"])"), "0 1 0 0 0 0 1 2 3 5");

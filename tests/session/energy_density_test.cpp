@@ -15,7 +15,8 @@ using testing::fresh;
 using testing::on_sheet;
 using testing::run;
 
-/// ∫ density over the scaled domain, by Gauss points in the cells between all knots and `breaks` (fractions).
+/// ∫ density over the scaled domain, by Gauss points in the cells between all knots and `breaks`
+/// (fractions).
 double integral(const Session& session, int points, const std::vector<double>& breaks = {}) {
   const SceneSurface& s = first(session);
   const auto rule = gauss_legendre(points);
@@ -51,8 +52,8 @@ double integral(const Session& session, int points, const std::vector<double>& b
 }
 
 TEST(EnergyDensity, IntegratesToTheEnergyThatStepsReport) {
-  Session session =
-      on_sheet({R"({"do":"material","alpha":[2,0.7,1],"beta":[0.01,0.03,0.02]})", ball, R"({"do":"step","count":3})"});
+  Session session = on_sheet({R"({"do":"material","alpha":[2,0.7,1],"beta":[0.01,0.03,0.02]})",
+                              ball, R"({"do":"step","count":3})"});
   const double energy = *session.energy();
   ASSERT_GT(energy, 0);
   EXPECT_NEAR(session.state().steps.back().energy, energy, 1e-12 * energy);
@@ -62,22 +63,24 @@ TEST(EnergyDensity, IntegratesToTheEnergyThatStepsReport) {
 }
 
 TEST(EnergyDensity, KnowsVaryingMaterialsRawUnitsAndTheShapeItself) {
-  Session varying =
-      on_sheet({R"({"do":"material","coefficient":"alpha11","counts":[3,3],"samples":[1,2,3,2,5,1,4,1,2]})", ball,
-                R"({"do":"step","count":3})"});
+  Session varying = on_sheet(
+      {R"({"do":"material","coefficient":"alpha11","counts":[3,3],"samples":[1,2,3,2,5,1,4,1,2]})",
+       ball, R"({"do":"step","count":3})"});
   EXPECT_NEAR(integral(varying, 5, {0.5}), *varying.energy(), 1e-11 * *varying.energy());
   Session raw = fresh();
-  run(raw, {R"({"do":"scaling","mode":"raw"})", R"({"do":"new","size":[30,10],"net":[8,9]})", R"({"do":"edge"})",
-            R"({"do":"load","vector":[0,0,1]})", R"({"do":"step","count":3})"});
+  run(raw, {R"({"do":"scaling","mode":"raw"})", R"({"do":"new","size":[30,10],"net":[8,9]})",
+            R"({"do":"edge"})", R"({"do":"load","vector":[0,0,1]})", R"({"do":"step","count":3})"});
   EXPECT_NEAR(integral(raw, 4), *raw.energy(), 1e-11 * *raw.energy());
-  Session itself = on_sheet({R"({"do":"points","which":[44],"by":[0,0,3]})", R"({"do":"rest","mode":"none"})"});
+  Session itself =
+      on_sheet({R"({"do":"points","which":[44],"by":[0,0,3]})", R"({"do":"rest","mode":"none"})"});
   EXPECT_NEAR(integral(itself, 4), *itself.energy(), 1e-11 * *itself.energy());
 }
 
 TEST(EnergyDensity, OfARationalSurfaceToQuadratureAccuracy) {
   Session session = fresh();
-  run(session, {R"({"do":"new","shape":"cylinder","radius":3,"height":5})", R"({"do":"hold","rows":1})",
-                R"({"do":"tool","radius":1,"position":[3.5,0,2.5]})", R"({"do":"step","count":3})"});
+  run(session,
+      {R"({"do":"new","shape":"cylinder","radius":3,"height":5})", R"({"do":"hold","rows":1})",
+       R"({"do":"tool","radius":1,"position":[3.5,0,2.5]})", R"({"do":"step","count":3})"});
   ASSERT_GT(*session.energy(), 0);
   EXPECT_NEAR(integral(session, 16), *session.energy(), 1e-8 * *session.energy());
 }
@@ -96,7 +99,8 @@ TEST(HeldPoints, CoverEveryWayOfHolding) {
   EXPECT_EQ(count(held({R"({"do":"hold","rows":2})"}), 1), 100 - 36);
   EXPECT_EQ(held({R"({"do":"pin","control_points":[[3,4]]})"})[34], 1);
   EXPECT_EQ(count(held({R"({"do":"edge","which":"u0","hold":"clamped"})"}), 1), 20);
-  EXPECT_EQ(count(held({R"({"do":"freeze","region":[[0.5,0.5],[0.5,0.5]]})"}), 1), 16) << "one span of degree 3";
+  EXPECT_EQ(count(held({R"({"do":"freeze","region":[[0.5,0.5],[0.5,0.5]]})"}), 1), 16)
+      << "one span of degree 3";
   EXPECT_EQ(count(held({R"({"do":"pin","at":[0.5,0.5]})"}), 2), 16);
   const auto line = held({R"({"do":"keep","u":0.49})"});
   EXPECT_EQ(count(line, 2), 40);

@@ -12,7 +12,8 @@ namespace knead::testing {
 namespace {
 
 const std::string soft = R"({"do":"material","preset":"clay"})";
-const std::string small_ball = R"({"do":"tool","name":"ball","radius":1.2,"position":[5,5,0.6],"plasticity":1})";
+const std::string small_ball =
+    R"({"do":"tool","name":"ball","radius":1.2,"position":[5,5,0.6],"plasticity":1})";
 const std::string stroke = R"({"do":"stroke","tool":"ball","path":[[5,5,0.6],[6,5,0.6]]})";
 const std::string lifted_point = R"({"do":"points","which":[44],"by":[0,0,0.9]})";
 const std::string heavier_point = R"({"do":"weights","which":[44],"weight":2})";
@@ -38,10 +39,12 @@ TEST_P(RefusedSheet, HasACodeAndWhatHelpsCanBeDone) {
     EXPECT_TRUE(done) << done.error().message();
   }
   const auto json = nlohmann::json::parse(error_json(error)).at("error");
-  EXPECT_EQ(json.at("code"), std::string(type_of<ErrorCode>().choice(static_cast<int>(code))->name));
+  EXPECT_EQ(json.at("code"),
+            std::string(type_of<ErrorCode>().choice(static_cast<int>(code))->name));
   EXPECT_EQ(json.at("fixes").size(), fixes_for(*error.diagnostic).size());
   for (const auto& fix : json.at("fixes")) {
-    for (const auto& part : fix.at("commands")) EXPECT_TRUE(parse_command(part.dump())) << part.dump();
+    for (const auto& part : fix.at("commands"))
+      EXPECT_TRUE(parse_command(part.dump())) << part.dump();
   }
 }
 
@@ -50,36 +53,50 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Refused{ErrorCode::out_of_range, {}, R"({"do":"step","count":-1})"},
         Refused{ErrorCode::nothing_held, {}, R"({"do":"evolve","mode":"static"})"},
-        Refused{ErrorCode::nothing_free, {soft, R"({"do":"freeze","region":[[0,1],[0,1]]})", small_ball}, stroke},
-        Refused{ErrorCode::nothing_free_in_rows, {soft, R"({"do":"hold","rows":5})", small_ball}, stroke},
+        Refused{ErrorCode::nothing_free,
+                {soft, R"({"do":"freeze","region":[[0,1],[0,1]]})", small_ball},
+                stroke},
+        Refused{ErrorCode::nothing_free_in_rows,
+                {soft, R"({"do":"hold","rows":5})", small_ball},
+                stroke},
         Refused{ErrorCode::nothing_free_at_brush,
                 {R"({"do":"mask","change":"fill"})"},
                 R"({"do":"brush","kind":"push","radius":3,"path":[[0.5,0.5]]})"},
-        Refused{ErrorCode::brush_too_small, {}, R"({"do":"brush","kind":"push","radius":0.01,"path":[[0.51,0.52]]})"},
-        Refused{ErrorCode::point_frozen, {R"({"do":"freeze","region":[[0,1],[0,1]]})"}, lifted_point},
+        Refused{ErrorCode::brush_too_small,
+                {},
+                R"({"do":"brush","kind":"push","radius":0.01,"path":[[0.51,0.52]]})"},
+        Refused{
+            ErrorCode::point_frozen, {R"({"do":"freeze","region":[[0,1],[0,1]]})"}, lifted_point},
         Refused{ErrorCode::pins_by_number,
                 {R"({"do":"pin","control_points":[[4,4]]})"},
                 R"({"do":"refine","region":[[0,1],[0,1]]})"},
         Refused{ErrorCode::constraint_contradicts,
                 {R"({"do":"pin","at":[0.5,0.5],"to":[5,5,1]})"},
                 R"({"do":"pin","at":[0.5,0.5],"to":[5,5,2]})"},
-        Refused{ErrorCode::scaling_is_raw, {soft, R"({"do":"scaling","mode":"raw"})", small_ball}, stroke},
+        Refused{ErrorCode::scaling_is_raw,
+                {soft, R"({"do":"scaling","mode":"raw"})", small_ball},
+                stroke},
         Refused{ErrorCode::beyond_limit, {R"({"do":"limit","distance":0.1})"}, lifted_point},
         Refused{ErrorCode::limit_keeps_basis, {R"({"do":"limit","distance":0.1})"}, heavier_point},
-        Refused{ErrorCode::limit_needs_opened_basis, {heavier_point}, R"({"do":"limit","distance":0.1})"},
+        Refused{ErrorCode::limit_needs_opened_basis,
+                {heavier_point},
+                R"({"do":"limit","distance":0.1})"},
         Refused{ErrorCode::tool_too_small,
                 {R"({"do":"hold"})", R"({"do":"tool","radius":0.0001,"at":[0.5,0.5]})"},
                 R"({"do":"step"})"},
         Refused{ErrorCode::step_runs_away,
-                {R"({"do":"load","vector":[0,0,1e9]})", R"({"do":"evolve","mode":"acm","lambda":1e-6})"},
+                {R"({"do":"load","vector":[0,0,1e9]})",
+                 R"({"do":"evolve","mode":"acm","lambda":1e-6})"},
                 R"({"do":"step"})"},
         Refused{ErrorCode::shell_needed, {R"({"do":"hold"})"}, R"({"do":"buckling"})"},
         Refused{ErrorCode::rest_shape_needed,
-                {R"({"do":"material","model":"shell","young":1e3,"thickness":0.1})", R"({"do":"hold"})",
-                 R"({"do":"rest","mode":"none"})"},
+                {R"({"do":"material","model":"shell","young":1e3,"thickness":0.1})",
+                 R"({"do":"hold"})", R"({"do":"rest","mode":"none"})"},
                 R"({"do":"step"})"},
         Refused{ErrorCode::no_body, {}, R"({"do":"select","body":"#9"})"},
-        Refused{ErrorCode::several_selected, {new_sheet, R"({"do":"select","surfaces":["#1","#2"]})"}, lifted_point}),
+        Refused{ErrorCode::several_selected,
+                {new_sheet, R"({"do":"select","surfaces":["#1","#2"]})"},
+                lifted_point}),
     [](const auto& param) {
       return std::string(type_of<ErrorCode>().choice(static_cast<int>(param.param.code))->name);
     });

@@ -18,41 +18,58 @@ using testing::run;
 
 const std::string sheet = R"({"do":"new","size":[1,1],"net":[12,12]})";
 
-double highest(const Session& session) { return first(session).current->control_points().col(2).maxCoeff(); }
+double highest(const Session& session) {
+  return first(session).current->control_points().col(2).maxCoeff();
+}
 
 TEST(Command, ALoadBySamplesIsTheLoadThatTheySay) {
   // Constant samples are the constant load; linear ones lift one side more.
   Session constant = fresh(), sampled = fresh(), slanted = fresh();
-  const std::string edge = R"({"do":"edge","hold":"position"})", solve = R"({"do":"evolve","mode":"static"})";
+  const std::string edge = R"({"do":"edge","hold":"position"})",
+                    solve = R"({"do":"evolve","mode":"static"})";
   run(constant, {sheet, edge, R"({"do":"load","vector":[0,0,0.01]})", solve});
   run(sampled,
-      {sheet, edge, R"({"do":"load","counts":[2,2],"samples":[[0,0,0.01],[0,0,0.01],[0,0,0.01],[0,0,0.01]]})", solve});
+      {sheet, edge,
+       R"({"do":"load","counts":[2,2],"samples":[[0,0,0.01],[0,0,0.01],[0,0,0.01],[0,0,0.01]]})",
+       solve});
   run(slanted,
-      {sheet, edge, R"({"do":"load","counts":[2,2],"samples":[[0,0,0],[0,0,0],[0,0,0.02],[0,0,0.02]]})", solve});
-  const Points a = first(constant).current->control_points(), b = first(sampled).current->control_points(),
+      {sheet, edge,
+       R"({"do":"load","counts":[2,2],"samples":[[0,0,0],[0,0,0],[0,0,0.02],[0,0,0.02]]})", solve});
+  const Points a = first(constant).current->control_points(),
+               b = first(sampled).current->control_points(),
                c = first(slanted).current->control_points();
   EXPECT_GT(highest(constant), 1e-4);
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_GT(c(8 * 12 + 6, 2), 1.2 * c(3 * 12 + 6, 2));
-  EXPECT_EQ(refusal(sampled, R"({"do":"load","counts":[2,2],"samples":[[0,0,1]]})").kind, ErrorKind::input);
-  EXPECT_EQ(refusal(sampled, R"({"do":"load","counts":[1,2],"samples":[[0,0,1],[0,0,1]]})").kind, ErrorKind::input);
+  EXPECT_EQ(refusal(sampled, R"({"do":"load","counts":[2,2],"samples":[[0,0,1]]})").kind,
+            ErrorKind::input);
+  EXPECT_EQ(refusal(sampled, R"({"do":"load","counts":[1,2],"samples":[[0,0,1],[0,0,1]]})").kind,
+            ErrorKind::input);
 }
 
 TEST(Command, ACoefficientBySamplesVariesAsTheySay) {
   Session uniform = fresh(), stiff = fresh();
-  const std::vector<std::string> rest = {R"({"do":"edge","hold":"position"})", R"({"do":"load","vector":[0,0,0.01]})",
+  const std::vector<std::string> rest = {R"({"do":"edge","hold":"position"})",
+                                         R"({"do":"load","vector":[0,0,0.01]})",
                                          R"({"do":"evolve","mode":"static"})"};
   run(uniform, {sheet});
   run(uniform, rest);
-  run(stiff, {sheet, R"({"do":"material","coefficient":"alpha11","counts":[2,2],"samples":[1,1,50,50]})"});
+  run(stiff,
+      {sheet, R"({"do":"material","coefficient":"alpha11","counts":[2,2],"samples":[1,1,50,50]})"});
   run(stiff, rest);
-  const Points &a = first(uniform).current->control_points(), &b = first(stiff).current->control_points();
+  const Points &a = first(uniform).current->control_points(),
+               &b = first(stiff).current->control_points();
   EXPECT_NEAR(a(8 * 12 + 6, 2), a(3 * 12 + 6, 2), 1e-12);
   EXPECT_LT(b(8 * 12 + 6, 2), 0.7 * b(3 * 12 + 6, 2));
-  EXPECT_EQ(refusal(stiff, R"({"do":"material","coefficient":"gamma","counts":[2,2],"samples":[1,1,1,1]})").where,
+  EXPECT_EQ(refusal(stiff,
+                    R"({"do":"material","coefficient":"gamma","counts":[2,2],"samples":[1,1,1,1]})")
+                .where,
             "coefficient");
-  EXPECT_EQ(refusal(stiff, R"({"do":"material","coefficient":"beta11","counts":[2,2],"samples":[1,1,-1,1]})").kind,
-            ErrorKind::input);
+  EXPECT_EQ(
+      refusal(stiff,
+              R"({"do":"material","coefficient":"beta11","counts":[2,2],"samples":[1,1,-1,1]})")
+          .kind,
+      ErrorKind::input);
 }
 
 /// What a coefficient is at fractions of the domain.
@@ -63,14 +80,17 @@ double coefficient_at(const Coefficient<2>& c, double s, double t) {
   return values ? values->front() : 0;
 }
 
-std::string by_formula(const std::string& coefficient, const std::string& formula, const std::string& more = "") {
-  return R"({"do":"material","coefficient":")" + coefficient + R"(","formula":")" + formula + "\"" + more + "}";
+std::string by_formula(const std::string& coefficient, const std::string& formula,
+                       const std::string& more = "") {
+  return R"({"do":"material","coefficient":")" + coefficient + R"(","formula":")" + formula + "\"" +
+         more + "}";
 }
 
 TEST(Command, ACoefficientByFormulaIsWhatItSaysToTheTolerance) {
   Session session = fresh();
-  run(session, {sheet, by_formula("beta11", "1+4*exp(-40*((s-.5)^2+(t-.5)^2))", R"(,"tolerance":1e-6)"),
-                by_formula("alpha22", "1 + x^2 + 2*y")});
+  run(session,
+      {sheet, by_formula("beta11", "1+4*exp(-40*((s-.5)^2+(t-.5)^2))", R"(,"tolerance":1e-6)"),
+       by_formula("alpha22", "1 + x^2 + 2*y")});
   const MaterialFieldOf<2>& material = first(session).material;
   const Surface& shape = *first(session).current;
   double beta = 0, alpha = 0;
@@ -82,30 +102,34 @@ TEST(Command, ACoefficientByFormulaIsWhatItSaysToTheTolerance) {
       const auto place = evaluate(shape, Parameters<2>{{s, t}});
       ASSERT_TRUE(place);
       const double x = place->points()(0, 0), y = place->points()(0, 1);
-      alpha = std::max(alpha, std::abs(coefficient_at(material.alpha[2], s, t) - (1 + x * x + 2 * y)));
+      alpha =
+          std::max(alpha, std::abs(coefficient_at(material.alpha[2], s, t) - (1 + x * x + 2 * y)));
     }
   }
   EXPECT_LE(beta, 1e-6);
   EXPECT_LE(alpha, 4e-6);  // 1e-6 of the largest value, 4
   EXPECT_EQ(refusal(session, by_formula("beta11", "1 +")).where, "formula: character 4");
-  EXPECT_EQ(refusal(session, by_formula("beta11", "s - 0.5")).what, "the formula is -0.5 at s = 0, t = 0");
+  EXPECT_EQ(refusal(session, by_formula("beta11", "s - 0.5")).what,
+            "the formula is -0.5 at s = 0, t = 0");
   EXPECT_EQ(refusal(session, by_formula("beta11", "1/(s - 0.5)^2")).kind, ErrorKind::input);
   EXPECT_EQ(refusal(session, R"({"do":"material","formula":"s"})").where, "coefficient");
   EXPECT_EQ(refusal(session, by_formula("mass", "s", R"(,"tolerance":0)")).where, "tolerance");
-  EXPECT_EQ(refusal(session, R"({"do":"material","alpha":[1,0,1],"tolerance":1})").where, "tolerance");
+  EXPECT_EQ(refusal(session, R"({"do":"material","alpha":[1,0,1],"tolerance":1})").where,
+            "tolerance");
   run(session, {by_formula("alpha12", "-0.5*s")});  // which may be negative
 }
 
 TEST(Command, ALoadByFormulaIsTheLoadThatItSays) {
-  const std::string edge = R"({"do":"edge","hold":"position"})", solve = R"({"do":"evolve","mode":"static"})";
+  const std::string edge = R"({"do":"edge","hold":"position"})",
+                    solve = R"({"do":"evolve","mode":"static"})";
   const auto shape_under = [&](const std::string& load) {
     Session session = fresh();
     run(session, {sheet, edge, load, solve});
     return Points(first(session).current->control_points());
   };
   // A linear load is the same by samples and by formula, of fractions and of places.
-  const Points samples =
-      shape_under(R"({"do":"load","counts":[2,2],"samples":[[0,0,0],[0,0,0],[0,0,0.02],[0,0,0.02]]})");
+  const Points samples = shape_under(
+      R"({"do":"load","counts":[2,2],"samples":[[0,0,0],[0,0,0],[0,0,0.02],[0,0,0.02]]})");
   for (const std::string formula : {"0.02*s", "0.02*x"}) {
     const Points same = shape_under(R"({"do":"load","formula":["0","0",")" + formula + "\"]}");
     EXPECT_GT(same.col(2).maxCoeff(), 1e-4);
@@ -115,16 +139,21 @@ TEST(Command, ALoadByFormulaIsTheLoadThatItSays) {
   std::string fine;
   for (int k = 0; k < 201; ++k) {
     const double force = 0.01 + 0.02 * std::sin(std::numbers::pi * k / 200);
-    for (int side = 0; side < 2; ++side) fine += fmt::format("{}[0,0,{:.17g}]", fine.empty() ? "" : ",", force);
+    for (int side = 0; side < 2; ++side)
+      fine += fmt::format("{}[0,0,{:.17g}]", fine.empty() ? "" : ",", force);
   }
-  const Points by_samples = shape_under(R"({"do":"load","counts":[201,2],"samples":[)" + fine + "]}");
+  const Points by_samples =
+      shape_under(R"({"do":"load","counts":[201,2],"samples":[)" + fine + "]}");
   const Points both =
-      shape_under(R"({"do":"load","vector":[0,0,0.01],"formula":["0","0","0.02*sin(pi*s) + 0"],"tolerance":1e-9})");
-  EXPECT_LT((both - by_samples).cwiseAbs().maxCoeff(), 5e-5 * both.col(2).maxCoeff());  // h² of the samples
+      shape_under(R"({"do":"load","vector":[0,0,0.01],"formula":["0","0","0.02*sin(pi*s) + )"
+                  R"(0"],"tolerance":1e-9})");
+  EXPECT_LT((both - by_samples).cwiseAbs().maxCoeff(),
+            5e-5 * both.col(2).maxCoeff());  // h² of the samples
   Session session = fresh();
   run(session, {sheet});
   EXPECT_EQ(refusal(session, R"({"do":"load","formula":["0","0"]})").kind, ErrorKind::input);
-  EXPECT_EQ(refusal(session, R"({"do":"load","formula":["0","y +","0"]})").where, "component 1: formula: character 4");
+  EXPECT_EQ(refusal(session, R"({"do":"load","formula":["0","y +","0"]})").where,
+            "component 1: formula: character 4");
   EXPECT_EQ(refusal(session, R"({"do":"load","tolerance":1e-3})").where, "tolerance");
 }
 
@@ -137,9 +166,11 @@ TEST(Command, MirrorSymmetryMirrorsToolsAndForces) {
   run(mirrored, {sheet, hold, R"({"do":"symmetry","mirror":"u"})", left,
                  R"({"do":"force","at":[0.25,0.25],"to":[0.25,0.25,0.1],"strength":0.1})", step});
   run(both,
-      {sheet, hold, left, right, R"({"do":"force","name":"a","at":[0.25,0.25],"to":[0.25,0.25,0.1],"strength":0.1})",
+      {sheet, hold, left, right,
+       R"({"do":"force","name":"a","at":[0.25,0.25],"to":[0.25,0.25,0.1],"strength":0.1})",
        R"({"do":"force","name":"b","at":[0.75,0.25],"to":[0.75,0.25,0.1],"strength":0.1})", step});
-  const Points &a = first(mirrored).current->control_points(), &b = first(both).current->control_points();
+  const Points &a = first(mirrored).current->control_points(),
+               &b = first(both).current->control_points();
   EXPECT_LT(a.col(2).minCoeff(), -0.01);
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-8);
 }
@@ -151,9 +182,11 @@ TEST(Command, AForceIsMirroredAtTheSurfaceItWasMadeFor) {
   Session alone = fresh(), both = fresh();
   run(alone, {beside, R"({"do":"symmetry","mirror":"u"})", force, step});
   run(both, {R"({"do":"new","net":[7,7]})", beside, R"({"do":"select","surface":"#2"})",
-             R"({"do":"symmetry","mirror":"u"})", force, R"({"do":"select","surfaces":["#1","#2"]})", step});
+             R"({"do":"symmetry","mirror":"u"})", force,
+             R"({"do":"select","surfaces":["#1","#2"]})", step});
   EXPECT_EQ(both.largest_displacement(0), 0);
-  const Points &a = first(alone).current->control_points(), &b = both.state().surfaces[1].current->control_points();
+  const Points &a = first(alone).current->control_points(),
+               &b = both.state().surfaces[1].current->control_points();
   EXPECT_GT(a.col(2).minCoeff(), 0.9);
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-9);
   const Points& rest = both.state().surfaces[1].rest->control_points();
@@ -166,15 +199,17 @@ TEST(Command, AForceIsMirroredAtTheSurfaceItWasMadeFor) {
 
 TEST(Command, TheAnalyticRouteIsCloseToGauss) {
   Session gauss = fresh(), analytic = fresh();
-  const std::vector<std::string> press = {R"({"do":"edge","hold":"position"})",
-                                          R"({"do":"tool","radius":0.3,"position":[0.5,0.47,0.25],"stiffness":50})"};
+  const std::vector<std::string> press = {
+      R"({"do":"edge","hold":"position"})",
+      R"({"do":"tool","radius":0.3,"position":[0.5,0.47,0.25],"stiffness":50})"};
   for (auto* session : {&gauss, &analytic}) {
     run(*session, {sheet});
     run(*session, press);
   }
   run(gauss, {R"({"do":"evolve","mode":"static"})"});
   run(analytic, {R"({"do":"evolve","mode":"static","route":"analytic"})"});
-  const Points &a = first(gauss).current->control_points(), &b = first(analytic).current->control_points();
+  const Points &a = first(gauss).current->control_points(),
+               &b = first(analytic).current->control_points();
   EXPECT_LT(a.col(2).minCoeff(), -0.005);
   EXPECT_GT((a - b).cwiseAbs().maxCoeff(), 0);
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 0.2 * -a.col(2).minCoeff());
@@ -184,7 +219,9 @@ TEST(Command, ALatticeCarriesTheSurfaceAlongAsOneStepOfUndo) {
   Session session = fresh();
   run(session, {sheet, R"({"do":"tool","radius":0.25,"position":[0.5,0.5,0.3]})"});
   const Points before = first(session).current->control_points();
-  run(session, {R"({"do":"lattice","net":[6,6,4],"degree":[2,2,2],"margin":0.1,"steps":4,"hold":["u0","u1"]})"});
+  run(session,
+      {R"({"do":"lattice","net":[6,6,4],"degree":[2,2,2],"margin":0.1,"steps":4,"hold":["u0",)"
+       R"("u1"]})"});
   const Points after = first(session).current->control_points();
   EXPECT_LT(after.col(2).minCoeff(), -0.01);
   EXPECT_EQ(first(session).rest, first(session).current);
@@ -209,11 +246,15 @@ TEST(Command, AControlPointOfALatticeIsMovedByHandAndTheSurfaceFollows) {
   EXPECT_EQ(first(session).rest, first(session).current);
   run(session, {R"({"do":"undo"})"});
   // One point, twice named: x moves by N_i(u) N_j(v) N_k(w) times the move.
-  run(session, {R"({"do":"lattice","net":[4,4,4],"degree":[3,3,3],"margin":0.25,"which":[21,21],"by":[0,0,1]})"});
+  run(session, {R"({"do":"lattice","net":[4,4,4],"degree":[3,3,3],"margin":0.25,"which":[21,21],)"
+                R"("by":[0,0,1]})"});
   const Points after = first(session).current->control_points();
-  const Point lower = before.colwise().minCoeff().transpose(), upper = before.colwise().maxCoeff().transpose();
+  const Point lower = before.colwise().minCoeff().transpose(),
+              upper = before.colwise().maxCoeff().transpose();
   const double margin = 0.25 * (upper - lower).norm();
-  const auto bernstein = [](double u) { return 3 * u * (1 - u) * (1 - u); };  // number 1 of four cubic ones
+  const auto bernstein = [](double u) {
+    return 3 * u * (1 - u) * (1 - u);
+  };  // number 1 of four cubic ones
   for (Eigen::Index i = 0; i < before.rows(); ++i) {
     double share = 1;
     for (Eigen::Index d = 0; d < 3; ++d) {
@@ -222,10 +263,12 @@ TEST(Command, AControlPointOfALatticeIsMovedByHandAndTheSurfaceFollows) {
     EXPECT_NEAR(after(i, 2) - before(i, 2), share, 1e-14);
     EXPECT_EQ(after(i, 0), before(i, 0));
   }
-  EXPECT_EQ(refusal(session, R"({"do":"lattice","net":[4,4,4],"which":[64],"by":[0,0,1]})").where, "which[0]");
+  EXPECT_EQ(refusal(session, R"({"do":"lattice","net":[4,4,4],"which":[64],"by":[0,0,1]})").where,
+            "which[0]");
   EXPECT_EQ(refusal(session, R"({"do":"lattice","which":[1]})").where, "by");
   EXPECT_EQ(refusal(session, R"({"do":"lattice","by":[0,0,1]})").where, "which");
-  EXPECT_EQ(refusal(session, R"({"do":"lattice","which":[1],"by":[0,0,1],"hold":["u0"]})").where, "hold");
+  EXPECT_EQ(refusal(session, R"({"do":"lattice","which":[1],"by":[0,0,1],"hold":["u0"]})").where,
+            "hold");
 }
 
 /// A pull of one control point of a block of 4 × 4 × 4.
@@ -242,15 +285,18 @@ TEST(Command, ALatticeThatIsPulledOnDeformsTheShapeThatItWasPutRound) {
     return Points(first(session).current->control_points());
   };
   const std::string up = "[0,0,0.4]", side = "[0.3,0.1,0]", back = "[0,0,-0.4]";
-  const Points start = after({}), one = after({pull(21, up, false)}), two = after({pull(38, side, false)});
+  const Points start = after({}), one = after({pull(21, up, false)}),
+               two = after({pull(38, side, false)});
   const Points both = after({pull(21, up, false), pull(38, side, true)});
   // The pulls add up as displacements of the first shape.
   EXPECT_LT((both - (one + two - start)).cwiseAbs().maxCoeff(), 1e-15);
   // Round the new shape it is another block.
-  EXPECT_GT((after({pull(21, up, false), pull(38, side, false)}) - both).cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_GT((after({pull(21, up, false), pull(38, side, false)}) - both).cwiseAbs().maxCoeff(),
+            1e-3);
   // In either order, and back again.
   EXPECT_EQ(after({pull(38, side, false), pull(21, up, true)}), both);
-  EXPECT_LT((after({pull(21, up, false), pull(21, back, true)}) - start).cwiseAbs().maxCoeff(), 1e-16);
+  EXPECT_LT((after({pull(21, up, false), pull(21, back, true)}) - start).cwiseAbs().maxCoeff(),
+            1e-16);
 }
 
 TEST(Command, APulledLatticeIsInTheHistoryTheJournalAndTheSnapshot) {
@@ -263,7 +309,8 @@ TEST(Command, APulledLatticeIsInTheHistoryTheJournalAndTheSnapshot) {
   ASSERT_TRUE(restored) << restored.error().message();
   Session replayed = fresh();
   for (const Command& command : session.journal()) ASSERT_TRUE(replayed.execute(command));
-  for (Session* each : {&session, &*restored, &replayed}) run(*each, {pull(42, "[0,0,-0.2]", true)});
+  for (Session* each : {&session, &*restored, &replayed})
+    run(*each, {pull(42, "[0,0,-0.2]", true)});
   EXPECT_GT((first(session).current->control_points() - both).cwiseAbs().maxCoeff(), 1e-3);
   EXPECT_EQ(first(*restored).current->control_points(), first(session).current->control_points());
   EXPECT_EQ(first(replayed).current->control_points(), first(session).current->control_points());
@@ -275,8 +322,10 @@ TEST(Command, ALatticeIsNotPulledOnWhereTheSurfacesHaveChanged) {
   const std::string on = pull(21, "[0,0,0.1]", true);
   EXPECT_EQ(refusal(session, on).where, "again");
   run(session, {pull(21, "[0,0,0.4]", false)});
-  EXPECT_EQ(refusal(session, R"({"do":"lattice","net":[4,4,5],"which":[21],"by":[0,0,1],"again":true})").where,
-            "again");
+  EXPECT_EQ(
+      refusal(session, R"({"do":"lattice","net":[4,4,5],"which":[21],"by":[0,0,1],"again":true})")
+          .where,
+      "again");
   EXPECT_EQ(refusal(session, R"({"do":"lattice","net":[4,4,4],"again":true})").where, "again");
   run(session, {R"({"do":"hold","rows":1})", on});  // the shape is the same
   run(session, {R"({"do":"points","which":[5],"by":[0,0,0.1]})"});

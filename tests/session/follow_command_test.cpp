@@ -17,7 +17,8 @@ using testing::two_sheets;
 using testing::TwoSheets;
 
 std::string edge_command(const TwoSheets& sheets, const std::string& hold) {
-  return R"({"do":"edge","which":")" + TwoSheets::name(sheets.edge) + R"(","hold":")" + hold + R"("})";
+  return R"({"do":"edge","which":")" + TwoSheets::name(sheets.edge) + R"(","hold":")" + hold +
+         R"("})";
 }
 
 TEST(FollowCommands, AnEdgeFreedInVersion2MovesWithItsFacesAndStaysClosed) {
@@ -38,7 +39,8 @@ TEST(FollowCommands, AnEdgeFreedInVersion2MovesWithItsFacesAndStaysClosed) {
   }
   const auto bytes = session.save();
   ASSERT_TRUE(bytes) << bytes.error().message();
-  const auto edge = SharedEdge::create(testing::parse_or_die(*bytes).model(), TwoSheets::name(sheets.edge));
+  const auto edge =
+      SharedEdge::create(testing::parse_or_die(*bytes).model(), TwoSheets::name(sheets.edge));
   ASSERT_TRUE(edge) << edge.error().message();
   EXPECT_LE(edge->gap(), 2 * apart->tolerance);
   EXPECT_NEAR(edge->at(0.5).point.z(), -0.04, 0.004);
@@ -56,7 +58,8 @@ Parting parted(const Session& session) {
 TEST(FollowCommands, ASmoothEdgeStaysSmooth) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto done = run(session, both + "," + edge_command(sheets, "free") + "," + no_seams + "," + press);
+  const auto done =
+      run(session, both + "," + edge_command(sheets, "free") + "," + no_seams + "," + press);
   ASSERT_TRUE(done) << done.error().message();
   EXPECT_TRUE(is_smooth(*session.state().followed[0].course));
   const Parting apart = parted(session);
@@ -85,7 +88,8 @@ TEST(FollowCommands, DirectionsAcrossAnEdgeAreOneInSpaceWhateverTheParameters) {
   ASSERT_TRUE(course) << course.error().message();
   std::vector<const Surface*> patches;
   for (const auto& s : file.surfaces()) patches.push_back(&s.surface);
-  const auto edges = coupled_edges({{std::make_shared<const SharedEdge>(*course), {0, 1}}}, patches);
+  const auto edges =
+      coupled_edges({{std::make_shared<const SharedEdge>(*course), {0, 1}}}, patches);
   ASSERT_EQ(edges.size(), 1U);
   ASSERT_EQ(edges[0].across.size(), edges[0].points.size());
   for (std::size_t k = 0; k < edges[0].points.size(); ++k) {
@@ -97,10 +101,12 @@ TEST(FollowCommands, DirectionsAcrossAnEdgeAreOneInSpaceWhateverTheParameters) {
       const auto jet = evaluate<2>(*patches[static_cast<std::size_t>(patch)], here, 1);
       ASSERT_TRUE(jet);
       const Eigen::Vector2d across = edges[0].across[k][side];
-      ways[side] = (across[0] * jet->at({1, 0}).row(0) + across[1] * jet->at({0, 1}).row(0)).transpose();
+      ways[side] =
+          (across[0] * jet->at({1, 0}).row(0) + across[1] * jet->at({0, 1}).row(0)).transpose();
       EXPECT_NEAR(std::abs(ways[side].x()), 1, 1e-12);
     }
-    EXPECT_LT((ways[0] - ways[1]).norm(), 1e-12) << ways[0].transpose() << " and " << ways[1].transpose();
+    EXPECT_LT((ways[0] - ways[1]).norm(), 1e-12)
+        << ways[0].transpose() << " and " << ways[1].transpose();
   }
 }
 
@@ -108,7 +114,8 @@ TEST(FollowCommands, WhatWouldCreaseASmoothEdgeIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free")));
-  const auto done = run_on(session, R"({"do":"select","surface":"#10"},{"do":"points","which":[0,1],"by":[0,0,0.1]})");
+  const auto done = run_on(
+      session, R"({"do":"select","surface":"#10"},{"do":"points","which":[0,1],"by":[0,0,0.1]})");
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().kind, ErrorKind::numerical);
   EXPECT_NE(done.error().what.find("degrees"), std::string::npos) << done.error().message();
@@ -127,11 +134,13 @@ TEST(FollowCommands, AnEdgeHeldAgainIsStillWrittenWhereItWent) {
 TEST(FollowCommands, TheFaceThatWouldHaveToFollowIsNamed) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto alone = run(session, R"({"do":"select","surface":"#10"},)" + edge_command(sheets, "free"));
+  const auto alone =
+      run(session, R"({"do":"select","surface":"#10"},)" + edge_command(sheets, "free"));
   ASSERT_FALSE(alone);
   EXPECT_EQ(alone.error().kind, ErrorKind::input);
   EXPECT_NE(alone.error().what.find("#20"), std::string::npos);
-  EXPECT_NE(alone.error().remedy.find(R"(["#10","#20"])"), std::string::npos) << alone.error().remedy;
+  EXPECT_NE(alone.error().remedy.find(R"(["#10","#20"])"), std::string::npos)
+      << alone.error().remedy;
 
   const TwoSheets flat = two_sheets(false, true);
   Session other = opened(flat);
@@ -143,8 +152,8 @@ TEST(FollowCommands, TheFaceThatWouldHaveToFollowIsNamed) {
 TEST(FollowCommands, WithOneOfItsFacesNoLongerSelectedTheStepIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto done =
-      run(session, both + "," + edge_command(sheets, "free") + R"(,{"do":"select","surface":"#10"},)" + press);
+  const auto done = run(session, both + "," + edge_command(sheets, "free") +
+                                     R"(,{"do":"select","surface":"#10"},)" + press);
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message().find("#20"), std::string::npos) << done.error().message();
 }
@@ -152,7 +161,8 @@ TEST(FollowCommands, WithOneOfItsFacesNoLongerSelectedTheStepIsRefused) {
 TEST(FollowCommands, WhatPartsTheFacesIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + R"(,{"do":"select","surface":"#10"})"));
+  ASSERT_TRUE(run(
+      session, both + "," + edge_command(sheets, "free") + R"(,{"do":"select","surface":"#10"})"));
   const auto done = run_on(session, R"({"do":"points","which":[2],"by":[0,0,0.1]})");
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().kind, ErrorKind::numerical);
@@ -164,8 +174,8 @@ TEST(FollowCommands, WhatPartsTheFacesIsRefused) {
 TEST(FollowCommands, AnEdgeThatMayOpenIsNoted) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  ASSERT_TRUE(run_on(session,
-                     R"({"do":"select","surface":"#10"},{"do":"hold","mode":"trim"},)" + edge_command(sheets, "open")));
+  ASSERT_TRUE(run_on(session, R"({"do":"select","surface":"#10"},{"do":"hold","mode":"trim"},)" +
+                                  edge_command(sheets, "open")));
   EXPECT_TRUE(session.state().followed.empty());
   ASSERT_EQ(session.state().notes.size(), 1U);
   EXPECT_NE(session.state().notes[0].find("#20"), std::string::npos);
@@ -180,8 +190,10 @@ TEST(FollowCommands, AJournalSaysWhatFollowsAndWhatMayOpen) {
     ASSERT_TRUE(testing::run_all(again, parse_script(script, "journal"))) << script;
     EXPECT_EQ(script_json(again.journal()), script);
     for (std::size_t k = 0; k < 2; ++k) {
-      const auto &constraints = session.state().surfaces[k].constraints, &other = again.state().surfaces[k].constraints;
-      EXPECT_TRUE(std::ranges::equal(constraints, other, {}, &KeptConstraint::constraint, &KeptConstraint::constraint));
+      const auto &constraints = session.state().surfaces[k].constraints,
+                 &other = again.state().surfaces[k].constraints;
+      EXPECT_TRUE(std::ranges::equal(constraints, other, {}, &KeptConstraint::constraint,
+                                     &KeptConstraint::constraint));
     }
     EXPECT_EQ(again.state().followed.size(), std::string_view(hold) == "open" ? 0U : 1U);
   }
@@ -191,7 +203,8 @@ TEST(FollowCommands, ASnapshotKeepsWhatFollows) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + "," + press));
-  auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")), session.snapshot());
+  auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")),
+                                   session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
   EXPECT_EQ(restored->state().coupling, session.state().coupling);
   EXPECT_EQ(restored->state().bend, session.state().bend);
@@ -231,8 +244,10 @@ TEST(FollowStrokes, AGrooveAcrossAnEdgeIsLeftOnBothSidesOfIt) {
     for (const auto& s : session.state().surfaces) {
       EXPECT_EQ(s.rest, s.current) << "it stays";
       const auto sample = session.state().followed[0].course->at(0.5);
-      EXPECT_NEAR(displacement_at(*s.opened, *s.current, sample.feet[s.id == "#10" ? 0 : 1])->z(), -0.05, 0.006);
-      EXPECT_NEAR(displacement_at(*s.opened, *s.current, {s.id == "#10" ? 0.75 : 0.25, 0.5})->z(), -0.05, 0.006);
+      EXPECT_NEAR(displacement_at(*s.opened, *s.current, sample.feet[s.id == "#10" ? 0 : 1])->z(),
+                  -0.05, 0.006);
+      EXPECT_NEAR(displacement_at(*s.opened, *s.current, {s.id == "#10" ? 0.75 : 0.25, 0.5})->z(),
+                  -0.05, 0.006);
     }
     EXPECT_EQ(session.journal().size(), ready + 1);
     ASSERT_TRUE(run_on(session, R"({"do":"undo"})"));
@@ -256,14 +271,18 @@ TEST(FollowStrokes, AnOpenStrokeGoesOverAnEdgeInParts) {
   for (std::size_t k = 0; k < 2; ++k) {
     const Eigen::Vector2d at(0.6, 0.5);
     const auto &a = whole.state().surfaces[k], &b = parts.state().surfaces[k];
-    EXPECT_LE((*displacement_at(*a.opened, *a.current, at) - *displacement_at(*b.opened, *b.current, at)).norm(), 5e-3);
+    EXPECT_LE(
+        (*displacement_at(*a.opened, *a.current, at) - *displacement_at(*b.opened, *b.current, at))
+            .norm(),
+        5e-3);
   }
 }
 
 TEST(FollowStrokes, ABrushOverAnEdgeMovesBothFaces) {
-  for (const std::string& kind : {std::string(R"("kind":"grab","path":[[0.95,0.5]],"by":[0,0,0.1])"),
-                                  std::string(R"("kind":"push","path":[[0.7,0.5],[1,0.5]],"height":0.05)"),
-                                  std::string(R"("kind":"inflate","path":[[0.75,0.3],[0.75,0.7]],"height":0.05)")}) {
+  for (const std::string& kind :
+       {std::string(R"("kind":"grab","path":[[0.95,0.5]],"by":[0,0,0.1])"),
+        std::string(R"("kind":"push","path":[[0.7,0.5],[1,0.5]],"height":0.05)"),
+        std::string(R"("kind":"inflate","path":[[0.75,0.3],[0.75,0.7]],"height":0.05)")}) {
     for (const std::string& seams : {std::string(R"({"do":"seams","couple":true})"), no_seams}) {
       const TwoSheets sheets = two_sheets();
       Session session = opened(sheets);
@@ -275,10 +294,14 @@ TEST(FollowStrokes, ABrushOverAnEdgeMovesBothFaces) {
       EXPECT_LE(apart.angle, asked_angle) << kind;
       const auto sample = session.state().followed[0].course->at(0.5);
       for (const auto& s : session.state().surfaces) {
-        EXPECT_GT(displacement_at(*s.opened, *s.current, sample.feet[s.id == "#10" ? 0 : 1])->norm(), 0.005) << kind;
+        EXPECT_GT(
+            displacement_at(*s.opened, *s.current, sample.feet[s.id == "#10" ? 0 : 1])->norm(),
+            0.005)
+            << kind;
       }
       ASSERT_TRUE(run_on(session, R"({"do":"undo"})"));
-      for (const std::size_t k : {0U, 1U}) EXPECT_EQ(session.largest_displacement(static_cast<int>(k)), 0);
+      for (const std::size_t k : {0U, 1U})
+        EXPECT_EQ(session.largest_displacement(static_cast<int>(k)), 0);
     }
   }
 }

@@ -18,8 +18,8 @@ using testing::same_state;
 constexpr double radius = 20, depth = 8;
 
 std::vector<std::string> sheet_of(const std::string& material, int net) {
-  return {fmt::format(R"({{"do":"new","size":[200,200],"net":[{0},{0}]}})", net), R"({"do":"edge"})",
-          R"({"do":"material",)" + material + "}",
+  return {fmt::format(R"({{"do":"new","size":[200,200],"net":[{0},{0}]}})", net),
+          R"({"do":"edge"})", R"({"do":"material",)" + material + "}",
           R"({"do":"tool","shape":"sphere","radius":20,"position":[100,100,60],"plasticity":1})"};
 }
 
@@ -29,9 +29,11 @@ std::string place_of(const Point& from, const Point& to, double share) {
 }
 
 /// A stroke given by so many pieces, in one command.
-std::string stroke_of(const Point& from, const Point& to, int pieces = 1, const std::string& more = "") {
+std::string stroke_of(const Point& from, const Point& to, int pieces = 1,
+                      const std::string& more = "") {
   std::string path;
-  for (int k = 0; k <= pieces; ++k) path += (k == 0 ? "" : ",") + place_of(from, to, static_cast<double>(k) / pieces);
+  for (int k = 0; k <= pieces; ++k)
+    path += (k == 0 ? "" : ",") + place_of(from, to, static_cast<double>(k) / pieces);
   return R"({"do":"stroke","path":[)" + path + "]" + more + "}";
 }
 
@@ -48,9 +50,11 @@ TEST(Groove, AStrokeInClayLeavesIt) {
   Session session = fresh();
   run(session, sheet_of(R"("preset":"clay")", 64));
   const double chord = 2 * std::sqrt(radius * radius - (radius - depth / 2) * (radius - depth / 2));
-  for (const auto& [from, to] : {std::pair{Point(25, 97, 0), Point(175, 97, 0)}, {{47, 47, 0}, {153, 153, 0}}}) {
+  for (const auto& [from, to] :
+       {std::pair{Point(25, 97, 0), Point(175, 97, 0)}, {{47, 47, 0}, {153, 153, 0}}}) {
     run(session, {stroke_of(from, to)});
-    const testing::Groove g = testing::groove_of(shape(session), flat(session), from, to, radius, depth);
+    const testing::Groove g =
+        testing::groove_of(shape(session), flat(session), from, to, radius, depth);
     EXPECT_GT(g.shallowest, 0.92 * depth);
     EXPECT_LT(g.lowest, 1.001 * depth) << "deeper than the tool went";
     EXPECT_LT(g.width, 1.25 * chord);
@@ -63,7 +67,8 @@ TEST(Groove, AStrokeInClayLeavesIt) {
 
     const Surface once = shape(session);
     run(session, {stroke_of(from, to)});
-    EXPECT_LT(difference(shape(session), once), 0.05 * depth) << "a second pass adds what goes deeper only";
+    EXPECT_LT(difference(shape(session), once), 0.05 * depth)
+        << "a second pass adds what goes deeper only";
     run(session, {R"({"do":"undo"})", R"({"do":"undo"})"});
     EXPECT_TRUE(same_bits(shape(session), flat(session))) << "one undo for each stroke";
   }
@@ -124,13 +129,15 @@ TEST(Groove, IsThereWhileTheToolIsDownAndEveryOtherCommandLiftsIt) {
   run(at_once, {stroke_of(from, to)});
   run(session, {stroke_of(from, from + 0.3 * (to - from), 1, R"(,"open":true)")});
   ASSERT_TRUE(session.state().stroke);
-  EXPECT_NEAR(testing::groove_of(shape(session), flat(session), from, to, radius, depth).lowest, depth, 0.05 * depth);
+  EXPECT_NEAR(testing::groove_of(shape(session), flat(session), from, to, radius, depth).lowest,
+              depth, 0.05 * depth);
 
   auto restored = Session::restore(Document::fresh("test"), session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
   EXPECT_TRUE(same_state(restored->state(), session.state()));
   for (Session* each : {&session, &*restored}) {
-    run(*each, {R"({"do":"stroke","path":[)" + place_of(from, to, 1) + R"(],"open":true})", R"({"do":"limit"})"});
+    run(*each, {R"({"do":"stroke","path":[)" + place_of(from, to, 1) + R"(],"open":true})",
+                R"({"do":"limit"})"});
     EXPECT_FALSE(each->state().stroke);
     EXPECT_LT(difference(shape(*each), shape(at_once)), 1e-6 * depth);
     EXPECT_EQ(each->state().tools[0].shape.placement().position, Point(100, 100, 60));
@@ -143,13 +150,15 @@ TEST(Groove, ACoarseNetIsRefinedUnderTheToolWherePermitted) {
   run(session, sheet_of(R"("preset":"clay")", 10));
   run(session, {R"({"do":"refine","permission":"auto"})", stroke_of({60, 97, 0}, {110, 97, 0})});
   EXPECT_GT(shape(session).size(), 100);
-  const testing::Groove g = testing::groove_of(shape(session), flat(session), {60, 97, 0}, {110, 97, 0}, radius, depth);
+  const testing::Groove g =
+      testing::groove_of(shape(session), flat(session), {60, 97, 0}, {110, 97, 0}, radius, depth);
   EXPECT_GT(g.shallowest, 0.92 * depth);
   EXPECT_LT(g.lowest, 1.02 * depth);
 }
 
 TEST(Groove, IsLeftByNameAndNotWithoutIt) {
-  const std::vector<std::string> plain = sheet_of(R"("alpha":[0.1,0,0.1],"beta":[0.001,0.001,0.001])", 16);
+  const std::vector<std::string> plain =
+      sheet_of(R"("alpha":[0.1,0,0.1],"beta":[0.001,0.001,0.001])", 16);
   const auto left = [&](const std::string& more) {
     Session session = fresh();
     run(session, plain);
@@ -164,7 +173,8 @@ TEST(Groove, WrongFieldsAreRefusedByName) {
   Session session = fresh();
   run(session, sheet_of(R"("preset":"clay")", 16));
   EXPECT_EQ(refusal(session, R"({"do":"material","preset":"butter"})").where, "preset");
-  EXPECT_EQ(refusal(session, R"({"do":"material","preset":"clay","region":[[0,1],[0,1]]})").where, "preset");
+  EXPECT_EQ(refusal(session, R"({"do":"material","preset":"clay","region":[[0,1],[0,1]]})").where,
+            "preset");
   EXPECT_EQ(refusal(session, R"({"do":"material","plasticity":2})").where, "plasticity");
   EXPECT_EQ(refusal(session, R"({"do":"material","yield":-1})").where, "yield");
   EXPECT_EQ(refusal(session, R"({"do":"material","locality":-1})").where, "locality");
@@ -172,7 +182,8 @@ TEST(Groove, WrongFieldsAreRefusedByName) {
   EXPECT_EQ(refusal(session, R"({"do":"stroke","path":[[0,0,12],[1e9,0,12]]})").where, "path");
 }
 
-// Pieces joined C0 and C1: their Greville abscissae are equidistant, and interpolation there swings by thousands.
+// Pieces joined C0 and C1: their Greville abscissae are equidistant, and interpolation there swings
+// by thousands.
 TEST(Groove, IsAsDeepOnBezierPiecesOfHighDegree) {
   for (const int p : {10, 22, 25}) {
     for (const int multiplicity : {p - 1, p}) {
@@ -182,12 +193,14 @@ TEST(Groove, IsAsDeepOnBezierPiecesOfHighDegree) {
         for (int i = 0; i < times; ++i) knots += fmt::format("{}{}", knots.empty() ? "" : ",", k);
       }
       Session session = fresh();
-      run(session, {fmt::format(R"({{"do":"new","size":[20,200],"degree":[1,{}],"knots_u":[0,0,1,2,3,4,5,6,7,7],)"
-                                R"("knots_v":[{}]}})",
-                                p, knots),
-                    R"({"do":"hold","rows":2})", R"({"do":"material","preset":"clay"})",
-                    R"({"do":"tool","name":"b","radius":10,"position":[10,100,30]})",
-                    R"({"do":"stroke","tool":"b","path":[[10,95,5],[10,105,5]]})"});
+      run(session,
+          {fmt::format(
+               R"({{"do":"new","size":[20,200],"degree":[1,{}],"knots_u":[0,0,1,2,3,4,5,6,7,7],)"
+               R"("knots_v":[{}]}})",
+               p, knots),
+           R"({"do":"hold","rows":2})", R"({"do":"material","preset":"clay"})",
+           R"({"do":"tool","name":"b","radius":10,"position":[10,100,30]})",
+           R"({"do":"stroke","tool":"b","path":[[10,95,5],[10,105,5]]})"});
       EXPECT_GE(session.largest_displacement(0), 0.9 * 5) << p << " " << multiplicity;
       EXPECT_LE(session.largest_displacement(0), 1.05 * 5) << p << " " << multiplicity;
     }

@@ -1,4 +1,5 @@
-// Edges of faces that are held: what would open them is refused, and what is open is not written without a word.
+// Edges of faces that are held: what would open them is refused, and what is open is not written
+// without a word.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,8 @@ using testing::two_sheets;
 using testing::TwoSheets;
 
 const std::string left = R"({"do":"select","surface":"#10"})";
-// The net of #10 is (0, 0), (0, 1), (1, 0), (1, 1); the two last are on the edge that it shares with #20.
+// The net of #10 is (0, 0), (0, 1), (1, 0), (1, 1); the two last are on the edge that it shares
+// with #20.
 const std::string lift_corner = R"({"do":"points","which":[2],"by":[0,0,0.25]})";
 
 Error refused(const Expected<void>& done) {
@@ -31,9 +33,13 @@ Error refused(const Expected<void>& done) {
   return done ? Error{} : done.error();
 }
 
-Error refused(Session& session, const std::string& commands) { return refused(run(session, commands)); }
+Error refused(Session& session, const std::string& commands) {
+  return refused(run(session, commands));
+}
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(HeldEdges, APointThatWouldOpenOneStays) {
   const TwoSheets sheets = two_sheets();
@@ -43,9 +49,11 @@ TEST(HeldEdges, APointThatWouldOpenOneStays) {
   EXPECT_EQ(error.kind, ErrorKind::numerical);
   EXPECT_TRUE(says(error.what, "open by 0.25 at (1, 0, 0)")) << error.message();
   EXPECT_EQ(testing::code_of(error), ErrorCode::edge_would_open);
-  EXPECT_TRUE(says(error.what, TwoSheets::name(sheets.outer)) || says(error.what, id)) << error.message();
+  EXPECT_TRUE(says(error.what, TwoSheets::name(sheets.outer)) || says(error.what, id))
+      << error.message();
   EXPECT_TRUE(says(error.what, "1 other edge likewise")) << error.message();
-  EXPECT_TRUE(says(error.remedy, R"({"do":"edge","edge":")" + id + R"(","hold":"follow"})")) << error.remedy;
+  EXPECT_TRUE(says(error.remedy, R"({"do":"edge","edge":")" + id + R"(","hold":"follow"})"))
+      << error.remedy;
   EXPECT_EQ(session.largest_displacement(0), 0);
   EXPECT_EQ(*session.save(), sheets.text);
 }
@@ -53,17 +61,19 @@ TEST(HeldEdges, APointThatWouldOpenOneStays) {
 TEST(HeldEdges, ALatticeOverThemIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const std::string pull = R"({"do":"lattice","net":[4,4,4],"which":[21,22,25,26,37,38,41,42],"by":[0,0,0.2]})";
+  const std::string pull =
+      R"({"do":"lattice","net":[4,4,4],"which":[21,22,25,26,37,38,41,42],"by":[0,0,0.2]})";
   const Error error = refused(session, both + "," + pull);
   EXPECT_TRUE(says(error.what, "is held, and would open by")) << error.message();
   EXPECT_TRUE(says(error.what, "6 other edges likewise")) << error.message();
   for (int k : {0, 1}) EXPECT_EQ(session.largest_displacement(k), 0);
-  // With a net of its own, of which a pull in the middle leaves the boundary where it is, it is done.
+  // With a net of its own, of which a pull in the middle leaves the boundary where it is, it is
+  // done.
   Session inner = opened(sheets);
-  const auto done = run(
-      inner,
-      left +
-          R"(,{"do":"elevate","by":[2,2]},{"do":"refine","region":[[0,1],[0,1]]},{"do":"refine","region":[[0,1],[0,1]]},
+  const auto done =
+      run(inner, left +
+                     R"(,{"do":"elevate","by":[2,2]},{"do":"refine","region":[[0,1],[0,1]]},
+      {"do":"refine","region":[[0,1],[0,1]]},
       {"do":"lattice","net":[9,9,4],"degree":[2,2,1],"which":[161],"by":[0,0,0.2]})");
   ASSERT_TRUE(done) << done.error().message();
   EXPECT_GT(inner.largest_displacement(0), 0.01);
@@ -73,7 +83,8 @@ TEST(HeldEdges, ALatticeOverThemIsRefused) {
 TEST(HeldEdges, WhatLeavesThemMayMove) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto done = run(session, left + R"(,{"do":"elevate","by":[1,1]},{"do":"points","which":[4],"by":[0,0,0.2]})");
+  const auto done = run(
+      session, left + R"(,{"do":"elevate","by":[1,1]},{"do":"points","which":[4],"by":[0,0,0.2]})");
   ASSERT_TRUE(done) << done.error().message();
   EXPECT_NEAR(session.largest_displacement(0), 0.05, 1e-6);
   EXPECT_TRUE(session.save());
@@ -82,7 +93,8 @@ TEST(HeldEdges, WhatLeavesThemMayMove) {
 TEST(HeldEdges, TangentPlanesThatAreHeldDoNotTurn) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const Error error = refused(session, left + R"(,{"do":"hold","mode":"trim-g1"},{"do":"elevate","by":[1,1]},
+  const Error error =
+      refused(session, left + R"(,{"do":"hold","mode":"trim-g1"},{"do":"elevate","by":[1,1]},
       {"do":"points","which":[4],"by":[0,0,0.2]})");
   EXPECT_TRUE(says(error.what, "are held, and would turn by")) << error.message();
   EXPECT_EQ(testing::code_of(error), ErrorCode::edge_would_turn);
@@ -105,7 +117,8 @@ TEST(HeldEdges, WhereAllFollowALatticeMovesThemAlong) {
   for (const SceneSurface& s : session.state().surfaces) {
     const auto contacts = edge_contacts(*session.document().model(), s.id);
     ASSERT_TRUE(contacts);
-    for (const EdgeContact& c : *contacts) commands += R"(,{"do":"edge","edge":")" + c.id + R"(","hold":"follow"})";
+    for (const EdgeContact& c : *contacts)
+      commands += R"(,{"do":"edge","edge":")" + c.id + R"(","hold":"follow"})";
   }
   const auto done = run(session, commands + R"(,{"do":"lattice","net":[2,2,2],"degree":[1,1,1],
       "which":[0,1,2,3],"by":[0,0,0.2]})");
@@ -129,7 +142,8 @@ TEST(PartedEdges, WhatWasNeverHeldIsNotWrittenOpen) {
   const auto bytes = session.save();
   ASSERT_FALSE(bytes);
   EXPECT_EQ(bytes.error().kind, ErrorKind::numerical);
-  EXPECT_TRUE(says(bytes.error().what, "would be left 0.25 from the face")) << bytes.error().message();
+  EXPECT_TRUE(says(bytes.error().what, "would be left 0.25 from the face"))
+      << bytes.error().message();
   EXPECT_EQ(testing::code_of(bytes.error()), ErrorCode::edge_left_open);
   EXPECT_TRUE(says(bytes.error().what, "at (1, 0, 0)")) << bytes.error().message();
   EXPECT_TRUE(says(bytes.error().remedy, R"({"do":"hold","mode":"free"})")) << bytes.error().remedy;
@@ -146,8 +160,8 @@ TEST(PartedEdges, AnEdgeFreedByNameIsWritten) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   const std::string free = R"(,{"do":"edge","hold":"open","edge":)";
-  ASSERT_TRUE(run_on(session, left + free + '"' + TwoSheets::name(sheets.edge) + "\"}" + free + '"' +
-                                  TwoSheets::name(sheets.outer) + "\"}," + lift_corner));
+  ASSERT_TRUE(run_on(session, left + free + '"' + TwoSheets::name(sheets.edge) + "\"}" + free +
+                                  '"' + TwoSheets::name(sheets.outer) + "\"}," + lift_corner));
   EXPECT_TRUE(session.save());
   EXPECT_EQ(session.parted_edges()->size(), 2U);
 }
@@ -155,8 +169,10 @@ TEST(PartedEdges, AnEdgeFreedByNameIsWritten) {
 TEST(PartedEdges, TheFreedAreStillFreedInASnapshotAndAScript) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"free","all":true},)" + left + "," + lift_corner));
-  const auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")), session.snapshot());
+  ASSERT_TRUE(
+      run_on(session, R"({"do":"hold","mode":"free","all":true},)" + left + "," + lift_corner));
+  const auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")),
+                                         session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
   EXPECT_EQ(*restored->save(), *session.save());
   ASSERT_TRUE(run_on(session, R"({"do":"hold","rows":1})"));
@@ -173,7 +189,8 @@ TEST(PartedEdges, AnEdgeOfOneFaceThatIsLeftBehindCounts) {
   ASSERT_TRUE(run_on(session, left + R"(,{"do":"points","which":[0],"by":[0,0,0.5]})"));
   const auto bytes = session.save();
   ASSERT_FALSE(bytes);
-  EXPECT_TRUE(says(bytes.error().what, "from the face " + TwoSheets::name(sheets.faces[0]))) << bytes.error().message();
+  EXPECT_TRUE(says(bytes.error().what, "from the face " + TwoSheets::name(sheets.faces[0])))
+      << bytes.error().message();
 }
 
 TEST(PartedEdges, FacesThatMoveTogetherLeaveTheirEdgeToo) {
@@ -196,7 +213,8 @@ TEST(PartedEdges, OnAPlaneTheFaceStaysBehind) {
 }
 
 TEST(PartedEdges, BothSidesOfASeamCount) {
-  // The curved surfaces of a tube are closed; either side of the line where one meets itself is torn away.
+  // The curved surfaces of a tube are closed; either side of the line where one meets itself is
+  // torn away.
   for (const bool last : {false, true}) {
     Session session(Document::from(*open_source(testing::tube_file(), "tube.step")));
     int seams = 0;
@@ -209,9 +227,10 @@ TEST(PartedEdges, BothSidesOfASeamCount) {
       ++seams;
       const int d = brep::closed_directions(*s.opened)[0] ? 0 : 1;
       const int row = last ? s.opened->net()[static_cast<std::size_t>(d)] - 1 : 0;
-      const auto done = run_on(session, fmt::format(R"({{"do":"select","surface":"{}"}},{{"do":"seams","couple":false}},
+      const auto done = run_on(
+          session, fmt::format(R"({{"do":"select","surface":"{}"}},{{"do":"seams","couple":false}},
           {{"do":"points","rows_{}":[{}],"by":[0,0.1,0]}})",
-                                                    s.id, d == 0 ? 'u' : 'v', row));
+                               s.id, d == 0 ? 'u' : 'v', row));
       ASSERT_TRUE(done) << done.error().message();
       const auto parted = session.parted_edges();
       ASSERT_TRUE(parted);
@@ -237,7 +256,8 @@ TEST(SecondFace, IsHeldAsTheFirst) {
     Session session = opened(sheets);
     ASSERT_TRUE(run_on(session, left + R"(,{"do":"hold","mode":")" + order + R"("},)" + both));
     EXPECT_EQ(orders_of(session, 1), std::vector<int>(4, order == "trim" ? 0 : 1));
-    ASSERT_TRUE(run_on(session, R"({"do":"edge","hold":"follow","edge":")" + TwoSheets::name(sheets.edge) + "\"}"));
+    ASSERT_TRUE(run_on(session, R"({"do":"edge","hold":"follow","edge":")" +
+                                    TwoSheets::name(sheets.edge) + "\"}"));
     EXPECT_EQ(std::ranges::count(orders_of(session, 1), -1), 1);
     const auto done = run_on(session, press);
     ASSERT_TRUE(done) << done.error().message();
@@ -252,9 +272,10 @@ TEST(SecondFace, IsHeldAsTheFirst) {
 TEST(SecondFace, IsHeldWhereAnEdgeFollowsThatWasAskedOfBoth) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const std::string follow = R"({"do":"edge","hold":"follow","edge":")" + TwoSheets::name(sheets.edge) + "\"}";
-  ASSERT_TRUE(
-      run_on(session, both + "," + follow + "," + left + R"(,{"do":"hold","mode":"trim"},)" + both + "," + follow));
+  const std::string follow =
+      R"({"do":"edge","hold":"follow","edge":")" + TwoSheets::name(sheets.edge) + "\"}";
+  ASSERT_TRUE(run_on(session, both + "," + follow + "," + left +
+                                  R"(,{"do":"hold","mode":"trim"},)" + both + "," + follow));
   for (const std::size_t k : {0U, 1U}) EXPECT_EQ(std::ranges::count(orders_of(session, k), 0), 3);
 }
 
@@ -264,7 +285,8 @@ TEST(SecondFace, IsHeldAsItIsSaid) {
                               R"({"do":"pin","at":[0.5,0.5]})"};
   for (const std::string& own : said) {
     Session session = opened(sheets);
-    ASSERT_TRUE(run_on(session, right_alone + "," + own + "," + left + R"(,{"do":"hold","mode":"trim"},)" + both));
+    ASSERT_TRUE(run_on(
+        session, right_alone + "," + own + "," + left + R"(,{"do":"hold","mode":"trim"},)" + both));
     EXPECT_FALSE(holds_trims(session.state().surfaces[1].constraints)) << own;
   }
   // Where the first is not held, nor is the second.
@@ -283,10 +305,10 @@ TEST(SecondFace, ASeamThatWasNearlySmoothStaysSo) {
     sheets.text.replace(at + 7, 2, fmt::format("{:.12f}", rise));
   }
   Session session = opened(sheets);
-  const auto done =
-      run(session, both + R"(,{"do":"edge","edge":")" + TwoSheets::name(sheets.edge) + R"(","hold":"free"},
+  const auto done = run(session, both + R"(,{"do":"edge","edge":")" + TwoSheets::name(sheets.edge) +
+                                     R"(","hold":"free"},
       {"do":"seams","couple":false},)" +
-                       press);
+                                     press);
   ASSERT_TRUE(done) << done.error().message();
   const auto apart = parting(session.state(), *session.state().followed.at(0).course);
   ASSERT_TRUE(apart);
@@ -295,9 +317,10 @@ TEST(SecondFace, ASeamThatWasNearlySmoothStaysSo) {
   EXPECT_GT(session.largest_displacement(0), 0.03);
   // By hand it is not creased either.
   Session other = opened(sheets);
-  const Error error = refused(run_on(other, both + R"(,{"do":"edge","edge":")" + TwoSheets::name(sheets.edge) +
-                                                R"(","hold":"follow"},)" + right_alone +
-                                                R"(,{"do":"points","which":[2,3],"by":[0,0,0.5]})"));
+  const Error error =
+      refused(run_on(other, both + R"(,{"do":"edge","edge":")" + TwoSheets::name(sheets.edge) +
+                                R"(","hold":"follow"},)" + right_alone +
+                                R"(,{"do":"points","which":[2,3],"by":[0,0,0.5]})"));
   EXPECT_TRUE(says(error.what, "degrees")) << error.message();
 }
 

@@ -10,7 +10,8 @@
 namespace knead::testing {
 namespace {
 
-/// Executes a command that is stopped when it asks for the n-th time whether to go on; returns how often it asked.
+/// Executes a command that is stopped when it asks for the n-th time whether to go on; returns how
+/// often it asked.
 struct Asked {
   long long count = 0;
   Expected<void> done;
@@ -61,7 +62,8 @@ TEST(Interruption, WithinAStepKeepsTheStepsBefore) {
 TEST(Interruption, OfTheFirstStepAndOfOtherCommandsChangesNothing) {
   const std::vector<std::string> commands = {
       R"({"do":"step","count":3})", R"({"do":"drag","at":[0.5,0.5],"by":[0,0,1],"steps":3})",
-      R"({"do":"lattice","steps":2})", R"({"do":"stroke","tool":"ball","path":[[4,4,-1.5],[6,6,-1.5]]})"};
+      R"({"do":"lattice","steps":2})",
+      R"({"do":"stroke","tool":"ball","path":[[4,4,-1.5],[6,6,-1.5]]})"};
   for (const std::string& text : commands) {
     Session whole = on_sheet({ball});
     const Asked all = stopped_at(whole, text, never);
@@ -74,7 +76,8 @@ TEST(Interruption, OfTheFirstStepAndOfOtherCommandsChangesNothing) {
       const Asked asked = stopped_at(session, text, at);
       if (at > 2 && asked.done) continue;  // a later step
       ASSERT_FALSE(asked.done) << text;
-      EXPECT_NE(asked.done.error().what.find("stopped"), std::string::npos) << asked.done.error().message();
+      EXPECT_NE(asked.done.error().what.find("stopped"), std::string::npos)
+          << asked.done.error().message();
       EXPECT_EQ(session.journal().size(), before);
       EXPECT_EQ(first(session).current, shape);
       EXPECT_TRUE(session.state().steps.empty());

@@ -25,7 +25,9 @@ Command ball(double x) {
   return make_command(tool);
 }
 
-const Points& points(const Session& session) { return session.state().surfaces[0].current->control_points(); }
+const Points& points(const Session& session) {
+  return session.state().surfaces[0].current->control_points();
+}
 
 TEST(SessionJoin, MakesAStrokeOneEntryThatUndoTakesBackBitForBit) {
   Session session = sheet();

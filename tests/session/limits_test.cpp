@@ -24,7 +24,8 @@ Session sheet_and(const std::vector<std::string>& commands) {
 TEST(Limits, SizesAreCheckedBeforeTheyAreAllocated) {
   for (const std::string each :
        {R"({"do":"new","net":[2000000000,4]})", R"({"do":"new","net":[2001,2001]})",
-        R"({"do":"new","shape":"cylinder","net":[4,2000000000]})", R"({"do":"lattice","net":[1000000000,4,4]})",
+        R"({"do":"new","shape":"cylinder","net":[4,2000000000]})",
+        R"({"do":"lattice","net":[1000000000,4,4]})",
         R"({"do":"lattice","net":[2000000000,2000000000,2000000000]})",
         R"({"do":"material","coefficient":"beta12","counts":[6,1999999999],"samples":[]})",
         R"({"do":"material","coefficient":"mass","counts":[32768,131072],"samples":[]})",
@@ -43,7 +44,8 @@ TEST(Limits, ANetThatIsHalvedAgainAndAgainEndsInAnError) {
   Expected<void> done;
   for (int k = 0; k < 12 && done; ++k) done = session.execute(*halve);
   ASSERT_FALSE(done);
-  EXPECT_NE(done.error().what.find("million control points"), std::string::npos) << done.error().message();
+  EXPECT_NE(done.error().what.find("million control points"), std::string::npos)
+      << done.error().message();
   const auto [m, n] = session.state().surfaces[0].current->net();
   EXPECT_LE(static_cast<double>(m) * n, 4e6);
 }
@@ -66,9 +68,10 @@ TEST(Limits, StepsAreCountedBeforeTheyAreTaken) {
 }
 
 TEST(Limits, AStepThatIsStoppedCountsTheStepsItHasMade) {
-  const std::vector<std::string> press = {R"({"do":"edge","which":"all"})",
-                                          R"({"do":"tool","shape":"sphere","radius":0.3,"at":[0.5,0.5]})",
-                                          R"({"do":"move","by":[0,0,0.1],"relative":true})"};
+  const std::vector<std::string> press = {
+      R"({"do":"edge","which":"all"})",
+      R"({"do":"tool","shape":"sphere","radius":0.3,"at":[0.5,0.5]})",
+      R"({"do":"move","by":[0,0,0.1],"relative":true})"};
   Session stopped = sheet_and(press), whole = sheet_and(press);
   const auto command = parse_command(R"({"do":"step","count":50})");
   ASSERT_TRUE(command);
@@ -85,17 +88,19 @@ TEST(Limits, AStepThatIsStoppedCountsTheStepsItHasMade) {
 }
 
 TEST(Limits, OtherCommandsThatAreStoppedChangeNothing) {
-  for (const std::string json :
-       {R"({"do":"lattice","net":[4,4,4],"steps":3})", R"({"do":"drag","at":[0.5,0.5],"by":[0,0,0.1],"steps":3})"}) {
+  for (const std::string json : {R"({"do":"lattice","net":[4,4,4],"steps":3})",
+                                 R"({"do":"drag","at":[0.5,0.5],"by":[0,0,0.1],"steps":3})"}) {
     Session session = sheet_and({R"({"do":"edge","which":"all"})"});
     const SessionState* before = &session.state();
     const auto command = parse_command(json);
     ASSERT_TRUE(command);
     const auto done = session.execute(*command, [](int, int) { return false; });
     ASSERT_FALSE(done) << json;
-    EXPECT_NE(done.error().what.find("stopped after 1 of 3 steps"), std::string::npos) << done.error().message();
+    EXPECT_NE(done.error().what.find("stopped after 1 of 3 steps"), std::string::npos)
+        << done.error().message();
     EXPECT_EQ(&session.state(), before);
-    EXPECT_TRUE(session.execute(*command, [](int k, int n) { return k < n; })) << "the last step is done";
+    EXPECT_TRUE(session.execute(*command, [](int k, int n) { return k < n; }))
+        << "the last step is done";
   }
 }
 
@@ -113,7 +118,8 @@ TEST(Limits, StatesShareTheRecordsOfSteps) {
 TEST(Limits, WhatIsRefinedAndCoarsenedKeepsItsBytes) {
   Session session = open_sample();
   const std::string before = *session.save();
-  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"refine","region":[[0,1],[0,1]]})"});
+  run(session,
+      {R"({"do":"select","surface":"#285"})", R"({"do":"refine","region":[[0,1],[0,1]]})"});
   EXPECT_NE(*session.save(), before);
   run(session, {R"({"do":"coarsen","tolerance":1e-9})"});
   EXPECT_TRUE(*session.save() == before);
@@ -122,15 +128,19 @@ TEST(Limits, WhatIsRefinedAndCoarsenedKeepsItsBytes) {
 }
 
 TEST(Limits, SurfacesOfHighDegreesAreSculpted) {
-  for (const std::string degrees : {R"("degree":[20,3],"net":[21,7])", R"("degree":[22,2],"net":[23,6])"}) {
+  for (const std::string degrees :
+       {R"("degree":[20,3],"net":[21,7])", R"("degree":[22,2],"net":[23,6])"}) {
     Session session = fresh();
     run(session, {R"({"do":"new",)" + degrees + "}", R"({"do":"edge","which":"all"})",
                   R"({"do":"tool","shape":"sphere","radius":0.3,"at":[0.5,0.5]})",
-                  R"({"do":"move","by":[0,0,0.1],"relative":true})", R"({"do":"step","count":2,"lambda":1})"});
-    EXPECT_NEAR(session.largest_displacement(0), 0.157, 0.01) << degrees;  // as far as the ball is moved, and more
+                  R"({"do":"move","by":[0,0,0.1],"relative":true})",
+                  R"({"do":"step","count":2,"lambda":1})"});
+    EXPECT_NEAR(session.largest_displacement(0), 0.157, 0.01)
+        << degrees;  // as far as the ball is moved, and more
     const Error error = refusal(session, R"({"do":"elevate","by":[19,0]})");
     const bool lower = degrees.find("[20") != std::string::npos;
-    EXPECT_EQ(error.what, fmt::format("#1 has degree {} in u: it cannot be raised by 19", lower ? 20 : 22));
+    EXPECT_EQ(error.what,
+              fmt::format("#1 has degree {} in u: it cannot be raised by 19", lower ? 20 : 22));
     EXPECT_EQ(error.where, "by");
     EXPECT_EQ(error.remedy, fmt::format("degrees go to 25: use at most {}", lower ? 5 : 3));
   }
@@ -138,7 +148,8 @@ TEST(Limits, SurfacesOfHighDegreesAreSculpted) {
 
 TEST(Limits, TheHighestDegreesAreMovedMeshedAndWritten) {
   Session session = fresh();
-  run(session, {R"({"do":"new","degree":[22,25],"net":[24,26]})", R"({"do":"points","rows_u":[12],"by":[0,0,0.5]})"});
+  run(session, {R"({"do":"new","degree":[22,25],"net":[24,26]})",
+                R"({"do":"points","rows_u":[12],"by":[0,0,0.5]})"});
   EXPECT_GT(session.largest_displacement(0), 0.01);
   const auto bytes = session.save();
   ASSERT_TRUE(bytes) << bytes.error().message();
@@ -151,8 +162,10 @@ TEST(Limits, TheHighestDegreesAreMovedMeshedAndWritten) {
 }
 
 TEST(Limits, AToolTooSmallForItsSurfaceIsRefusedAtOnce) {
-  for (const std::string each : {R"("radius":0.0001)", R"("shape":"ellipsoid","sizes":[0.1,0.1,0.0001])"}) {
-    Session session = sheet_and({R"({"do":"hold"})", R"({"do":"tool","at":[0.5,0.5],)" + each + "}"});
+  for (const std::string each :
+       {R"("radius":0.0001)", R"("shape":"ellipsoid","sizes":[0.1,0.1,0.0001])"}) {
+    Session session =
+        sheet_and({R"({"do":"hold"})", R"({"do":"tool","at":[0.5,0.5],)" + each + "}"});
     const auto start = std::chrono::steady_clock::now();
     EXPECT_NE(refusal(session, R"({"do":"step"})").what.find("too small"), std::string::npos);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
@@ -161,14 +174,17 @@ TEST(Limits, AToolTooSmallForItsSurfaceIsRefusedAtOnce) {
 
 TEST(Limits, ToolsWhoseSquaresAreNoNumbersAreRefused) {
   Session session = sheet_and({});
-  for (const std::string shape : {"cylinder", "cone", "torus", "bowl", "sphere", "superellipsoid"}) {
+  for (const std::string shape :
+       {"cylinder", "cone", "torus", "bowl", "sphere", "superellipsoid"}) {
     for (const std::string scale : {"[1e300,1,1]", "[1,1,1e200]", "[1e-300,1,1]"}) {
-      const Error error =
-          refusal(session, fmt::format(R"({{"do":"tool","shape":"{}","at":[0,0],"scale":{}}})", shape, scale));
+      const Error error = refusal(
+          session,
+          fmt::format(R"({{"do":"tool","shape":"{}","at":[0,0],"scale":{}}})", shape, scale));
       EXPECT_EQ(error.where, "scale") << shape << " " << scale << ": " << error.message();
     }
   }
-  EXPECT_NE(refusal(session, R"({"do":"tool","radius":1e200,"at":[0,0]})").remedy.find("1e"), std::string::npos);
+  EXPECT_NE(refusal(session, R"({"do":"tool","radius":1e200,"at":[0,0]})").remedy.find("1e"),
+            std::string::npos);
 }
 
 TEST(Limits, ForcesBeyondNumbersAreAnErrorAndTheSurfaceStays) {
@@ -187,7 +203,8 @@ TEST(Limits, CoarsenNamesTheToleranceThatWasGiven) {
 }
 
 std::string nested(int depth) {
-  return std::string(static_cast<std::size_t>(depth), '[') + std::string(static_cast<std::size_t>(depth), ']');
+  return std::string(static_cast<std::size_t>(depth), '[') +
+         std::string(static_cast<std::size_t>(depth), ']');
 }
 
 TEST(Json, DepthIsLimited) {
@@ -195,12 +212,14 @@ TEST(Json, DepthIsLimited) {
   for (const int depth : {static_cast<int>(max_json_depth) + 1, 52500, 1000000}) {
     const auto deep = parse_json(nested(depth));
     ASSERT_FALSE(deep);
-    EXPECT_NE(deep.error().what.find("nested more than"), std::string::npos) << deep.error().message();
+    EXPECT_NE(deep.error().what.find("nested more than"), std::string::npos)
+        << deep.error().message();
   }
 }
 
 TEST(Json, AFieldGivenTwiceIsAnErrorWithItsPlace) {
-  const auto twice = parse_script(R"({"knead":2,"commands":[{"do":"new"},{"do":"step","count":1,"count":2}]})", "s");
+  const auto twice = parse_script(
+      R"({"knead":2,"commands":[{"do":"new"},{"do":"step","count":1,"count":2}]})", "s");
   ASSERT_FALSE(twice);
   EXPECT_EQ(twice.error().where, "commands[1].count");
   EXPECT_NE(twice.error().what.find("twice"), std::string::npos);
@@ -231,7 +250,8 @@ TEST(Json, ValuesInMessagesAreShort) {
   EXPECT_LE(shown(list).size(), 120U);
   EXPECT_LE(shown({.kind = Json::Kind::text, .text = std::string(2000000, 'x')}).size(), 120U);
   EXPECT_EQ(shown({.kind = Json::Kind::text, .text = "a\nb"}), R"("a\nb")");
-  EXPECT_EQ(shown(*parse_json(R"([1,[],{"a":[2,3],"b":{}},null,true])")), R"([1,[],{"a":[2,3],"b":{}},null,true])");
+  EXPECT_EQ(shown(*parse_json(R"([1,[],{"a":[2,3],"b":{}},null,true])")),
+            R"([1,[],{"a":[2,3],"b":{}},null,true])");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// How far random presses, strokes, brushes and drags go on shapes of every kind: docs/clay.md, "How far anything
-// moves".
+// How far random presses, strokes, brushes and drags go on shapes of every kind: docs/clay.md, "How
+// far anything moves".
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -28,9 +28,11 @@ struct Random {
 
 constexpr std::array<int, 12> degrees = {1, 2, 3, 3, 3, 3, 4, 5, 7, 10, 22, 25};
 
-/// Clamped, of at most about 30 functions: knots of multiplicity 1 to p, spans that differ by up to 100.
+/// Clamped, of at most about 30 functions: knots of multiplicity 1 to p, spans that differ by up to
+/// 100.
 KnotVector random_knots(Random& random, int p) {
-  const int spans = std::max(2, random.whole(3, 14) / (p > 5 ? 4 : 1)), most = random.odds(3) ? p : 1;
+  const int spans = std::max(2, random.whole(3, 14) / (p > 5 ? 4 : 1)),
+            most = random.odds(3) ? p : 1;
   std::vector<double> knots(static_cast<std::size_t>(p + 1), 0);
   double at = 0;
   const double decades = random.odds(4) ? 2 : 0.3;
@@ -44,8 +46,11 @@ KnotVector random_knots(Random& random, int p) {
 
 /// A wavy sheet of 100 × 100, rational one time in three.
 Surface sheet(Random& random) {
-  const auto degree = [&](int kinds) { return degrees[static_cast<std::size_t>(random.whole(0, kinds - 1))]; };
-  const int p = degree(std::ssize(degrees)), q = degree(p > 10 && !testing::long_run() ? 6 : std::ssize(degrees));
+  const auto degree = [&](int kinds) {
+    return degrees[static_cast<std::size_t>(random.whole(0, kinds - 1))];
+  };
+  const int p = degree(std::ssize(degrees)),
+            q = degree(p > 10 && !testing::long_run() ? 6 : std::ssize(degrees));
   const KnotVector u = random_knots(random, p), v = random_knots(random, q);
   Points points(u.count() * v.count(), 3);
   std::vector<double> weights;
@@ -70,7 +75,8 @@ struct Case {
 
 Session opened(const Surface& surface) {
   const std::vector<NamedSurface> named = {{"", surface}};
-  auto source = open_source(*save_surfaces(named, *find_format("step"), {.unit = "mm"}), "made.step");
+  auto source =
+      open_source(*save_surfaces(named, *find_format("step"), {.unit = "mm"}), "made.step");
   return Session(Document::from(*source));
 }
 
@@ -86,7 +92,9 @@ Case random_case(Random& random) {
   return made;
 }
 
-std::string list(const Point& p) { return fmt::format("[{:.17g},{:.17g},{:.17g}]", p.x(), p.y(), p.z()); }
+std::string list(const Point& p) {
+  return fmt::format("[{:.17g},{:.17g},{:.17g}]", p.x(), p.y(), p.z());
+}
 
 /// Depth of a shape in a ball, of samples.
 double depth_in(const Surface& s, const Point& centre, double radius) {
@@ -95,10 +103,12 @@ double depth_in(const Surface& s, const Point& centre, double radius) {
   for (int d = 0; d < 2; ++d) {
     const Interval domain = s.knots(d).domain();
     for (int k = 0; k <= samples; ++k) {
-      at[static_cast<std::size_t>(d)].push_back(std::min(domain.upper, domain.lower + domain.length() * k / samples));
+      at[static_cast<std::size_t>(d)].push_back(
+          std::min(domain.upper, domain.lower + domain.length() * k / samples));
     }
   }
-  const auto grid = evaluate_grid<2>(s, {std::span<const double>(at[0]), std::span<const double>(at[1])});
+  const auto grid =
+      evaluate_grid<2>(s, {std::span<const double>(at[0]), std::span<const double>(at[1])});
   return radius - (grid->points().rowwise() - centre.transpose()).rowwise().norm().minCoeff();
 }
 
@@ -111,15 +121,18 @@ void act(Random& random, unsigned seed, Tally& tally) {
   Case c = random_case(random);
   Session& session = c.session;
   const std::string id = session.state().surfaces[0].id;
-  run(session, {R"({"do":"hold","mode":"trim","all":true})", fmt::format(R"({{"do":"select","surface":"{}"}})", id)});
+  run(session, {R"({"do":"hold","mode":"trim","all":true})",
+                fmt::format(R"({{"do":"select","surface":"{}"}})", id)});
   if (!c.held) run(session, {R"({"do":"edge","which":"u0","hold":"free"})"});
   if (random.odds(2)) run(session, {R"({"do":"material","preset":"clay"})"});
   const Surface shape = *session.state().surfaces[0].current;
-  const double size = bounding_box(shape).diagonal(), radius = size * std::pow(10, random.real(-1.5, 0.3));
+  const double size = bounding_box(shape).diagonal(),
+               radius = size * std::pow(10, random.real(-1.5, 0.3));
   const auto [lower, upper] = std::pair{shape.knots(0).domain(), shape.knots(1).domain()};
   const std::array<double, 2> at = {lower.lower + random.real(0.3, 0.7) * lower.length(),
                                     upper.lower + random.real(0.3, 0.7) * upper.length()};
-  const auto jet = evaluate<2>(shape, Parameters<2>(Eigen::Map<const Parameters<2>>(at.data(), 1, 2)), 1);
+  const auto jet =
+      evaluate<2>(shape, Parameters<2>(Eigen::Map<const Parameters<2>>(at.data(), 1, 2)), 1);
   const Point u = jet->at({1, 0}).row(0), v = jet->at({0, 1}).row(0), x = jet->points().row(0);
   const Point normal = u.cross(v).normalized() * (random.odds(2) ? 1 : -1);
   const double deep = std::min(radius, 0.2 * size) * random.real(0.1, 0.6);
@@ -128,29 +141,32 @@ void act(Random& random, unsigned seed, Tally& tally) {
   double asked = 0;
   switch (random.whole(0, 3)) {
     case 0:
-      run(session, {fmt::format(R"({{"do":"tool","name":"b","radius":{:.17g},"position":{}}})", radius, list(centre))});
-      command = fmt::format(R"({{"do":"step","count":{},"lambda":{}}})", random.whole(1, 8), random.odds(2) ? 1 : 20);
+      run(session, {fmt::format(R"({{"do":"tool","name":"b","radius":{:.17g},"position":{}}})",
+                                radius, list(centre))});
+      command = fmt::format(R"({{"do":"step","count":{},"lambda":{}}})", random.whole(1, 8),
+                            random.odds(2) ? 1 : 20);
       asked = depth_in(shape, centre, radius);
       break;
     case 1:
-      run(session, {fmt::format(R"({{"do":"tool","name":"b","radius":{:.17g},"position":{}}})", radius,
-                                list(x + (3 * size + radius) * normal))});
+      run(session, {fmt::format(R"({{"do":"tool","name":"b","radius":{:.17g},"position":{}}})",
+                                radius, list(x + (3 * size + radius) * normal))});
       command = fmt::format(R"({{"do":"stroke","tool":"b","path":[{}]}})", list(centre));
       asked = depth_in(shape, centre, radius);
       break;
     case 2: {
       const char* const kinds[] = {"push", "pull", "inflate", "crease"};
-      command =
-          fmt::format(R"({{"do":"brush","kind":"{}","radius":{:.17g},"height":{:.17g},"path":[[{:.17g},{:.17g}]]}})",
-                      kinds[random.whole(0, 3)], std::min(radius, 0.3 * size), deep,
-                      (at[0] - lower.lower) / lower.length(), (at[1] - upper.lower) / upper.length());
+      command = fmt::format(R"({{"do":"brush","kind":"{}","radius":{:.17g},"height":{:.17g},)"
+                            R"("path":[[{:.17g},{:.17g}]]}})",
+                            kinds[random.whole(0, 3)], std::min(radius, 0.3 * size), deep,
+                            (at[0] - lower.lower) / lower.length(),
+                            (at[1] - upper.lower) / upper.length());
       asked = deep;
       break;
     }
     default:
       command = fmt::format(R"({{"do":"drag","at":[{:.17g},{:.17g}],"by":{},"steps":2}})",
-                            (at[0] - lower.lower) / lower.length(), (at[1] - upper.lower) / upper.length(),
-                            list(deep * normal));
+                            (at[0] - lower.lower) / lower.length(),
+                            (at[1] - upper.lower) / upper.length(), list(deep * normal));
       asked = deep;
   }
   const auto parsed = parse_command(command);
@@ -159,11 +175,13 @@ void act(Random& random, unsigned seed, Tally& tally) {
   ++tally.made;
   if (!done) {
     ++tally.refused;
-    EXPECT_FALSE(done.error().remedy.empty()) << "seed " << seed << ": " << command << ": " << done.error().message();
+    EXPECT_FALSE(done.error().remedy.empty())
+        << "seed " << seed << ": " << command << ": " << done.error().message();
     return;
   }
   const auto noted = [&](std::string_view begins) {
-    return std::ranges::any_of(session.state().notes, [&](const std::string& n) { return n.starts_with(begins); });
+    return std::ranges::any_of(session.state().notes,
+                               [&](const std::string& n) { return n.starts_with(begins); });
   };
   tally.smaller += noted("made smaller") ? 1 : 0;
   const double ratio = session.largest_displacement(0) / asked;
@@ -176,8 +194,8 @@ void act(Random& random, unsigned seed, Tally& tally) {
   }
   tally.worst = std::max(tally.worst, ratio);
   // 5 %, and what sampling the depth in two ways leaves
-  EXPECT_LE(ratio, 1.06) << "seed " << seed << ", " << c.name << ": moved " << session.largest_displacement(0) << " of "
-                         << asked << " " << command;
+  EXPECT_LE(ratio, 1.06) << "seed " << seed << ", " << c.name << ": moved "
+                         << session.largest_displacement(0) << " of " << asked << " " << command;
 }
 
 TEST(MotionLaw, HoldsForRandomActsOnShapesOfEveryKind) {
@@ -187,12 +205,15 @@ TEST(MotionLaw, HoldsForRandomActsOnShapesOfEveryKind) {
     Random random{std::mt19937_64(seed)};
     act(random, seed, tally);
   }
-  fmt::print("{} acts: at most {:.3f} of what was asked, levers ({}) {:.3f}; {} made smaller, {} refused\n", tally.made,
-             tally.worst, tally.levers, tally.worst_lever, tally.smaller, tally.refused);
+  fmt::print(
+      "{} acts: at most {:.3f} of what was asked, levers ({}) {:.3f}; {} made smaller, {} "
+      "refused\n",
+      tally.made, tally.worst, tally.levers, tally.worst_lever, tally.smaller, tally.refused);
   EXPECT_LE(tally.refused, testing::long_run() ? 0.02 * count : 2);
 }
 
-// Strokes and steps with balls around a sphere, and a drag on a rational sheet whose first part moves too far.
+// Strokes and steps with balls around a sphere, and a drag on a rational sheet whose first part
+// moves too far.
 TEST(MotionLaw, HoldsForActsThatAskLessThanTheyWouldMove) {
   Tally tally;
   for (const unsigned seed : {224U, 337U, 326U, 138U, 723U, 880U, 1184U}) {

@@ -20,10 +20,12 @@ using testing::epsilon;
 
 TEST(NewCommand, RoundShapesAreExactAndSelectThemselves) {
   Session session = fresh();
-  run(session, {R"({"do":"new","shape":"sphere","radius":2,"position":[10,0,0],"unit":"inch"})",
-                R"({"do":"new","shape":"cylinder","radius":3,"height":5,"degree":[3,2],"net":[8,6]})",
-                R"({"do":"new","shape":"torus","radius":4,"minor":0.5})",
-                R"({"do":"new","shape":"revolution","profile":[[1,0],[3,2],[1,4],[2,6],[0,7]],"name":"vase"})"});
+  run(session,
+      {R"({"do":"new","shape":"sphere","radius":2,"position":[10,0,0],"unit":"inch"})",
+       R"({"do":"new","shape":"cylinder","radius":3,"height":5,"degree":[3,2],"net":[8,6]})",
+       R"({"do":"new","shape":"torus","radius":4,"minor":0.5})",
+       R"({"do":"new","shape":"revolution","profile":[[1,0],[3,2],[1,4],[2,6],[0,7]],)"
+       R"("name":"vase"})"});
   const auto& surfaces = session.state().surfaces;
   ASSERT_EQ(surfaces.size(), 4U);
   EXPECT_EQ(session.state().selection(), std::vector<int>{3});
@@ -44,7 +46,8 @@ TEST(NewCommand, RoundShapesAreExactAndSelectThemselves) {
   const auto saved = step::File::parse(*session.save(), "saved");
   ASSERT_TRUE(saved) << saved.error().message();
   EXPECT_EQ(saved->model().length_unit(), "inch");
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_TRUE(same_bits(saved->surfaces()[k].surface, *surfaces[k].current));
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_TRUE(same_bits(saved->surfaces()[k].surface, *surfaces[k].current));
   EXPECT_EQ(saved->surfaces()[2].closed, (std::array<bool, 2>{true, true}));
   run(session, {R"({"do":"undo"})"});
   EXPECT_EQ(session.state().selected, 2);
@@ -53,10 +56,11 @@ TEST(NewCommand, RoundShapesAreExactAndSelectThemselves) {
 TEST(NewCommand, RoundShapesCanBeSculpted) {
   for (const char* shape : {"sphere", "cylinder", "torus"}) {
     Session session = fresh();
-    run(session, {std::string(R"({"do":"new","shape":")") + shape + R"(","radius":1})",
-                  R"({"do":"refine","region":[[0,1],[0,1]]})",
-                  R"({"do":"tool","radius":0.4,"position":[1.6,0,0.2],"plasticity":1})",
-                  R"({"do":"move","by":[-0.3,0,0]})", R"({"do":"step","count":3})", R"({"do":"remove"})"});
+    run(session,
+        {std::string(R"({"do":"new","shape":")") + shape + R"(","radius":1})",
+         R"({"do":"refine","region":[[0,1],[0,1]]})",
+         R"({"do":"tool","radius":0.4,"position":[1.6,0,0.2],"plasticity":1})",
+         R"({"do":"move","by":[-0.3,0,0]})", R"({"do":"step","count":3})", R"({"do":"remove"})"});
     EXPECT_GT(session.largest_displacement(0), 0.02) << shape;
     EXPECT_LT(session.largest_displacement(0), 0.5) << shape;
   }
@@ -65,8 +69,10 @@ TEST(NewCommand, RoundShapesCanBeSculpted) {
 TEST(NewCommand, PointsAreTakenBitForBit) {
   Session session = fresh();
   run(session,
-      {R"({"do":"new","degree":[1,2],"net":[2,3],"points":[[0,0,-0.0],[0,1,0.1],[0,2,0],[1,0,0],[1,1,0.3],[1,2,1e-300]]})",
-       R"({"do":"new","degree":[1,1],"net":[2,2],"knots_u":[0,0,3,3],"points":[[0,0,0],[0,1,0],[1,0,0],[1,1,1]],"weights":[1,2,0.5,1],"position":[1,1,1]})"});
+      {R"({"do":"new","degree":[1,2],"net":[2,3],)"
+       R"("points":[[0,0,-0.0],[0,1,0.1],[0,2,0],[1,0,0],[1,1,0.3],[1,2,1e-300]]})",
+       R"({"do":"new","degree":[1,1],"net":[2,2],"knots_u":[0,0,3,3],)"
+       R"("points":[[0,0,0],[0,1,0],[1,0,0],[1,1,1]],"weights":[1,2,0.5,1],"position":[1,1,1]})"});
   const Surface& a = *session.state().surfaces[0].current;
   EXPECT_FALSE(a.rational());
   EXPECT_TRUE(std::signbit(a.control_points()(0, 2)));
@@ -83,7 +89,8 @@ TEST(NewCommand, PointsAreTakenBitForBit) {
 
 TEST(NewCommand, RefusesWithThePlace) {
   Session session = fresh();
-  const std::string square = R"("degree":[1,1],"net":[2,2],"points":[[0,0,0],[0,1,0],[1,0,0],[1,1,0]])";
+  const std::string square =
+      R"("degree":[1,1],"net":[2,2],"points":[[0,0,0],[0,1,0],[1,0,0],[1,1,0]])";
   for (const auto& [fields, where] : std::vector<std::pair<std::string, std::string>>{
            {R"("shape":"cube")", "shape"},
            {R"("shape":"sphere","radius":0)", "radius"},
@@ -95,7 +102,9 @@ TEST(NewCommand, RefusesWithThePlace) {
            {R"("shape":"cylinder","net":[9,3])", "net"},
            {R"("shape":"revolution")", "profile"},
            {R"("shape":"revolution","profile":[[1,0],[1,1],[-1,2],[1,3]])", "profile[2]"},
-           {R"("shape":"revolution","profile":[[1,0],[1,1],[1,2],[1,3]],"knots_v":[0,0,0,0,1,2,2,2,2])", "profile"},
+           {R"("shape":"revolution","profile":[[1,0],[1,1],[1,2],[1,3]],)"
+            R"("knots_v":[0,0,0,0,1,2,2,2,2])",
+            "profile"},
            {R"("shape":"sphere",)" + square, "points"},
            {R"("degree":[1,1],"net":[2,3],"points":[[0,0,0],[0,1,0],[1,0,0],[1,1,0]])", "points"},
            {square + R"(,"weights":[1,1,1])", "weights"},

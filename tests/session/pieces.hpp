@@ -16,7 +16,8 @@ struct Quad {
   std::vector<const char*> held = {};  ///< its edges
 
   [[nodiscard]] Point at(double s, double t) const {
-    return (1 - s) * ((1 - t) * corners[0] + t * corners[2]) + s * ((1 - t) * corners[1] + t * corners[3]);
+    return (1 - s) * ((1 - t) * corners[0] + t * corners[2]) +
+           s * ((1 - t) * corners[1] + t * corners[3]);
   }
 };
 
@@ -31,13 +32,16 @@ inline Session pieces(const std::vector<Quad>& quads, const std::vector<std::str
     for (int i = 0; i < q.net[0]; ++i) {
       for (int j = 0; j < q.net[1]; ++j) {
         const Interval a = u.domain(), b = v.domain();
-        const Point p = q.at((u.greville(i) - a.lower) / a.length(), (v.greville(j) - b.lower) / b.length());
-        points += fmt::format("{}[{:.17g},{:.17g},{:.17g}]", points.empty() ? "" : ",", p.x(), p.y(), p.z());
+        const Point p =
+            q.at((u.greville(i) - a.lower) / a.length(), (v.greville(j) - b.lower) / b.length());
+        points += fmt::format("{}[{:.17g},{:.17g},{:.17g}]", points.empty() ? "" : ",", p.x(),
+                              p.y(), p.z());
       }
     }
-    run(session, {fmt::format(R"({{"do":"new","degree":[{0},{0}],"net":[{1},{2}],"points":[{3}]}})", q.degree, q.net[0],
-                              q.net[1], points)});
-    for (const char* edge : q.held) run(session, {fmt::format(R"({{"do":"edge","which":"{}"}})", edge)});
+    run(session, {fmt::format(R"({{"do":"new","degree":[{0},{0}],"net":[{1},{2}],"points":[{3}]}})",
+                              q.degree, q.net[0], q.net[1], points)});
+    for (const char* edge : q.held)
+      run(session, {fmt::format(R"({{"do":"edge","which":"{}"}})", edge)});
     ids += fmt::format(R"({}"{}")", ids.empty() ? "" : ",", session.state().surfaces.back().id);
   }
   run(session, {R"({"do":"select","surfaces":[)" + ids + "]}"});
@@ -46,10 +50,13 @@ inline Session pieces(const std::vector<Quad>& quads, const std::vector<std::str
 }
 
 /// A sheet of 200 × 200 in two halves that meet at x = 100.
-inline std::vector<Quad> halves(std::array<int, 2> left = {64, 64}, std::array<int, 2> right = {64, 64},
-                                int degree_right = 3) {
+inline std::vector<Quad> halves(std::array<int, 2> left = {64, 64},
+                                std::array<int, 2> right = {64, 64}, int degree_right = 3) {
   return {{{Point(0, 0, 0), {100, 0, 0}, {0, 200, 0}, {100, 200, 0}}, left, 3, {"u0", "v0", "v1"}},
-          {{Point(100, 0, 0), {200, 0, 0}, {100, 200, 0}, {200, 200, 0}}, right, degree_right, {"u1", "v0", "v1"}}};
+          {{Point(100, 0, 0), {200, 0, 0}, {100, 200, 0}, {200, 200, 0}},
+           right,
+           degree_right,
+           {"u1", "v0", "v1"}}};
 }
 /// The right half with its parameters exchanged, so that its normals point to the other side.
 inline std::vector<Quad> turned_halves(std::array<int, 2> net) {

@@ -17,7 +17,8 @@ using testing::refusal;
 using testing::run;
 
 std::string pin(double s, double t, double height) {
-  return fmt::format(R"({{"do":"pin","at":[{},{}],"to":[{},{},{}]}})", s, t, 10 * s, 10 * t, height);
+  return fmt::format(R"({{"do":"pin","at":[{},{}],"to":[{},{},{}]}})", s, t, 10 * s, 10 * t,
+                     height);
 }
 
 /// Pins of a sheet of 10 by 10, on the first n of a grid of 4 by 4 places, to heights in a plane.
@@ -31,7 +32,9 @@ Session pinned(int n) {
   return session;
 }
 
-ModelInput input_of(const Session& session) { return model_input(session.state(), trial_evolution()); }
+ModelInput input_of(const Session& session) {
+  return model_input(session.state(), trial_evolution());
+}
 
 TEST(MetConditions, EliminateEveryPinOnce) {
   MetConditions conditions;

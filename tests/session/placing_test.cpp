@@ -16,10 +16,12 @@ using testing::refusal;
 using testing::run;
 using testing::same_bits;
 
-// On sheets of size 10 by 10 with nets of 10 by 10: a pull of the middle of a block of 4 × 4 × 4 moves all of it, and
-// one of a corner of a fine linear block only what is near.
-const std::string pull_all = R"({"do":"lattice","net":[4,4,4],"which":[21,22,25,26,37,38,41,42],"by":[0,0,1]})";
-const std::string pull_corner = R"({"do":"lattice","net":[9,9,2],"degree":[1,1,1],"which":[0,1],"by":[0,0,1]})";
+// On sheets of size 10 by 10 with nets of 10 by 10: a pull of the middle of a block of 4 × 4 × 4
+// moves all of it, and one of a corner of a fine linear block only what is near.
+const std::string pull_all =
+    R"({"do":"lattice","net":[4,4,4],"which":[21,22,25,26,37,38,41,42],"by":[0,0,1]})";
+const std::string pull_corner =
+    R"({"do":"lattice","net":[9,9,2],"degree":[1,1,1],"which":[0,1],"by":[0,0,1]})";
 const std::string freeze_middle = R"({"do":"freeze","region":[[0.4,0.6],[0.4,0.6]]})";
 
 TEST(PlacedPoints, FrozenRegionsStayUnderALattice) {
@@ -33,8 +35,9 @@ TEST(PlacedPoints, FrozenRegionsStayUnderALattice) {
 }
 
 TEST(PlacedPoints, FrozenRegionsStayWhereWeightsAndKnotsChange) {
-  for (const char* json : {R"({"do":"weights","which":[44],"weight":2})",
-                           R"({"do":"knots","direction":"u","knots":[0,0,0,0,0.1,0.3,0.35,0.4,0.7,0.75,1,1,1,1]})"}) {
+  for (const char* json :
+       {R"({"do":"weights","which":[44],"weight":2})",
+        R"({"do":"knots","direction":"u","knots":[0,0,0,0,0.1,0.3,0.35,0.4,0.7,0.75,1,1,1,1]})"}) {
     Session session = on_sheet({R"({"do":"points","which":[44],"by":[0,0,3]})"});
     const Surface before = *first(session).current;
     Session frozen = on_sheet({R"({"do":"points","which":[44],"by":[0,0,3]})", freeze_middle});
@@ -65,19 +68,22 @@ TEST(PlacedPoints, TheLimitStandsUnderALattice) {
   EXPECT_EQ(session.largest_displacement(0), 0);
   // What is beyond it may come nearer.
   Session beyond = on_sheet({pull_all, R"({"do":"limit","distance":0.1})"});
-  run(beyond, {R"({"do":"lattice","net":[4,4,4],"which":[21,22,25,26,37,38,41,42],"by":[0,0,-0.2]})"});
+  run(beyond,
+      {R"({"do":"lattice","net":[4,4,4],"which":[21,22,25,26,37,38,41,42],"by":[0,0,-0.2]})"});
   EXPECT_EQ(code_of(refusal(beyond, pull_all)), ErrorCode::beyond_limit);
 }
 
 TEST(PlacedPoints, SymmetriesStandUnderALattice) {
   Session session = on_sheet({R"({"do":"symmetry","mirror":"u"})"});
-  EXPECT_NE(refusal(session, pull_corner).message().find("symmetry would be lost"), std::string::npos);
+  EXPECT_NE(refusal(session, pull_corner).message().find("symmetry would be lost"),
+            std::string::npos);
   run(session, {pull_all});
 }
 
 TEST(PlacedPoints, WhatALatticeMovesIsHeldInItsNewPlace) {
   Session session = on_sheet({R"({"do":"edge","hold":"clamped"})", R"({"do":"hold","rows":1})",
-                              R"({"do":"pin","control_points":[[4,4]]})", R"({"do":"pin","at":[0.3,0.6]})", pull_all});
+                              R"({"do":"pin","control_points":[[4,4]]})",
+                              R"({"do":"pin","at":[0.3,0.6]})", pull_all});
   EXPECT_GT(at(*first(session).current, 0.5, 0.5)[2], 0.1);
   const Surface before = *first(session).current;
   run(session, {R"({"do":"step","count":3})"});
@@ -85,9 +91,10 @@ TEST(PlacedPoints, WhatALatticeMovesIsHeldInItsNewPlace) {
 }
 
 /// Two sheets side by side along x = 5, whose nets along it differ.
-const std::vector<std::string> two_sheets = {R"({"do":"new","net":[6,6],"size":[5,5]})",
-                                             R"({"do":"new","net":[6,9],"size":[5,5],"position":[5,0,0]})",
-                                             R"({"do":"select","surfaces":["#1","#2"]})"};
+const std::vector<std::string> two_sheets = {
+    R"({"do":"new","net":[6,6],"size":[5,5]})",
+    R"({"do":"new","net":[6,9],"size":[5,5],"position":[5,0,0]})",
+    R"({"do":"select","surfaces":["#1","#2"]})"};
 
 double gap_between(const Session& session) {
   const auto& surfaces = session.state().surfaces;
@@ -100,7 +107,8 @@ TEST(PlacedPoints, SeamsStayClosedUnderALattice) {
   Session session = testing::fresh();
   run(session, two_sheets);
   ASSERT_LT(gap_between(session), 1e-14);
-  const std::string pull = R"({"do":"lattice","net":[4,7,4],"which":[37,38,65,66],"by":[0.2,0.1,2]})";
+  const std::string pull =
+      R"({"do":"lattice","net":[4,7,4],"which":[37,38,65,66],"by":[0.2,0.1,2]})";
   Session never = testing::fresh();
   run(never, two_sheets);
   run(never, {R"({"do":"refine","permission":"never"})"});
@@ -121,7 +129,8 @@ TEST(PlacedPoints, SymmetriesStandWhereALatticeUnitesTheKnotsOfSeams) {
   run(session, two_sheets);
   run(session, {R"({"do":"select","surface":"#1"})", R"({"do":"symmetry","mirror":"v"})",
                 R"({"do":"select","surfaces":["#1","#2"]})"});
-  const Error error = refusal(session, R"({"do":"lattice","net":[4,7,4],"which":[37,38,65,66],"by":[0.2,0.1,2]})");
+  const Error error =
+      refusal(session, R"({"do":"lattice","net":[4,7,4],"which":[37,38,65,66],"by":[0.2,0.1,2]})");
   EXPECT_NE(error.message().find("symmetry would be lost"), std::string::npos) << error.message();
 }
 

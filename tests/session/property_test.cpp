@@ -51,7 +51,8 @@ KnotVector random_knots(Random& random, int degree) {
 
 /// A wavy, possibly rational sheet of a size near 10.
 Surface random_surface(Random& random) {
-  const KnotVector u = random_knots(random, random.whole(2, 4)), v = random_knots(random, random.whole(2, 4));
+  const KnotVector u = random_knots(random, random.whole(2, 4)),
+                   v = random_knots(random, random.whole(2, 4));
   Points points(u.count() * v.count(), 3);
   std::vector<double> weights;
   const bool rational = random.whole(0, 1) == 1;
@@ -59,7 +60,8 @@ Surface random_surface(Random& random) {
     for (int j = 0; j < v.count(); ++j) {
       const double s = (u.greville(i) - u.domain().lower) / u.domain().length();
       const double t = (v.greville(j) - v.domain().lower) / v.domain().length();
-      points.row(i * v.count() + j) << 10 * s, 8 * t, std::sin(3 * s) + std::cos(2 * t) + random.real(-0.1, 0.1);
+      points.row(i * v.count() + j) << 10 * s, 8 * t,
+          std::sin(3 * s) + std::cos(2 * t) + random.real(-0.1, 0.1);
       if (rational) weights.push_back(random.real(0.8, 1.25));
     }
   }
@@ -68,8 +70,10 @@ Surface random_surface(Random& random) {
 
 Surface placed(const Surface& s, const Similarity& m) {
   Points points = s.control_points();
-  for (Eigen::Index k = 0; k < points.rows(); ++k) points.row(k) = m(points.row(k).transpose()).transpose();
-  return *Surface::create({s.knots(0), s.knots(1)}, points, {s.weights().begin(), s.weights().end()});
+  for (Eigen::Index k = 0; k < points.rows(); ++k)
+    points.row(k) = m(points.row(k).transpose()).transpose();
+  return *Surface::create({s.knots(0), s.knots(1)}, points,
+                          {s.weights().begin(), s.weights().end()});
 }
 
 Session document_of(const Surface& surface) {
@@ -81,7 +85,9 @@ Session document_of(const Surface& surface) {
   return Session(Document::from(*std::move(source)));
 }
 
-std::string list(const Point& p) { return fmt::format("[{:.17g},{:.17g},{:.17g}]", p.x(), p.y(), p.z()); }
+std::string list(const Point& p) {
+  return fmt::format("[{:.17g},{:.17g},{:.17g}]", p.x(), p.y(), p.z());
+}
 
 /// A random command, with its lengths and directions placed.
 std::string random_command(Random& random, const Similarity& m, bool settings = true) {
@@ -89,60 +95,75 @@ std::string random_command(Random& random, const Similarity& m, bool settings = 
   const Point by = m.direction(random.point(0.3));
   switch (random.whole(0, settings ? 24 : 9)) {
     case 0:
-    case 1:  // clear of the surface or into it by less than its radius: what is half way through has two sides to go to
-      return fmt::format(R"({{"do":"tool","name":"a","radius":{:.17g},"position":{},"stiffness":{}}})",
-                         k * random.real(1.5, 2.5),
-                         list(m(Point(10 * s, 8 * t, 3 + std::sin(3 * s) + std::cos(2 * t) - random.real(1, 2)))),
-                         random.whole(0, 1) == 0 ? "1e3" : "1e4");
+    case 1:  // clear of the surface or into it by less than its radius: what is half way through
+             // has two sides to go to
+      return fmt::format(
+          R"({{"do":"tool","name":"a","radius":{:.17g},"position":{},"stiffness":{}}})",
+          k * random.real(1.5, 2.5),
+          list(m(Point(10 * s, 8 * t, 3 + std::sin(3 * s) + std::cos(2 * t) - random.real(1, 2)))),
+          random.whole(0, 1) == 0 ? "1e3" : "1e4");
     case 2:  // round about its axis, so that the axis alone says how it lies
       return fmt::format(
-          R"({{"do":"tool","name":"b","shape":"capsule","radius":{:.17g},"height":{:.17g},"position":{},"axis":{},"mode":"proximity","range":{:.17g}}})",
-          k * random.real(1, 2), k * 2, list(m(Point(10 * s, 8 * t, 1))), list(m.direction(Point(1, 0.2, 0.1))), k);
+          R"({{"do":"tool","name":"b","shape":"capsule","radius":{:.17g},"height":{:.17g},)"
+          R"("position":{},"axis":{},"mode":"proximity","range":{:.17g}}})",
+          k * random.real(1, 2), k * 2, list(m(Point(10 * s, 8 * t, 1))),
+          list(m.direction(Point(1, 0.2, 0.1))), k);
     case 3:
       return fmt::format(R"({{"do":"move","tool":"a","by":{}}})", list(by));
     case 4:
     case 5:
     case 6:
-      return fmt::format(R"({{"do":"step","count":{},"lambda":{:.17g}}})", random.whole(1, 3), random.real(0.5, 20));
+      return fmt::format(R"({{"do":"step","count":{},"lambda":{:.17g}}})", random.whole(1, 3),
+                         random.real(0.5, 20));
     case 7:
-      return fmt::format(R"({{"do":"force","at":[{:.17g},{:.17g}],"to":{},"strength":{:.17g}}})", s, t,
-                         list(m(Point(10 * s, 8 * t, 2))), random.real(1, 20));
-    case 8:  // its default radius is a share of a box along the axes, which does not turn with the surface
+      return fmt::format(R"({{"do":"force","at":[{:.17g},{:.17g}],"to":{},"strength":{:.17g}}})", s,
+                         t, list(m(Point(10 * s, 8 * t, 2))), random.real(1, 20));
+    case 8:  // its default radius is a share of a box along the axes, which does not turn with the
+             // surface
       return fmt::format(
-          R"({{"do":"drag","at":[{:.17g},{:.17g}],"by":{},"radius":{:.17g},"steps":2,"plasticity":{:.17g}}})", s, t,
-          list(by), k * random.real(0.5, 2), random.real(0, 1));
+          R"({{"do":"drag","at":[{:.17g},{:.17g}],"by":{},"radius":{:.17g},"steps":2,)"
+          R"("plasticity":{:.17g}}})",
+          s, t, list(by), k * random.real(0.5, 2), random.real(0, 1));
     case 9:
-      return fmt::format(R"({{"do":"load","vector":{}}})", list(m.direction(random.point(0.2)) / (k * k) * k));
+      return fmt::format(R"({{"do":"load","vector":{}}})",
+                         list(m.direction(random.point(0.2)) / (k * k) * k));
     case 10:
       return R"({"do":"remove","tool":"a"})";
     case 11:
       return fmt::format(R"({{"do":"pin","at":[{:.17g},{:.17g}]}})", s, t);
     case 12:
-      return fmt::format(R"({{"do":"material","beta":[{0:.17g},{0:.17g},{0:.17g}]}})", random.real(0.005, 0.1));
+      return fmt::format(R"({{"do":"material","beta":[{0:.17g},{0:.17g},{0:.17g}]}})",
+                         random.real(0.005, 0.1));
     case 13:
-      return fmt::format(R"({{"do":"edge","which":"{}","hold":"{}"}})", random.whole(0, 1) == 0 ? "u0" : "v1",
+      return fmt::format(R"({{"do":"edge","which":"{}","hold":"{}"}})",
+                         random.whole(0, 1) == 0 ? "u0" : "v1",
                          random.whole(0, 1) == 0 ? "position" : "clamped");
     case 14:
-      return fmt::format(R"({{"do":"freeze","region":[[{0:.17g},{0:.17g}],[{1:.17g},{1:.17g}]]}})", s, t);
+      return fmt::format(R"({{"do":"freeze","region":[[{0:.17g},{0:.17g}],[{1:.17g},{1:.17g}]]}})",
+                         s, t);
     case 15:
       return fmt::format(R"({{"do":"keep","{}":{:.17g}}})", random.whole(0, 1) == 0 ? "u" : "v", s);
     case 16:
-      return fmt::format(R"({{"do":"refine","region":[[{0:.17g},{0:.17g}],[{1:.17g},{1:.17g}]]}})", s, t);
+      return fmt::format(R"({{"do":"refine","region":[[{0:.17g},{0:.17g}],[{1:.17g},{1:.17g}]]}})",
+                         s, t);
     case 17:
       return fmt::format(R"({{"do":"limit","distance":{:.17g}}})", k * random.real(0.2, 1));
     case 18:
       return R"({"do":"rest"})";
     case 19:
-      return fmt::format(R"({{"do":"evolve","mode":"{}"}})", random.whole(0, 1) == 0 ? "acm" : "dynamic");
+      return fmt::format(R"({{"do":"evolve","mode":"{}"}})",
+                         random.whole(0, 1) == 0 ? "acm" : "dynamic");
     case 20:
-      return fmt::format(R"({{"do":"points","which":[{}],"rows_v":[{}],"by":{}}})", random.whole(0, 30),
-                         random.whole(0, 4), list(by));
+      return fmt::format(R"({{"do":"points","which":[{}],"rows_v":[{}],"by":{}}})",
+                         random.whole(0, 30), random.whole(0, 4), list(by));
     case 21:
-      return fmt::format(R"({{"do":"weights","which":[{0}],"rows_u":[{1}],"{2}":{3:.17g}}})", random.whole(0, 30),
-                         random.whole(0, 4), random.whole(0, 1) == 0 ? "weight" : "by", random.real(0.7, 1.4));
+      return fmt::format(R"({{"do":"weights","which":[{0}],"rows_u":[{1}],"{2}":{3:.17g}}})",
+                         random.whole(0, 30), random.whole(0, 4),
+                         random.whole(0, 1) == 0 ? "weight" : "by", random.real(0.7, 1.4));
     case 22:
-      return fmt::format(R"({{"do":"relax","at":[{:.17g},{:.17g}],"radius":{:.17g},"strength":{:.17g}}})", s, t,
-                         k * random.real(1, 4), random.real(0.1, 1));
+      return fmt::format(
+          R"({{"do":"relax","at":[{:.17g},{:.17g}],"radius":{:.17g},"strength":{:.17g}}})", s, t,
+          k * random.real(1, 4), random.real(0.1, 1));
     default:
       return R"({"do":"release"})";
   }
@@ -164,7 +185,8 @@ TEST_P(RandomScript, GivesTheSameBitsByUndoRedoAndReplay) {
     const std::string json = random_command(random, {});
     const auto done = session.execute(*parse_command(json));
     if (!done) {
-      ASSERT_TRUE(same_state(session.state(), *before)) << json << " was refused: " << done.error().message();
+      ASSERT_TRUE(same_state(session.state(), *before))
+          << json << " was refused: " << done.error().message();
       continue;
     }
     ++accepted;
@@ -185,7 +207,8 @@ TEST_P(RandomScript, GivesTheSameBitsByUndoRedoAndReplay) {
   }
   EXPECT_GE(accepted, 12);
   Session replay = document_of(surface);
-  for (const Command& command : session.journal()) ASSERT_TRUE(replay.execute(command)) << to_json(command);
+  for (const Command& command : session.journal())
+    ASSERT_TRUE(replay.execute(command)) << to_json(command);
   EXPECT_TRUE(same_state(replay.state(), session.state()));
 }
 
@@ -200,14 +223,16 @@ TEST(Property, NothingMovesAtRestUnderAnyConstraints) {
     for (int k = 0; k < 8; ++k) {
       const std::string json = random_command(random, {});
       const Command command = *parse_command(json);
-      if (fields_of<PinCommand>(command) || fields_of<MaterialCommand>(command) || fields_of<EdgeCommand>(command) ||
-          fields_of<FreezeCommand>(command) || fields_of<KeepCommand>(command) || fields_of<RefineCommand>(command)) {
+      if (fields_of<PinCommand>(command) || fields_of<MaterialCommand>(command) ||
+          fields_of<EdgeCommand>(command) || fields_of<FreezeCommand>(command) ||
+          fields_of<KeepCommand>(command) || fields_of<RefineCommand>(command)) {
         run(session, {json});
       }
     }
     const auto before = session.state().surfaces.front().current;
     for (const char* mode : {"acm", "dynamic"}) {
-      run(session, {fmt::format(R"({{"do":"evolve","mode":"{}"}})", mode), R"({"do":"step","count":3})"});
+      run(session,
+          {fmt::format(R"({{"do":"evolve","mode":"{}"}})", mode), R"({"do":"step","count":3})"});
       EXPECT_TRUE(same_bits(*session.state().surfaces.front().current, *before)) << mode;
     }
   }
@@ -225,7 +250,8 @@ TEST(Property, EnergyFallsWithoutForces) {
       const auto done = session.execute(*command);
       ASSERT_TRUE(done) << json << done.error().message();
     }
-    run(session, {R"({"do":"drag","at":[0.4,0.6],"by":[0.2,0.1,0.8],"plasticity":0})", R"({"do":"load"})"});
+    run(session,
+        {R"({"do":"drag","at":[0.4,0.6],"by":[0.2,0.1,0.8],"plasticity":0})", R"({"do":"load"})"});
     while (!session.state().tools.empty())
       run(session, {R"({"do":"remove","tool":")" + session.state().tools.front().name + R"("})"});
     while (!session.state().forces.empty()) run(session, {R"({"do":"remove"})"});
@@ -254,7 +280,8 @@ TEST(Property, MotionsAndScalesOfFileAndScriptCarryOver) {
     {
       Random random{std::mt19937(1000 + seed)};
       motion.scale = std::exp(random.real(-5, 5));
-      motion.turn = Eigen::AngleAxisd(random.real(0, 3), random.point(1).normalized()).toRotationMatrix();
+      motion.turn =
+          Eigen::AngleAxisd(random.real(0, 3), random.point(1).normalized()).toRotationMatrix();
       motion.shift = motion.scale * random.point(20);
     }
     const auto play = [&](const Similarity& m) {
@@ -278,9 +305,11 @@ TEST(Property, MotionsAndScalesOfFileAndScriptCarryOver) {
     double error = 0;
     ASSERT_EQ(p.rows(), q.rows());
     for (Eigen::Index k = 0; k < p.rows(); ++k) {
-      error = std::max(error, (motion(p.row(k).transpose()) - q.row(k).transpose()).norm() / motion.scale);
+      error = std::max(error,
+                       (motion(p.row(k).transpose()) - q.row(k).transpose()).norm() / motion.scale);
     }
-    EXPECT_LE(error, 1e-7 * std::max(largest, 1e-3)) << "of " << largest << "\n" << script_json(a.journal());
+    EXPECT_LE(error, 1e-7 * std::max(largest, 1e-3)) << "of " << largest << "\n"
+                                                     << script_json(a.journal());
   }
   EXPECT_GE(moved, 12);
 }

@@ -16,7 +16,8 @@ using testing::run;
 
 // Surfaces of every kind from real CAD files, under default settings.
 
-/// Largest angle between the normals on both sides of interior knot lines of full multiplicity, degrees.
+/// Largest angle between the normals on both sides of interior knot lines of full multiplicity,
+/// degrees.
 double largest_crease(const Surface& s) {
   double largest = 0;
   for (int d = 0; d < 2; ++d) {
@@ -24,7 +25,8 @@ double largest_crease(const Surface& s) {
     const Interval domain = knots.domain(), line = along.domain();
     std::set<double> full;
     for (double knot : knots.knots()) {
-      if (knot > domain.lower && knot < domain.upper && std::ranges::count(knots.knots(), knot) >= knots.degree())
+      if (knot > domain.lower && knot < domain.upper &&
+          std::ranges::count(knots.knots(), knot) >= knots.degree())
         full.insert(knot);
     }
     for (double knot : full) {
@@ -39,7 +41,8 @@ double largest_crease(const Surface& s) {
           const Point u = jet->at({1, 0}).row(0), v = jet->at({0, 1}).row(0);
           normal[static_cast<std::size_t>(side)] = u.cross(v).normalized();
         }
-        const double angle = std::atan2(normal[0].cross(normal[1]).norm(), normal[0].dot(normal[1]));
+        const double angle =
+            std::atan2(normal[0].cross(normal[1]).norm(), normal[0].dot(normal[1]));
         if (std::isfinite(angle)) largest = std::max(largest, angle * 180 / std::numbers::pi);
       }
     }
@@ -58,13 +61,15 @@ void bend(const std::vector<std::filesystem::path>& files, int& sculpted, int& l
       const DocumentSurface& s = session.document().surfaces()[k];
       const double crease = largest_crease(*s.surface), size = bounding_box(*s.surface).diagonal();
       const auto closed = session.document().model()->surfaces[k].closed;
-      const std::array<int, 5> kind = {s.surface->rational(), closed[0], closed[1], s.surface->knots(0).degree(),
-                                       s.surface->knots(1).degree()};
-      if (s.surface->size() > 600 || size == 0 || kinds.size() > 5 || !kinds.insert(kind).second) continue;
+      const std::array<int, 5> kind = {s.surface->rational(), closed[0], closed[1],
+                                       s.surface->knots(0).degree(), s.surface->knots(1).degree()};
+      if (s.surface->size() > 600 || size == 0 || kinds.size() > 5 || !kinds.insert(kind).second)
+        continue;
       SCOPED_TRACE(path.filename().string() + " " + s.id);
-      run(session, {R"({"do":"select","surface":")" + s.id + R"("})", R"({"do":"hold","mode":"free"})",
-                    R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55],"touches":"all"})",
-                    R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
+      run(session,
+          {R"({"do":"select","surface":")" + s.id + R"("})", R"({"do":"hold","mode":"free"})",
+           R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55],"touches":"all"})",
+           R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
       if (const auto done = session.execute(make_command(StepCommand{1, 3, {}})); !done) {
         EXPECT_NE(done.error().what.find("no area"), std::string::npos) << done.error().message();
         continue;
@@ -77,7 +82,8 @@ void bend(const std::vector<std::filesystem::path>& files, int& sculpted, int& l
         EXPECT_LT(largest_crease(*session.state().surfaces[k].current), 1e-3) << "degrees";
         ++lines;
       }
-      run(session, {R"({"do":"undo"})", R"({"do":"edge","hold":"clamped"})", R"({"do":"step","lambda":3})"});
+      run(session,
+          {R"({"do":"undo"})", R"({"do":"edge","hold":"clamped"})", R"({"do":"step","lambda":3})"});
       EXPECT_LE(session.state().steps.back().violation, 1e-10 * size);
       const auto bytes = session.save();
       ASSERT_TRUE(bytes) << bytes.error().message();

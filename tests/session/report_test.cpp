@@ -28,8 +28,8 @@ TEST(Outcome, OfNothingDoneIsNothing) {
 
 TEST(Outcome, AddsUpTheStepsAndWhatTheyMoved) {
   Session session(Document::fresh("sheet"));
-  run(session,
-      {sheet, R"({"do":"edge"})", R"({"do":"tool","radius":20,"position":[100,50,14]})", R"({"do":"step","count":3})"});
+  run(session, {sheet, R"({"do":"edge"})", R"({"do":"tool","radius":20,"position":[100,50,14]})",
+                R"({"do":"step","count":3})"});
   const Outcome o = outcome_of(session, 0);
   const auto& steps = session.state().steps;
   ASSERT_EQ(steps.size(), 3u);
@@ -46,7 +46,8 @@ TEST(Outcome, AddsUpTheStepsAndWhatTheyMoved) {
 
 TEST(Report, GivesTheReadingOfEachProbeInItsList) {
   Session session(Document::fresh("sheet"));
-  run(session, {sheet, R"({"do":"measure","name":"a","at":[0.5,0.25]})", R"({"do":"measure","name":"b","at":[1,1]})"});
+  run(session, {sheet, R"({"do":"measure","name":"a","at":[0.5,0.25]})",
+                R"({"do":"measure","name":"b","at":[1,1]})"});
   const auto text = report_json(session, outcome_of(session, 0));
   ASSERT_TRUE(text);
   const auto probes = nlohmann::json::parse(*text).at("measurements");
@@ -117,8 +118,8 @@ TEST(Session, GivesItsSurfacesAndToolsAsValues) {
   Session session(Document::fresh("sheet"));
   EXPECT_TRUE(session.surfaces().empty());
   EXPECT_TRUE(session.selection().empty());
-  run(session,
-      {sheet, R"({"do":"edge"})", R"({"do":"tool","radius":20,"position":[100,50,14]})", R"({"do":"step","count":3})"});
+  run(session, {sheet, R"({"do":"edge"})", R"({"do":"tool","radius":20,"position":[100,50,14]})",
+                R"({"do":"step","count":3})"});
   const auto surfaces = session.surfaces();
   ASSERT_EQ(surfaces.size(), 1u);
   EXPECT_EQ(surfaces[0].id, "#1");
@@ -133,7 +134,8 @@ TEST(Session, GivesItsSurfacesAndToolsAsValues) {
 TEST(ResultGrids, HaveTheDisplacementAndTheModes) {
   Session session(Document::fresh("plate"));
   run(session, {R"({"do":"new","size":[100,100],"net":[9,9]})",
-                R"({"do":"material","model":"shell","young":70000,"thickness":1,"poisson":0.3,"density":1e-6})",
+                R"({"do":"material","model":"shell","young":70000,"thickness":1,"poisson":0.3,)"
+                R"("density":1e-6})",
                 R"({"do":"edge","hold":"clamped"})", R"({"do":"modes","count":2})"});
   const auto grids = result_grids(session, 5);
   ASSERT_TRUE(grids);
@@ -141,7 +143,8 @@ TEST(ResultGrids, HaveTheDisplacementAndTheModes) {
   EXPECT_EQ(grids->front().name, "#1");
   std::vector<std::string> names;
   for (const GridField& field : grids->front().fields) names.push_back(field.name);
-  for (const char* name : {"displacement", "membrane", "moment", "von_mises", "bending_strain", "mode_1", "mode_2"}) {
+  for (const char* name :
+       {"displacement", "membrane", "moment", "von_mises", "bending_strain", "mode_1", "mode_2"}) {
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
   }
   EXPECT_EQ(result_grids(session, 1).error().where.substr(0, 2), "#1");
@@ -168,7 +171,8 @@ TEST(ScriptErrors, NameScriptCommandAndFile) {
 
 TEST(ScriptErrors, SayWhatAFileIsThatIsNoScript) {
   const Error error{ErrorKind::input, "this is not JSON", "", ""};
-  EXPECT_EQ(error_of_script(error, "ISO-10303-21;\nHEADER;", "a").what, "this is a STEP file, not a script");
+  EXPECT_EQ(error_of_script(error, "ISO-10303-21;\nHEADER;", "a").what,
+            "this is a STEP file, not a script");
   EXPECT_EQ(error_of_script(error, " \n", "a").what, "this is an empty file, not a script");
   EXPECT_EQ(error_of_script(error, "\x89PNG....", "a").what, "this is an image, not a script");
   EXPECT_EQ(error_of_script(error, "NRRD0004\n", "a").what, "this is an NRRD file, not a script");

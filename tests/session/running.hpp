@@ -34,6 +34,7 @@ inline Session opened(const TwoSheets& sheets) {
 /// Both of two sheets, and a press into the middle of their edge.
 inline const std::string both = R"({"do":"select","surfaces":["#10","#20"]})";
 inline const std::string press = R"({"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]},
-  {"do":"tool","name":"ball","radius":0.2,"rigid":true,"position":[1,0.5,0.16]},{"do":"evolve","mode":"static"})";
+  {"do":"tool","name":"ball","radius":0.2,"rigid":true,"position":[1,0.5,0.16]},
+  {"do":"evolve","mode":"static"})";
 
 }  // namespace knead::testing

@@ -1,6 +1,6 @@
-// The scenarios of tests/scenarios, run by the native session; tests/web/scenarios.test.ts runs the same files in
-// WebAssembly. A step is a command, {"refused": command, "where": field}, or {"expect": pointer into the state's JSON}
-// with "is", or "min" and "max".
+// The scenarios of tests/scenarios, run by the native session; tests/web/scenarios.test.ts runs the
+// same files in WebAssembly. A step is a command, {"refused": command, "where": field}, or
+// {"expect": pointer into the state's JSON} with "is", or "min" and "max".
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -29,8 +29,9 @@ class Scenario : public ::testing::TestWithParam<std::string> {};
 TEST_P(Scenario, RunsAsItSays) {
   std::ifstream in(root / "tests/scenarios" / (GetParam() + ".json"));
   const Json scenario = Json::parse(in);
-  auto document = scenario.contains("open") ? Document::open((root / scenario.at("open").get<std::string>()).string())
-                                            : Expected<Document>(Document::fresh(GetParam()));
+  auto document = scenario.contains("open")
+                      ? Document::open((root / scenario.at("open").get<std::string>()).string())
+                      : Expected<Document>(Document::fresh(GetParam()));
   ASSERT_TRUE(document) << document.error().message();
   Session session(std::move(*document));
   int expectations = 0;
@@ -40,12 +41,14 @@ TEST_P(Scenario, RunsAsItSays) {
       if (HasFatalFailure()) return;
     } else if (step.contains("refused")) {
       const Json before = Json::parse(session_json(session));
-      EXPECT_EQ(testing::refusal(session, step.at("refused").dump()).where, step.at("where").get<std::string>())
+      EXPECT_EQ(testing::refusal(session, step.at("refused").dump()).where,
+                step.at("where").get<std::string>())
           << step;
       EXPECT_EQ(Json::parse(session_json(session)), before) << step;
     } else {
       // What is not there is null.
-      const Json value = Json::parse(session_json(session)).value(Json::json_pointer(step.at("expect")), Json());
+      const Json value =
+          Json::parse(session_json(session)).value(Json::json_pointer(step.at("expect")), Json());
       if (step.contains("is")) {
         EXPECT_EQ(value, step.at("is")) << step;
       } else {

@@ -21,8 +21,9 @@ using testing::same_bits;
 TEST(Scene, MirrorImageOfAPointForcePullsOnItsOwnPatch) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,10],"net":[10,10]})", R"({"do":"edge"})",
-                R"({"do":"new","size":[10,10],"net":[10,10],"position":[20,0,0]})", R"({"do":"edge"})",
-                R"({"do":"symmetry","mirror":"u"})", R"({"do":"force","at":[0.25,0.5],"to":[22.5,5,5],"strength":20})",
+                R"({"do":"new","size":[10,10],"net":[10,10],"position":[20,0,0]})",
+                R"({"do":"edge"})", R"({"do":"symmetry","mirror":"u"})",
+                R"({"do":"force","at":[0.25,0.5],"to":[22.5,5,5],"strength":20})",
                 R"({"do":"select","surfaces":["#1","#2"]})", R"({"do":"step"})"});
   const SceneSurface &other = session.state().surfaces[0], &pulled = session.state().surfaces[1];
   EXPECT_TRUE(same_bits(*other.current, *other.opened));
@@ -32,8 +33,9 @@ TEST(Scene, MirrorImageOfAPointForcePullsOnItsOwnPatch) {
 }
 
 TEST(Scene, MirrorImageOfAPointForcePullsAsOnASurfaceAlone) {
-  const std::vector<std::string> pulled = {R"({"do":"edge"})", R"({"do":"symmetry","mirror":"u"})",
-                                           R"({"do":"force","at":[0.25,0.5],"to":[22.5,5,5],"strength":20})"};
+  const std::vector<std::string> pulled = {
+      R"({"do":"edge"})", R"({"do":"symmetry","mirror":"u"})",
+      R"({"do":"force","at":[0.25,0.5],"to":[22.5,5,5],"strength":20})"};
   const std::string sheet = R"({"do":"new","size":[10,10],"net":[10,10],"position":[20,0,0]})";
   Session alone = fresh(), second = fresh();
   run(alone, {sheet});
@@ -42,7 +44,8 @@ TEST(Scene, MirrorImageOfAPointForcePullsAsOnASurfaceAlone) {
   run(second, {R"({"do":"new","size":[10,10],"net":[10,10]})", R"({"do":"edge"})", sheet});
   run(second, pulled);
   run(second, {R"({"do":"select","surfaces":["#1","#2"]})", R"({"do":"step"})"});
-  EXPECT_LE((first(alone).current->control_points() - second.state().surfaces[1].current->control_points())
+  EXPECT_LE((first(alone).current->control_points() -
+             second.state().surfaces[1].current->control_points())
                 .cwiseAbs()
                 .maxCoeff(),
             1e-9);
@@ -50,8 +53,8 @@ TEST(Scene, MirrorImageOfAPointForcePullsAsOnASurfaceAlone) {
 
 /// A sheet that swings upwards.
 Session swinging() {
-  return on_sheet(
-      {R"({"do":"evolve","mode":"dynamic","time_step":0.05})", testing::lift, R"({"do":"step","count":3})"});
+  return on_sheet({R"({"do":"evolve","mode":"dynamic","time_step":0.05})", testing::lift,
+                   R"({"do":"step","count":3})"});
 }
 
 Surface velocity_of(const Session& session) {
@@ -59,8 +62,8 @@ Surface velocity_of(const Session& session) {
 }
 
 TEST(Scene, VelocityFollowsRefinement) {
-  for (const char* finer :
-       {R"({"do":"refine","region":[[0.2,0.6],[0,1]]})", R"({"do":"elevate"})", R"({"do":"refine","knots_v":[0.3]})"}) {
+  for (const char* finer : {R"({"do":"refine","region":[[0.2,0.6],[0,1]]})", R"({"do":"elevate"})",
+                            R"({"do":"refine","knots_v":[0.3]})"}) {
     Session session = swinging();
     const Surface before = velocity_of(session);
     run(session, {finer});
@@ -87,20 +90,23 @@ TEST(Scene, SwingingGoesOnOverARefinement) {
 
 TEST(Scene, CoarseningSaysThatTheSurfaceStops) {
   Session session = swinging();
-  run(session, {R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"coarsen","tolerance":0.01})"});
+  run(session,
+      {R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"coarsen","tolerance":0.01})"});
   EXPECT_EQ(first(session).velocity.rows(), 0);
-  EXPECT_NE(session.state().notes.back().find("at rest"), std::string::npos) << session.state().notes.back();
+  EXPECT_NE(session.state().notes.back().find("at rest"), std::string::npos)
+      << session.state().notes.back();
 }
 
 TEST(Scene, EqualInputsAreWhatAModelDependsOn) {
   Session session = on_sheet({testing::ball});
   const ModelInput before = model_input(session.state(), session.state().evolution);
-  run(session, {R"({"do":"move","by":[1,0,0]})", R"({"do":"load","pressure":1})", R"({"do":"limit","distance":3})",
-                R"({"do":"force","at":[0.5,0.5],"to":[0,0,1]})"});
+  run(session, {R"({"do":"move","by":[1,0,0]})", R"({"do":"load","pressure":1})",
+                R"({"do":"limit","distance":3})", R"({"do":"force","at":[0.5,0.5],"to":[0,0,1]})"});
   EXPECT_EQ(model_input(session.state(), session.state().evolution), before);
   for (const char* other :
-       {R"({"do":"hold","rows":1})", R"({"do":"pin","control_points":[[4,4]]})", R"({"do":"seams","couple":false})",
-        R"({"do":"evolve","lambda":2})", R"({"do":"material","mass":3})", R"({"do":"smooth","poles":false})",
+       {R"({"do":"hold","rows":1})", R"({"do":"pin","control_points":[[4,4]]})",
+        R"({"do":"seams","couple":false})", R"({"do":"evolve","lambda":2})",
+        R"({"do":"material","mass":3})", R"({"do":"smooth","poles":false})",
         R"({"do":"scaling","mode":"raw"})", R"({"do":"tool","radius":0.5,"position":[5,5,9]})",
         R"({"do":"keep","u":0.5})", R"({"do":"edge","which":"u0","hold":"free"})"}) {
     run(session, {other});
@@ -120,8 +126,8 @@ std::vector<SessionState> one_of_each_kind() {
       {R"({"do":"new","shape":"curve","size":[10],"net":[8]})", R"({"do":"edge"})",
        R"({"do":"force","at":[0.5],"to":[5,5,3]})", R"({"do":"step"})"},
       {R"({"do":"new","shape":"volume","net":[4,4,4]})", R"({"do":"edge","which":"w0"})",
-       R"({"do":"material","model":"fundamental","w1":1})", R"({"do":"force","at":[0.5,0.5,1],"to":[0,0,3]})",
-       R"({"do":"step"})"}};
+       R"({"do":"material","model":"fundamental","w1":1})",
+       R"({"do":"force","at":[0.5,0.5,1],"to":[0,0,3]})", R"({"do":"step"})"}};
   std::vector<SessionState> scenes;
   for (const auto& script : scripts) {
     Session session = fresh();
@@ -159,7 +165,8 @@ TEST(Model, StepsAndMeasuresAsItsSession) {
     const auto step = (*model)->step(now, scene.tools, *loads);
     ASSERT_TRUE(step) << step.error().message();
     constexpr double rounded = 1e-12;  // coordinates, in which linear models do not count
-    EXPECT_NEAR((*model)->energy({step->control_points, now.rest}), step->energy, rounded * step->energy);
+    EXPECT_NEAR((*model)->energy({step->control_points, now.rest}), step->energy,
+                rounded * step->energy);
     const double before = scene.steps.back().energy;
     EXPECT_NEAR((*model)->energy(now), before, rounded * before);
   }
@@ -184,8 +191,9 @@ TEST(Models, KeepTheLastFewAndMakeNoneAgain) {
 }
 
 TEST(Measure, TellsWhereASurfacePointIs) {
-  Session session = on_sheet({R"({"do":"measure","name":"tip","at":[0.5,0.25]})", testing::lift,
-                              R"({"do":"step","count":3})", R"({"do":"refine","region":[[0,0.5],[0,1]]})"});
+  Session session =
+      on_sheet({R"({"do":"measure","name":"tip","at":[0.5,0.25]})", testing::lift,
+                R"({"do":"step","count":3})", R"({"do":"refine","region":[[0,0.5],[0,1]]})"});
   ASSERT_EQ(session.state().probes.size(), 1U);
   const auto reading = read_probe(session.state(), session.state().probes.front());
   ASSERT_TRUE(reading) << reading.error().message();
@@ -195,7 +203,8 @@ TEST(Measure, TellsWhereASurfacePointIs) {
   EXPECT_NEAR(reading->normal.norm(), 1, 1e-15);
   EXPECT_LE(std::abs(reading->normal.x()), 1e-9);  // half way in u the sheet is level in u
   EXPECT_LT(reading->normal.y(), -1e-3);           // and rises in v
-  run(session, {R"({"do":"measure","name":"tip","at":[0,0]})", R"({"do":"measure","name":"other","at":[1,1]})"});
+  run(session, {R"({"do":"measure","name":"tip","at":[0,0]})",
+                R"({"do":"measure","name":"other","at":[1,1]})"});
   ASSERT_EQ(session.state().probes.size(), 2U);
   EXPECT_EQ(session.state().probes.front(), (Probe{"measurements", "tip", 0, {0, 0}}));
   EXPECT_EQ(refusal(session, R"({"do":"measure","at":[0.5,2]})").where, "at");
@@ -206,19 +215,22 @@ TEST(Measure, TellsWhereASurfacePointIs) {
   ASSERT_EQ(session.state().probes.size(), 1U);
   EXPECT_EQ(session.state().probes.front().name, "other");
   EXPECT_EQ(refusal(session, R"({"do":"remove","measurement":"tip"})").where, "measurement");
-  EXPECT_EQ(refusal(session, R"({"do":"remove","measurement":"other","tool":"ball"})").where, "measurement");
+  EXPECT_EQ(refusal(session, R"({"do":"remove","measurement":"other","tool":"ball"})").where,
+            "measurement");
 }
 
 TEST(Measure, TellsHowTheSurfaceBends) {
   Session session = Session(Document::fresh("round"));
-  run(session,
-      {R"({"do":"new","shape":"cylinder","radius":3,"height":5})", R"({"do":"new","shape":"sphere","radius":2})",
-       R"({"do":"measure","name":"wall","surface":"#1","at":[0.3,0.4]})",
-       R"({"do":"measure","name":"ball","surface":"#2","at":[0.3,0.4]})",
-       R"({"do":"measure","name":"pole","surface":"#2","at":[0.3,0]})"});
+  run(session, {R"({"do":"new","shape":"cylinder","radius":3,"height":5})",
+                R"({"do":"new","shape":"sphere","radius":2})",
+                R"({"do":"measure","name":"wall","surface":"#1","at":[0.3,0.4]})",
+                R"({"do":"measure","name":"ball","surface":"#2","at":[0.3,0.4]})",
+                R"({"do":"measure","name":"pole","surface":"#2","at":[0.3,0]})"});
   const auto& probes = session.state().probes;
   ASSERT_EQ(probes.size(), 3U);
-  const auto curvature = [&](std::size_t k) { return read_probe(session.state(), probes[k])->curvature; };
+  const auto curvature = [&](std::size_t k) {
+    return read_probe(session.state(), probes[k])->curvature;
+  };
   ASSERT_TRUE(curvature(0) && curvature(1));
   EXPECT_NEAR((*curvature(0))[0], 0, 1e-13);
   EXPECT_NEAR((*curvature(0))[1], -1.0 / 3, 1e-13);

@@ -1,5 +1,5 @@
-// What the schema of scripts allows is what the reader of commands accepts, and nothing else: shown by values drawn
-// from the schema, and by the same values with one thing changed.
+// What the schema of scripts allows is what the reader of commands accepts, and nothing else: shown
+// by values drawn from the schema, and by the same values with one thing changed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,8 +22,8 @@ bool is_required(const Json& command, const std::string& name) {
   return std::ranges::find(required, name) != required.end();
 }
 
-/// Draws values that a schema allows: bounds of ranges as often as what lies between them, every choice, lists of all
-/// lengths that are short, members that may be left out or not.
+/// Draws values that a schema allows: bounds of ranges as often as what lies between them, every
+/// choice, lists of all lengths that are short, members that may be left out or not.
 class Draw {
  public:
   explicit Draw(std::uint32_t seed) : random_(seed) {}
@@ -56,7 +56,8 @@ class Draw {
       const double x = schema.at(open);
       return step > 0 ? x - side * step : std::nextafter(x, -side * 1e300);
     };
-    const double least = bound("minimum", "exclusiveMinimum", -1), most = bound("maximum", "exclusiveMaximum", 1);
+    const double least = bound("minimum", "exclusiveMinimum", -1),
+                 most = bound("maximum", "exclusiveMaximum", 1);
     if (const int kind = below(4); kind < 2) return kind == 0 ? least : most;
     const double from = std::max(least, -1e3), to = std::max(from, std::min(most, 1e3));
     return std::clamp(from + (to - from) * below(1001) / 1000, least, most);
@@ -64,7 +65,8 @@ class Draw {
   Json list(const Json& schema) {
     const int least = schema.value("minItems", 0), most = schema.value("maxItems", least + 3);
     Json result = Json::array();
-    for (int k = least + below(most - least + 1); k > 0; --k) result.push_back(value(schema.at("items")));
+    for (int k = least + below(most - least + 1); k > 0; --k)
+      result.push_back(value(schema.at("items")));
     return result;
   }
   Json object(const Json& schema) {
@@ -83,7 +85,8 @@ class Draw {
 };
 
 /// The places in a value, of itself and all that is in it.
-void places(const Json& value, const Json::json_pointer& here, std::vector<Json::json_pointer>& all) {
+void places(const Json& value, const Json::json_pointer& here,
+            std::vector<Json::json_pointer>& all) {
   all.push_back(here);
   if (value.is_object()) {
     for (const auto& [name, member] : value.items()) places(member, here / name, all);
@@ -123,7 +126,9 @@ Json changed(Json value, const Json& command, Draw& draw) {
                                            {{0, 0}, {1, 1}},
                                            {"u0", "no"},
                                            Json::object()};
-  const auto any_other = [&] { return others[static_cast<std::size_t>(draw.below(static_cast<int>(others.size())))]; };
+  const auto any_other = [&] {
+    return others[static_cast<std::size_t>(draw.below(static_cast<int>(others.size())))];
+  };
   const Json& properties = command.at("properties");
   std::vector<Json::json_pointer> all;
   places(value, Json::json_pointer(), all);
@@ -135,7 +140,8 @@ Json changed(Json value, const Json& command, Draw& draw) {
   } else if (kind == 1) {
     value[draw.below(2) == 0 ? "radiuss" : "which"] = any_other();
   } else if (all.size() > 1) {
-    const Json::json_pointer place = all[1 + static_cast<std::size_t>(draw.below(static_cast<int>(all.size()) - 1))];
+    const Json::json_pointer place =
+        all[1 + static_cast<std::size_t>(draw.below(static_cast<int>(all.size()) - 1))];
     Json& parent = value.at(place.parent_pointer());
     if (kind > 2) {
       value.at(place) = any_other();
@@ -176,10 +182,12 @@ TEST(SchemaDraw, OneChangeIsRefusedWhereTheSchemaForbidsItAndOnlyThere) {
   for (const Json& command : commands()) {
     for (int k = 0; k < count; ++k) {
       const Json value = changed(draw.value(command), command, draw);
-      if (value.value("do", Json()) != command.at("properties").at("do").at("const")) continue;  // another command
+      if (value.value("do", Json()) != command.at("properties").at("do").at("const"))
+        continue;  // another command
       const std::string wrong = against(value, command, "");
       const auto read = parse_command(value.dump());
-      ASSERT_EQ(wrong.empty(), read.has_value()) << value << "\n" << wrong << (read ? "" : read.error().message());
+      ASSERT_EQ(wrong.empty(), read.has_value()) << value << "\n"
+                                                 << wrong << (read ? "" : read.error().message());
       ++(read ? allowed : refused);
     }
   }

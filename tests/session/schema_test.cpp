@@ -1,5 +1,5 @@
-// The schemas of scripts and documents hold for the files there are; the tables of docs/scripts.md are those of the
-// engine.
+// The schemas of scripts and documents hold for the files there are; the tables of docs/scripts.md
+// are those of the engine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,10 +60,12 @@ TEST(Schema, WhatIsWrongIsFound) {
 bool has_bare_choices(const Json& schema) {
   if (schema.contains("enum")) return true;
   for (const char* word : {"oneOf", "anyOf"}) {
-    if (schema.contains(word) && std::ranges::any_of(schema.at(word), has_bare_choices)) return true;
+    if (schema.contains(word) && std::ranges::any_of(schema.at(word), has_bare_choices))
+      return true;
   }
   if (schema.contains("items")) return has_bare_choices(schema.at("items"));
-  return schema.contains("const") && schema.value("description", "").empty() && schema.at("const") != "middle";
+  return schema.contains("const") && schema.value("description", "").empty() &&
+         schema.at("const") != "middle";
 }
 
 TEST(Schema, EveryFieldAndChoiceOfEveryCommandHasAText) {
@@ -92,13 +94,15 @@ TEST(Schema, AllowsTheTextsThatTheReaderOfCommandsTakes) {
       for (const char* const text : {"middle", "mid", "#45", "u0", "w1", "all", ""}) {
         Json json = {{"do", name}, {field, text}};
         if (name == "drag") json["by"] = {0, 0, 1};
-        const bool allowed = against(json, command, "").empty(), read = parse_command(json.dump()).has_value();
+        const bool allowed = against(json, command, "").empty(),
+                   read = parse_command(json.dump()).has_value();
         EXPECT_EQ(allowed, read) << json;
         taken += read;
       }
     }
   }
-  EXPECT_EQ(taken, 4 + 4) << "the middle of tool, edit_tool, drag and measure; three sides and an edge";
+  EXPECT_EQ(taken, 4 + 4)
+      << "the middle of tool, edit_tool, drag and measure; three sides and an edge";
 }
 
 TEST(Schema, DocumentsHaveCommandsAndASource) {
@@ -116,8 +120,10 @@ TEST(Docs, TheTablesOfCommandsAreThoseOfTheEngine) {
   for (const std::string& name : command_names()) {
     const std::string table = command_table(name);
     if (table.empty()) continue;
-    const std::string expected = "<!-- fields of " + name + " -->\n" + table + "<!-- end of fields -->\n";
-    EXPECT_NE(page.find(expected), std::string::npos) << "run scripts/docs.sh; " << name << ":\n" << table;
+    const std::string expected =
+        "<!-- fields of " + name + " -->\n" + table + "<!-- end of fields -->\n";
+    EXPECT_NE(page.find(expected), std::string::npos) << "run scripts/docs.sh; " << name << ":\n"
+                                                      << table;
   }
 }
 
@@ -126,8 +132,9 @@ TEST(SessionTypes, TheModuleDeclaresWhatThePageReads) {
   for (const char* text :
        {"export type AnyCommand =", "export type SessionInfo = {", "export type SurfaceInfo = {",
         "export type ToolInfo = {", "export type StepInfo = {", "  last: StepInfo | null;",
-        "  constraints: AnyCommand[];", "  limit: number | null;", "  do: 'evolve';", "  lambda: number;",
-        "  alpha: [number | null, number | null, number | null];", "  radius?: number;"}) {
+        "  constraints: AnyCommand[];", "  limit: number | null;", "  do: 'evolve';",
+        "  lambda: number;", "  alpha: [number | null, number | null, number | null];",
+        "  radius?: number;"}) {
     EXPECT_NE(types.find(text), std::string::npos) << text << "\n" << types;
   }
 }

@@ -17,12 +17,14 @@ inline Session on_sheet(const std::vector<std::string>& more = {}) {
   return session;
 }
 
-inline const SceneSurface& first(const Session& session) { return session.state().surfaces.front(); }
+inline const SceneSurface& first(const Session& session) {
+  return session.state().surfaces.front();
+}
 
 inline Point at(const Surface& s, double a, double b) {
   const Interval u = s.knots(0).domain(), v = s.knots(1).domain();
-  return *evaluate_point<2>(s,
-                            {std::min(u.lower + a * u.length(), u.upper), std::min(v.lower + b * v.length(), v.upper)});
+  return *evaluate_point<2>(s, {std::min(u.lower + a * u.length(), u.upper),
+                                std::min(v.lower + b * v.length(), v.upper)});
 }
 
 /// Largest displacement over samples of the rectangle [a, b] x [c, d] of fractions.
@@ -31,7 +33,8 @@ inline double moved(const Session& session, double a, double b, double c, double
   for (int i = 0; i <= 12; ++i) {
     for (int j = 0; j <= 12; ++j) {
       const double s = a + (b - a) * i / 12, t = c + (d - c) * j / 12;
-      largest = std::max(largest, (at(*first(session).current, s, t) - at(*first(session).opened, s, t)).norm());
+      largest = std::max(
+          largest, (at(*first(session).current, s, t) - at(*first(session).opened, s, t)).norm());
     }
   }
   return largest;

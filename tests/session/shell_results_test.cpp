@@ -14,12 +14,13 @@ using testing::run;
 // A strip 10 long and 1 wide, t = 0.1, E = 1.2e6, ν = 0, clamped at u = 0, under small loads.
 
 Session strip(const std::vector<std::string>& load,
-              const std::vector<std::string>& holds = {R"({"do":"edge","which":"u0","hold":"clamped"})"}) {
+              const std::vector<std::string>& holds = {
+                  R"({"do":"edge","which":"u0","hold":"clamped"})"}) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,1],"net":[12,4]})"});
   run(session, holds);
-  run(session,
-      {R"({"do":"material","model":"shell","young":1.2e6,"thickness":0.1})", R"({"do":"evolve","mode":"static"})"});
+  run(session, {R"({"do":"material","model":"shell","young":1.2e6,"thickness":0.1})",
+                R"({"do":"evolve","mode":"static"})"});
   run(session, load);
   run(session, {R"({"do":"step"})"});
   return session;
@@ -33,11 +34,11 @@ ShellPointResults results_at(const Session& session, double s, double t) {
 }
 
 TEST(ShellResults, OfAStretchedStripAreUniform) {
-  // n = 1e-3 per length: the strain is n / (E t) = 8.3e-9, and what is not linear in it of that share. Nothing is
-  // clamped, which would keep the strain at the edge from being that.
-  const Session session =
-      strip({R"({"do":"force","kind":"line","edge":"u1","vector":[1e-3,0,0]})"},
-            {R"({"do":"edge","which":"u0","hold":"position"})", R"({"do":"edge","which":"u1","components":"z"})"});
+  // n = 1e-3 per length: the strain is n / (E t) = 8.3e-9, and what is not linear in it of that
+  // share. Nothing is clamped, which would keep the strain at the edge from being that.
+  const Session session = strip({R"({"do":"force","kind":"line","edge":"u1","vector":[1e-3,0,0]})"},
+                                {R"({"do":"edge","which":"u0","hold":"position"})",
+                                 R"({"do":"edge","which":"u1","components":"z"})"});
   for (const double s : {0.1, 0.5, 0.95}) {
     const ShellPointResults r = results_at(session, s, 0.3);
     EXPECT_NEAR(r.membrane[0], 1e-3, 1e-9);
@@ -59,8 +60,9 @@ TEST(ShellResults, OfABentStripAreThoseOfABeam) {
 }
 
 TEST(ShellResults, ReactionsBalanceTheLoad) {
-  const Session session = strip(
-      {R"({"do":"force","kind":"line","edge":"u1","vector":[1e-3,0,2e-4]})", R"({"do":"load","vector":[0,1e-4,0]})"});
+  const Session session =
+      strip({R"({"do":"force","kind":"line","edge":"u1","vector":[1e-3,0,2e-4]})",
+             R"({"do":"load","vector":[0,1e-4,0]})"});
   const auto reactions = hold_reactions(session.state());
   ASSERT_TRUE(reactions) << reactions.error().message();
   ASSERT_EQ(reactions->size(), 1U);
@@ -82,12 +84,14 @@ TEST(ShellResults, AreThoseOfShellsAlone) {
 }
 
 TEST(ShellResults, AreWrittenForParaView) {
-  const Session session = strip({R"({"do":"force","kind":"line","edge":"u1","vector":[1e-3,0,0]})"});
+  const Session session =
+      strip({R"({"do":"force","kind":"line","edge":"u1","vector":[1e-3,0,0]})"});
   const auto grid = result_grid(session.state().surfaces.front(), 3);
   ASSERT_TRUE(grid) << grid.error().message();
   const std::string text = vtu_text({&*grid, 1});
-  for (const char* part : {"NumberOfPoints=\"9\" NumberOfCells=\"4\"", "Name=\"von_mises\" NumberOfComponents=\"2\"",
-                           "Name=\"displacement\" NumberOfComponents=\"3\"", "0 3 4 1\n", "</VTKFile>"}) {
+  for (const char* part :
+       {"NumberOfPoints=\"9\" NumberOfCells=\"4\"", "Name=\"von_mises\" NumberOfComponents=\"2\"",
+        "Name=\"displacement\" NumberOfComponents=\"3\"", "0 3 4 1\n", "</VTKFile>"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
 }

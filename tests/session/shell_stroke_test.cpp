@@ -17,12 +17,14 @@ using testing::run;
 using testing::same_bits;
 using testing::same_state;
 
-const char* const sheet_metal = R"({"do":"material","model":"shell","young":2e5,"poisson":0.3,"thickness":2})";
+const char* const sheet_metal =
+    R"({"do":"material","model":"shell","young":2e5,"poisson":0.3,"thickness":2})";
 
 Session sheet_between_sides(const std::vector<std::string>& more) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[100,100],"net":[16,16]})", R"({"do":"edge","which":"u0"})",
-                R"({"do":"edge","which":"u1"})", R"({"do":"edge","which":"v0"})", R"({"do":"edge","which":"v1"})"});
+                R"({"do":"edge","which":"u1"})", R"({"do":"edge","which":"v0"})",
+                R"({"do":"edge","which":"v1"})"});
   run(session, more);
   return session;
 }
@@ -32,7 +34,8 @@ const std::vector<std::string> groove = {
     R"({"do":"stroke","tool":"ball","path":[[35,50,11],[65,50,11]],"plastic":"along"})"};
 
 TEST(ShellStroke, LeavesAGrooveAsDeepAsTheToolWent) {
-  Session session = sheet_between_sides({sheet_metal, R"({"do":"material","plasticity":1,"locality":1})"});
+  Session session =
+      sheet_between_sides({sheet_metal, R"({"do":"material","plasticity":1,"locality":1})"});
   const SessionState before = session.state();
   run(session, groove);
   const SceneSurface& s = first(session);
@@ -43,7 +46,8 @@ TEST(ShellStroke, LeavesAGrooveAsDeepAsTheToolWent) {
   EXPECT_EQ(session.state().tools.front().shape.placement().position, Point(50, 50, 40));
   EXPECT_TRUE(session.state().steps.back().converged);
   const Points now = s.current->control_points(), then = s.opened->control_points();
-  for (Eigen::Index i = 0; i < now.rows(); i += 16) EXPECT_TRUE(now.row(i) == then.row(i));  // held, to the bit
+  for (Eigen::Index i = 0; i < now.rows(); i += 16)
+    EXPECT_TRUE(now.row(i) == then.row(i));  // held, to the bit
   run(session, {R"({"do":"undo"})"});
   run(session, {R"({"do":"undo"})"});
   EXPECT_TRUE(same_state(session.state(), before));
@@ -65,16 +69,18 @@ TEST(ShellStroke, ThatSpringsBackLeavesNothing) {
 }
 
 TEST(ShellStroke, OfTheFundamentalFormsLeavesItsGrooveToo) {
-  Session session = sheet_between_sides(
-      {R"({"do":"material","model":"fundamental","w1":1,"w2":1})", R"({"do":"material","plasticity":1,"locality":1})"});
+  Session session = sheet_between_sides({R"({"do":"material","model":"fundamental","w1":1,"w2":1})",
+                                         R"({"do":"material","plasticity":1,"locality":1})"});
   run(session, groove);
   EXPECT_NEAR(-at(*first(session).current, 0.5, 0.5)[2], 4, 0.4);
 }
 
 TEST(ShellStroke, ReleasedAtTheEndLeavesWhatTheToolPressedLast) {
   Session session = sheet_between_sides({sheet_metal, R"({"do":"evolve","mode":"static"})"});
-  run(session, {groove[0],
-                R"({"do":"stroke","tool":"ball","path":[[50,50,13],[50,50,11]],"plastic":"release","plasticity":1})"});
+  run(session,
+      {groove[0],
+       R"({"do":"stroke","tool":"ball","path":[[50,50,13],[50,50,11]],"plastic":"release",)"
+       R"("plasticity":1})"});
   EXPECT_NEAR(-at(*first(session).current, 0.5, 0.5)[2], 4, 0.4);
   EXPECT_TRUE(same_bits(*first(session).rest, *first(session).current));
 }

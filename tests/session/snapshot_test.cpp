@@ -21,7 +21,8 @@ using testing::same_state;
 /// Something of everything that a state can hold.
 const std::vector<std::string> rich = {
     R"({"do":"material","alpha":[0.1,0,0.1],"beta":[0.001,0.001,0.001]})",
-    R"({"do":"material","alpha":[1,0,1],"beta":[0.01,0.01,0.01],"region":[[0.2,0.6],[0.2,0.6]],"falloff":0.2})",
+    R"({"do":"material","alpha":[1,0,1],"beta":[0.01,0.01,0.01],)"
+    R"("region":[[0.2,0.6],[0.2,0.6]],"falloff":0.2})",
     R"({"do":"refine","region":[[0,0.5],[0,0.5]]})",
     R"({"do":"pin","control_points":[[4,4],[5,4]]})",
     R"({"do":"pin","at":[0.3,0.3]})",
@@ -30,7 +31,8 @@ const std::vector<std::string> rich = {
     R"({"do":"load","gravity":[0,0,-2],"pressure":0.1})",
     R"({"do":"force","name":"pull","at":[0.5,0.5],"to":[5,5,2],"strength":3})",
     R"({"do":"tool","name":"ball","radius":2,"position":[5,5,-1.5],"plasticity":0.5})",
-    R"({"do":"tool","name":"box","shape":"box","sizes":[1,2,0.5],"rounding":0.1,"axis":[1,1,1],"position":[2,2,-0.2]})",
+    R"({"do":"tool","name":"box","shape":"box","sizes":[1,2,0.5],"rounding":0.1,)"
+    R"("axis":[1,1,1],"position":[2,2,-0.2]})",
     R"({"do":"step","count":3})",
     R"({"do":"turn","tool":"box","axis":[1,2,3],"angle":30})",
     R"({"do":"step","count":2})",
@@ -69,7 +71,8 @@ TEST(Snapshot, RestoresEveryStateOfTheHistoryBitForBit) {
 TEST(Snapshot, GoesOnToTheSameBits) {
   Session session = on_sheet(rich);
   Session restored = again(session);
-  const std::vector<std::string> more = {R"({"do":"step","count":3})", R"({"do":"move","tool":"box","by":[0.2,0,0]})",
+  const std::vector<std::string> more = {R"({"do":"step","count":3})",
+                                         R"({"do":"move","tool":"box","by":[0.2,0,0]})",
                                          R"({"do":"step","count":2})", R"({"do":"remove"})"};
   run(session, more);
   run(restored, more);
@@ -113,12 +116,14 @@ TEST(Snapshot, SharesWhatTheHistoryShares) {
 TEST(Snapshot, KeepsWhatProgramsReadOfNotes) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,10],"net":[10,10]})",
-                R"({"do":"tool","name":"ball","radius":1.2,"position":[5,5,0.6],"plasticity":1})", R"({"do":"step"})"});
+                R"({"do":"tool","name":"ball","radius":1.2,"position":[5,5,0.6],"plasticity":1})",
+                R"({"do":"step"})"});
   const std::vector<Note>& notes = session.state().notes;
   ASSERT_TRUE(std::ranges::any_of(notes, [](const Note& n) { return n.diagnostic != nullptr; }));
   const Session restored = again(session);
   ASSERT_EQ(restored.state().notes, notes);
-  for (std::size_t k = 0; k < notes.size(); ++k) EXPECT_EQ(note_json(restored.state().notes[k]), note_json(notes[k]));
+  for (std::size_t k = 0; k < notes.size(); ++k)
+    EXPECT_EQ(note_json(restored.state().notes[k]), note_json(notes[k]));
 }
 
 TEST(Snapshot, SharesAgainWhatStatesShared) {
@@ -154,10 +159,12 @@ std::string sealed(std::string snapshot, char version) {
 TEST(Snapshot, ThatOfAnotherVersionIsRefusedWithWhatToDo) {
   const Session session = on_sheet();
   for (const char version : {'1', '9', 'a', 'b', 'c', 'd', 'f'}) {
-    const auto restored = Session::restore(Document::fresh("test"), sealed(session.snapshot(), version));
+    const auto restored =
+        Session::restore(Document::fresh("test"), sealed(session.snapshot(), version));
     ASSERT_FALSE(restored) << version;
     EXPECT_EQ(restored.error().message().find('\n'), std::string::npos);
-    EXPECT_NE(restored.error().what.find("another version"), std::string::npos) << restored.error().message();
+    EXPECT_NE(restored.error().what.find("another version"), std::string::npos)
+        << restored.error().message();
     EXPECT_NE(restored.error().remedy.find("commands"), std::string::npos);
   }
 }
@@ -168,12 +175,14 @@ std::string bytes_of(std::span<const double> numbers) {
 
 TEST(Snapshot, RefusesAShapeWithAnotherDomainThanTheSurfaceAsOpened) {
   Session session = fresh();
-  run(session, {R"({"do":"new","size":[10,10],"net":[5,6]})", R"({"do":"points","rows_u":[2],"by":[0,0,1]})"});
+  run(session, {R"({"do":"new","size":[10,10],"net":[5,6]})",
+                R"({"do":"points","rows_u":[2],"by":[0,0,1]})"});
   const SceneSurface& surface = session.state().surfaces.front();
   ASSERT_NE(surface.opened, surface.current);
   const std::string good = session.snapshot();
   const std::string knots = bytes_of(surface.current->knots(0).knots());
-  std::vector<double> longer(surface.current->knots(0).knots().begin(), surface.current->knots(0).knots().end());
+  std::vector<double> longer(surface.current->knots(0).knots().begin(),
+                             surface.current->knots(0).knots().end());
   for (double& u : longer) u *= 2;
   std::string bad = good;  // with the last shape over a domain twice as long
   const std::size_t last = bad.rfind(knots);
@@ -185,10 +194,12 @@ TEST(Snapshot, RefusesAShapeWithAnotherDomainThanTheSurfaceAsOpened) {
   for (std::size_t at = bad.find(knots); at != std::string::npos; at = bad.find(knots, at)) {
     bad.replace(at, knots.size(), bytes_of(longer));
   }
-  EXPECT_TRUE(Session::restore(Document::fresh("test"), sealed(bad, good[head - 2])));  // all over the longer one
+  EXPECT_TRUE(Session::restore(Document::fresh("test"),
+                               sealed(bad, good[head - 2])));  // all over the longer one
 }
 
-/// The number as a snapshot has it: in lists as it lies in memory, else with the highest byte first.
+/// The number as a snapshot has it: in lists as it lies in memory, else with the highest byte
+/// first.
 std::array<std::string, 2> forms_of(double number) {
   const std::string forward = bytes_of(std::span(&number, 1));
   return {forward, {forward.rbegin(), forward.rend()}};
@@ -204,13 +215,15 @@ TEST(Snapshot, RefusesNumbersOutOfTheRangesOfTheCommandsThatAreKept) {
         Kept{R"({"do":"pin","at":[0.3125,0.3125]})", 0.3125, 1.3125},
         Kept{R"({"do":"freeze","region":[[0.8125,1],[0.8125,1]]})", 0.8125, -0.8125},
         Kept{R"({"do":"keep","u":0.40625})", 0.40625, 1.40625},
-        Kept{R"({"do":"force","name":"pull","at":[0.34375,0.5],"to":[5,5,2],"strength":3})", 0.34375, 1.34375}}) {
+        Kept{R"({"do":"force","name":"pull","at":[0.34375,0.5],"to":[5,5,2],"strength":3})",
+             0.34375, 1.34375}}) {
     const Session session = on_sheet({command});
     const std::string good = session.snapshot();
     std::string bad = good;
     const auto from = forms_of(number), to = forms_of(wrong);
     for (std::size_t k = 0; k < 2; ++k) {
-      for (std::size_t at = bad.find(from[k]); at != std::string::npos; at = bad.find(from[k], at)) {
+      for (std::size_t at = bad.find(from[k]); at != std::string::npos;
+           at = bad.find(from[k], at)) {
         bad.replace(at, 8, to[k]);
       }
     }
@@ -226,7 +239,8 @@ TEST(Snapshot, RefusesBytesThatAreNotItsOwn) {
   EXPECT_FALSE(Session::restore(session.document(), ""));
   EXPECT_FALSE(Session::restore(session.document(), "Knead snapshot a\n"));
   for (std::size_t size = 0; size < good.size(); size += 997) {
-    EXPECT_FALSE(Session::restore(session.document(), std::string_view(good).substr(0, size))) << size;
+    EXPECT_FALSE(Session::restore(session.document(), std::string_view(good).substr(0, size)))
+        << size;
   }
   for (std::size_t k = 0; k < good.size(); k += 1009) {
     std::string bad = good;

@@ -20,17 +20,21 @@ std::string rows(int count) {
   for (int k = 0; k < count; ++k) {
     text += k == 0 ? "[" : ",[";
     for (int l = 0; l < count; ++l) {
-      text +=
-          fmt::format("{}{:.6f}", l == 0 ? "" : ",", pattern_at(-1 + 2. * l / (count - 1), 1 - 2. * k / (count - 1)));
+      text += fmt::format("{}{:.6f}", l == 0 ? "" : ",",
+                          pattern_at(-1 + 2. * l / (count - 1), 1 - 2. * k / (count - 1)));
     }
     text += "]";
   }
   return "[" + text + "]";
 }
 std::string stamp(const std::string& more, const Point& at) {
-  return dab(fmt::format(R"("kind":"stamp","radius":{},"height":{},{})", stamp_radius, stamp_height, more), at);
+  return dab(
+      fmt::format(R"("kind":"stamp","radius":{},"height":{},{})", stamp_radius, stamp_height, more),
+      at);
 }
-double height_at(const Session& session, double x, double y) { return on(shape(session), x, y).z(); }
+double height_at(const Session& session, double x, double y) {
+  return on(shape(session), x, y).z();
+}
 
 TEST(Stamp, IsAsHighAsItsPattern) {
   const Point place(103, 97, 0);
@@ -43,8 +47,9 @@ TEST(Stamp, IsAsHighAsItsPattern) {
       for (int j = -40; j <= 40; ++j) {
         const double xi = i / 40., eta = j / 40.;
         const double asked = stamp_height * stamp_rim(xi, eta, 0.8) * pattern_at(xi, eta);
-        worst = std::max(worst,
-                         std::abs(height_at(session, place.x() + half_side * xi, place.y() + half_side * eta) - asked));
+        worst = std::max(worst, std::abs(height_at(session, place.x() + half_side * xi,
+                                                   place.y() + half_side * eta) -
+                                         asked));
       }
     }
     EXPECT_LT(worst, before * stamp_height) << "finer nets are nearer";
@@ -81,12 +86,14 @@ TEST(Stamp, IsTheShapeOfATool) {
   run(ring, {stamp(R"("shape":"torus")", place)});
   run(block, {stamp(R"("shape":"box")", place)});
   for (const double share : {0., 0.3, 0.6, 0.75}) {
-    EXPECT_NEAR(height_at(ball, 100 + share * wide, 100), stamp_height * std::sqrt(1 - share * share),
-                0.02 * stamp_height)
+    EXPECT_NEAR(height_at(ball, 100 + share * wide, 100),
+                stamp_height * std::sqrt(1 - share * share), 0.02 * stamp_height)
         << share;
-    EXPECT_NEAR(height_at(block, 100, 100 - share * wide), stamp_height, 0.02 * stamp_height) << share;
+    EXPECT_NEAR(height_at(block, 100, 100 - share * wide), stamp_height, 0.02 * stamp_height)
+        << share;
   }
-  EXPECT_NEAR(height_at(ring, 100, 100 + 0.8 * wide), stamp_height, 0.03 * stamp_height) << "the crest of the tube";
+  EXPECT_NEAR(height_at(ring, 100, 100 + 0.8 * wide), stamp_height, 0.03 * stamp_height)
+      << "the crest of the tube";
   EXPECT_NEAR(height_at(ring, 100, 100), 0, 0.01 * stamp_height) << "the hole";
   for (const Session* session : {&ball, &ring, &block})
     EXPECT_NEAR(height_at(*session, 100 + 1.15 * wide, 100), 0, 0.02 * stamp_height);
@@ -95,10 +102,10 @@ TEST(Stamp, IsTheShapeOfATool) {
 TEST(Stamp, IsOneActThatSnapshotsKeep) {
   Session session = flat(48);
   const Surface before = shape(session);
-  const std::string fields =
-      fmt::format(R"({{"do":"brush","kind":"stamp","radius":{},"pattern":[[0,1],[1,0]],)", stamp_radius);
-  run(session,
-      {fields + R"("path":[[0.5,0.5]],"angle":0,"open":true})", fields + R"("path":[],"angle":40,"open":true})"});
+  const std::string fields = fmt::format(
+      R"({{"do":"brush","kind":"stamp","radius":{},"pattern":[[0,1],[1,0]],)", stamp_radius);
+  run(session, {fields + R"("path":[[0.5,0.5]],"angle":0,"open":true})",
+                fields + R"("path":[],"angle":40,"open":true})"});
   session.join();
   auto again = Session::restore(Document::fresh("sheet"), session.snapshot(1 << 20));
   ASSERT_TRUE(again) << again.error().message();

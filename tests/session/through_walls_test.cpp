@@ -25,13 +25,15 @@ std::string note(const Session& session, const std::string& begin) {
   for (const Note& n : session.state().notes) {
     if (!n.starts_with(begin)) continue;
     EXPECT_TRUE(n.diagnostic);
-    EXPECT_EQ(n.diagnostic->code, begin == stopping ? ErrorCode::stopped_at_face : ErrorCode::through_face);
+    EXPECT_EQ(n.diagnostic->code,
+              begin == stopping ? ErrorCode::stopped_at_face : ErrorCode::through_face);
     return n;
   }
   return {};
 }
 
-/// A box over [0, 10]² × [0, 1]; its lid is a bicubic B-spline, and its floor too where it is asked for.
+/// A box over [0, 10]² × [0, 1]; its lid is a bicubic B-spline, and its floor too where it is asked
+/// for.
 std::string thin_box(bool spline_floor, double lid = 1) {
   StepBuilder b;
   constexpr std::array<std::array<double, 2>, 4> corner = {{{0, 0}, {10, 0}, {10, 10}, {0, 10}}};
@@ -55,9 +57,11 @@ std::string thin_box(bool spline_floor, double lid = 1) {
   };
   std::vector<int> faces;
   faces.push_back(b.face(sheet(lid, "lid"), {b.bound({roof[0], roof[1], roof[2], roof[3]})}));
-  faces.push_back(b.face(spline_floor ? sheet(0, "floor") : b.plane({0, 0, 0}, {0, 0, 1}, {1, 0, 0}),
-                         {b.bound({-floor[3], -floor[2], -floor[1], -floor[0]})}, false));
-  const std::array<std::array<double, 3>, 4> normals = {{{0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}};
+  faces.push_back(
+      b.face(spline_floor ? sheet(0, "floor") : b.plane({0, 0, 0}, {0, 0, 1}, {1, 0, 0}),
+             {b.bound({-floor[3], -floor[2], -floor[1], -floor[0]})}, false));
+  const std::array<std::array<double, 3>, 4> normals = {
+      {{0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}};
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t next = (k + 1) % 4;
     faces.push_back(b.face(b.plane({corner[k][0], corner[k][1], 0}, normals[k], {0, 0, 1}),
@@ -69,14 +73,17 @@ std::string thin_box(bool spline_floor, double lid = 1) {
   return b.forward(testing::ap214);
 }
 
-Session opened(const std::string& bytes) { return Session(Document::from(*open_source(bytes, "made.step"))); }
+Session opened(const std::string& bytes) {
+  return Session(Document::from(*open_source(bytes, "made.step")));
+}
 
 /// The session with the lid selected, its edges held, and a ball over its middle.
 Session pressed_box(bool spline_floor, const std::vector<std::string>& press) {
   Session session = opened(thin_box(spline_floor));
   const std::string id = session.state().surfaces[0].id;
-  run(session, {fmt::format(R"({{"do":"select","surface":"{}"}})", id), R"({"do":"hold","mode":"trim"})",
-                R"({"do":"material","preset":"clay"})", R"({"do":"tool","name":"b","radius":2,"position":[5,5,9]})"});
+  run(session, {fmt::format(R"({{"do":"select","surface":"{}"}})", id),
+                R"({"do":"hold","mode":"trim"})", R"({"do":"material","preset":"clay"})",
+                R"({"do":"tool","name":"b","radius":2,"position":[5,5,9]})"});
   run(session, press);
   return session;
 }
@@ -97,7 +104,8 @@ double lowest(const Session& session) {
   for (int i = 0; i <= 100; ++i) {
     for (int j = 0; j <= 100; ++j) {
       const Interval u = s.knots(0).domain(), v = s.knots(1).domain();
-      const auto p = evaluate_point<2>(s, {u.lower + u.length() * i / 100, v.lower + v.length() * j / 100});
+      const auto p =
+          evaluate_point<2>(s, {u.lower + u.length() * i / 100, v.lower + v.length() * j / 100});
       least = std::min(least, p->z());
     }
   }
@@ -132,9 +140,11 @@ TEST(ThroughWalls, AllowedItIsNotNoted) {
 
 TEST(ThroughWalls, StepsDragsBrushesPointsAndLatticesAreNotedToo) {
   const std::string grip = R"({"do":"drag","at":[0.5,0.5],"by":[0,0,-1.6],"radius":2)";
-  const std::string push = R"({"do":"brush","kind":"grab","path":[[0.5,0.5]],"radius":4,"by":[0,0,-1.6])";
+  const std::string push =
+      R"({"do":"brush","kind":"grab","path":[[0.5,0.5]],"radius":4,"by":[0,0,-1.6])";
   const std::string points = R"({"do":"points","which":[119,120,135,136],"by":[0,0,-3])";
-  const std::string pull = R"({"do":"lattice","net":[9,9,4],"degree":[2,2,1],"which":[161,162],"by":[0,0,-3])";
+  const std::string pull =
+      R"({"do":"lattice","net":[9,9,4],"degree":[2,2,1],"which":[161,162],"by":[0,0,-3])";
   for (const std::string& act : {grip, push, points, pull}) {
     const Session through = pressed_box(false, {act + "}"});
     EXPECT_NE(note(through, beginning), "") << act << lowest(through);
@@ -157,7 +167,8 @@ TEST(ThroughWalls, APressThatEndsJustBeforeTheWallIsNoted) {
     const SceneSurface& s = session.state().surfaces[0];
     const auto top = [&](double by) {
       Session trial = opened(thin_box(false));
-      run(trial, {fmt::format(R"({{"do":"points","which":[119],"by":[0,0,{}],"allow":"through"}})", by)});
+      run(trial,
+          {fmt::format(R"({{"do":"points","which":[119],"by":[0,0,{}],"allow":"through"}})", by)});
       double least = HUGE_VAL;
       const Surface& t = *trial.state().surfaces[0].current;
       double u = 0.5, v = 0.5;
@@ -177,7 +188,8 @@ TEST(ThroughWalls, APressThatEndsJustBeforeTheWallIsNoted) {
     };
     (void)s;
     const double per = 1 - top(-1);  // linear
-    run(session, {fmt::format(R"({{"do":"points","which":[119],"by":[0,0,{:.17g}]}})", -(1 - apart) / per)});
+    run(session,
+        {fmt::format(R"({{"do":"points","which":[119],"by":[0,0,{:.17g}]}})", -(1 - apart) / per)});
     return note(session, beginning);
   };
   const double size = std::sqrt(201);
@@ -198,7 +210,8 @@ TEST(ThroughWalls, ASessionMayStopThere) {
   const std::vector<Command> journal = session.journal();
   Session again = opened(thin_box(false));
   for (const Command& command : journal) ASSERT_TRUE(again.execute(command));
-  EXPECT_TRUE(testing::same_bits(*again.state().surfaces[0].current, *session.state().surfaces[0].current));
+  EXPECT_TRUE(
+      testing::same_bits(*again.state().surfaces[0].current, *session.state().surfaces[0].current));
   run(session, {R"({"do":"undo"})", stroke(1.5, R"(,"allow":"through")")});
   EXPECT_LT(lowest(session), -0.3);
 }
@@ -215,29 +228,35 @@ TEST(ThroughWalls, StepsStopThereOneByOne) {
     EXPECT_LT(lowest(*session), 0.01);
     EXPECT_NE(note(*session, stopping), "");
   }
-  EXPECT_TRUE(testing::same_bits(*at_once.state().surfaces[0].current, *single.state().surfaces[0].current));
+  EXPECT_TRUE(testing::same_bits(*at_once.state().surfaces[0].current,
+                                 *single.state().surfaces[0].current));
 }
 
 TEST(ThroughWalls, FacesThatMeetAtEdgesAreNotNoted) {
   // All faces of the box, converted and moved out and in.
   Session session = opened(thin_box(true, 6));
   std::vector<std::string> faces;
-  for (const auto& other : brep::other_surfaces(*session.document().model())) faces.push_back(other.id);
-  for (const std::string& id : faces) run(session, {fmt::format(R"({{"do":"convert","surface":"{}"}})", id)});
+  for (const auto& other : brep::other_surfaces(*session.document().model()))
+    faces.push_back(other.id);
+  for (const std::string& id : faces)
+    run(session, {fmt::format(R"({{"do":"convert","surface":"{}"}})", id)});
   ASSERT_EQ(session.state().surfaces.size(), 6U);
   for (std::size_t k = 0; k < 6; ++k) {
     const SceneSurface& s = session.state().surfaces[k];
-    const auto middle =
-        evaluate_point<2>(*s.current, {(s.current->knots(0).domain().lower + s.current->knots(0).domain().upper) / 2,
-                                       (s.current->knots(1).domain().lower + s.current->knots(1).domain().upper) / 2});
+    const auto middle = evaluate_point<2>(
+        *s.current,
+        {(s.current->knots(0).domain().lower + s.current->knots(0).domain().upper) / 2,
+         (s.current->knots(1).domain().lower + s.current->knots(1).domain().upper) / 2});
     const Point inward = (Point(5, 5, 3) - *middle).normalized();
     for (const double side : {1., -1.}) {
       const Point at = *middle - side * 0.8 * inward, away = *middle - side * 4 * inward;
-      run(session, {fmt::format(R"({{"do":"select","surface":"{}"}})", s.id), R"({"do":"hold","mode":"trim"})",
-                    R"({"do":"refine","permission":"auto"})", R"({"do":"material","preset":"clay"})",
-                    fmt::format(R"({{"do":"tool","name":"t","radius":1.5,"position":[{},{},{}]}})", away.x(), away.y(),
-                                away.z()),
-                    fmt::format(R"({{"do":"stroke","tool":"t","path":[[{},{},{}]]}})", at.x(), at.y(), at.z()),
+      run(session, {fmt::format(R"({{"do":"select","surface":"{}"}})", s.id),
+                    R"({"do":"hold","mode":"trim"})", R"({"do":"refine","permission":"auto"})",
+                    R"({"do":"material","preset":"clay"})",
+                    fmt::format(R"({{"do":"tool","name":"t","radius":1.5,"position":[{},{},{}]}})",
+                                away.x(), away.y(), away.z()),
+                    fmt::format(R"({{"do":"stroke","tool":"t","path":[[{},{},{}]]}})", at.x(),
+                                at.y(), at.z()),
                     R"({"do":"remove","tool":"t"})"});
     }
     EXPECT_GT(session.largest_displacement(static_cast<int>(k)), 0.1) << k;
@@ -246,15 +265,18 @@ TEST(ThroughWalls, FacesThatMeetAtEdgesAreNotNoted) {
 }
 
 TEST(ThroughWalls, ACurvedHullPressedIsNotNoted) {
-  const auto press = [](const std::string& file, const Point& place, const Point& inward, double radius) {
+  const auto press = [](const std::string& file, const Point& place, const Point& inward,
+                        double radius) {
     Session session = opened(file);
     const Point at = place - 0.6 * radius * inward, away = place - 3 * radius * inward;
-    run(session, {fmt::format(R"({{"do":"select","surface":"{}"}})", session.state().surfaces[0].id),
-                  R"({"do":"hold","mode":"trim"})", R"({"do":"material","preset":"clay"})",
-                  R"({"do":"refine","permission":"auto"})",
-                  fmt::format(R"({{"do":"tool","name":"t","radius":{},"position":[{},{},{}]}})", radius, away.x(),
-                              away.y(), away.z()),
-                  fmt::format(R"({{"do":"stroke","tool":"t","path":[[{},{},{}]]}})", at.x(), at.y(), at.z())});
+    run(session,
+        {fmt::format(R"({{"do":"select","surface":"{}"}})", session.state().surfaces[0].id),
+         R"({"do":"hold","mode":"trim"})", R"({"do":"material","preset":"clay"})",
+         R"({"do":"refine","permission":"auto"})",
+         fmt::format(R"({{"do":"tool","name":"t","radius":{},"position":[{},{},{}]}})", radius,
+                     away.x(), away.y(), away.z()),
+         fmt::format(R"({{"do":"stroke","tool":"t","path":[[{},{},{}]]}})", at.x(), at.y(),
+                     at.z())});
     EXPECT_GT(session.largest_displacement(0), 0.2 * radius);
     EXPECT_EQ(note(session, beginning), "");
   };
@@ -265,7 +287,8 @@ TEST(ThroughWalls, ACurvedHullPressedIsNotNoted) {
 TEST(ThroughWalls, ASheetAloneIsNotNoted) {
   Session session = testing::fresh();
   run(session, {R"({"do":"new","size":[10,10],"net":[16,16]})", R"({"do":"hold","rows":2})",
-                R"({"do":"material","preset":"clay"})", R"({"do":"tool","name":"b","radius":2,"position":[5,5,9]})",
+                R"({"do":"material","preset":"clay"})",
+                R"({"do":"tool","name":"b","radius":2,"position":[5,5,9]})",
                 R"({"do":"stroke","tool":"b","path":[[5,5,0.5]]})"});
   EXPECT_GT(session.largest_displacement(0), 1);
   EXPECT_EQ(note(session, beginning), "");
@@ -273,10 +296,12 @@ TEST(ThroughWalls, ASheetAloneIsNotNoted) {
 
 Session pressed_sphere(double depth) {
   Session session = testing::fresh();
-  run(session, {R"({"do":"new","shape":"sphere","radius":1})", R"({"do":"refine","region":[[0,1],[0,1]]})",
-                R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"hold","mode":"trim"})",
-                R"({"do":"material","preset":"clay"})", R"({"do":"tool","name":"b","radius":0.5,"position":[0,0,9]})",
-                fmt::format(R"({{"do":"stroke","tool":"b","path":[[0,0,{}]]}})", 1.5 - depth)});
+  run(session,
+      {R"({"do":"new","shape":"sphere","radius":1})", R"({"do":"refine","region":[[0,1],[0,1]]})",
+       R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"hold","mode":"trim"})",
+       R"({"do":"material","preset":"clay"})",
+       R"({"do":"tool","name":"b","radius":0.5,"position":[0,0,9]})",
+       fmt::format(R"({{"do":"stroke","tool":"b","path":[[0,0,{}]]}})", 1.5 - depth)});
   return session;
 }
 
@@ -292,7 +317,9 @@ TEST(ThroughWalls, ASpherePressedThroughItsFarSideIsNoted) {
     run(session,
         {R"({"do":"new","shape":"sphere","radius":1})", R"({"do":"refine","region":[[0,1],[0,1]]})",
          R"({"do":"refine","region":[[0,1],[0,1]]})",
-         fmt::format(R"({{"do":"brush","kind":"grab","path":[[0.5,0.99]],"radius":0.8,"by":[0,0,{}]}})", -deep)});
+         fmt::format(
+             R"({{"do":"brush","kind":"grab","path":[[0.5,0.99]],"radius":0.8,"by":[0,0,{}]}})",
+             -deep)});
     EXPECT_GT(session.largest_displacement(0), 0.9 * deep);
     const std::string text = note(session, beginning);
     EXPECT_EQ(text.find("its own other side") != std::string::npos, through) << text;

@@ -26,12 +26,14 @@ Disc disc() {
   const int outer = b.circle(0.4, 0, 0.5, 0.5), hole = b.circle(0.1, 0, 0.6, 0.5);
   const int face = b.face(10, {b.bound({outer}), b.bound({-hole})});
   b.entity("OPEN_SHELL('',(#" + std::to_string(face) + "))");
-  return {
-      testing::parse_or_die(testing::step_text(testing::unit_square_points() + testing::bilinear_patch() + b.text())),
-      "#" + std::to_string(outer), "#" + std::to_string(hole)};
+  return {testing::parse_or_die(testing::step_text(testing::unit_square_points() +
+                                                   testing::bilinear_patch() + b.text())),
+          "#" + std::to_string(outer), "#" + std::to_string(hole)};
 }
 
-Document document(const step::File& file) { return Document::from(*open_source(file.bytes(), file.name())); }
+Document document(const step::File& file) {
+  return Document::from(*open_source(file.bytes(), file.name()));
+}
 
 const std::string ball = R"({"do":"tool","name":"ball","radius":0.05,"rigid":true,"at":"middle"},
   {"do":"move","tool":"ball","by":[0,0,0.04]})";
@@ -89,8 +91,8 @@ step::File square() {
   for (const auto& c : corners) vertices.push_back(b.vertex(c[0], c[1], 0));
   for (std::size_t k = 0; k < 4; ++k) {
     const auto &from = corners[k], &to = corners[(k + 1) % 4];
-    edges.push_back(
-        b.line(vertices[k], vertices[(k + 1) % 4], {from[0], from[1], 0}, {to[0] - from[0], to[1] - from[1], 0}));
+    edges.push_back(b.line(vertices[k], vertices[(k + 1) % 4], {from[0], from[1], 0},
+                           {to[0] - from[0], to[1] - from[1], 0}));
   }
   b.entity("OPEN_SHELL('',(#" + std::to_string(b.face(10, {b.bound(edges)})) + "))");
   return testing::parse_or_die(
@@ -107,7 +109,8 @@ TEST(TrimCommands, AStrokeThatWouldFoldAFaceIsMadeShallower) {
   EXPECT_GT(session.largest_displacement(0), 0.05);
   EXPECT_LT(session.largest_displacement(0), 0.2);
   EXPECT_EQ(largest_gap(session), 0);
-  EXPECT_NE(session.state().steps.back().note.find("of its depth, as more would fold a face"), std::string::npos)
+  EXPECT_NE(session.state().steps.back().note.find("of its depth, as more would fold a face"),
+            std::string::npos)
       << session.state().steps.back().note;
 }
 
@@ -116,19 +119,22 @@ TEST(TrimCommands, AFoldBesideAHeldEdgeNamesIt) {
   const Disc d = disc();
   const auto refused = [&](const std::string& first, const char* at, const char* by) {
     Session session(document(d.file));
-    const auto done =
-        run(session, first + R"({"do":"brush","kind":"grab","radius":0.15,"path":[)" + at + R"(],"by":)" + by + R"(})");
+    const auto done = run(session, first + R"({"do":"brush","kind":"grab","radius":0.15,"path":[)" +
+                                       at + R"(],"by":)" + by + R"(})");
     EXPECT_FALSE(done);
     EXPECT_EQ(session.largest_displacement(0), 0);
     return done ? Error{} : done.error();
   };
   for (const auto& [edge, by] : {std::pair{d.hole, "[-0.2,0,0]"}, {d.edge, "[0.2,0,0]"}}) {
     const Error error = refused("", "[0.8,0.5]", by);
-    EXPECT_NE(error.what.find("beside the edge " + edge + ", which is held"), std::string::npos) << error.message();
+    EXPECT_NE(error.what.find("beside the edge " + edge + ", which is held"), std::string::npos)
+        << error.message();
     EXPECT_EQ(testing::code_of(error), ErrorCode::step_folds_beside_edge);
-    EXPECT_NE(error.remedy.find(R"({"do":"edge","edge":")" + edge + R"(","hold":"follow"})"), std::string::npos);
+    EXPECT_NE(error.remedy.find(R"({"do":"edge","edge":")" + edge + R"(","hold":"follow"})"),
+              std::string::npos);
   }
-  const Error freed = refused(R"({"do":"edge","edge":")" + d.hole + R"(","hold":"free"},)", "[0.8,0.5]", "[-0.2,0,0]");
+  const Error freed = refused(R"({"do":"edge","edge":")" + d.hole + R"(","hold":"free"},)",
+                              "[0.8,0.5]", "[-0.2,0,0]");
   EXPECT_NE(freed.what.find("folds #10"), std::string::npos) << freed.message();
   EXPECT_EQ(testing::code_of(freed), ErrorCode::step_folds);
   EXPECT_EQ(freed.what.find(d.hole + ","), std::string::npos) << "it is not held";
@@ -136,19 +142,22 @@ TEST(TrimCommands, AFoldBesideAHeldEdgeNamesIt) {
 
 TEST(TrimCommands, HoldingNoRowsOfAllUndoesWhatAScriptBeginsWith) {
   Session session(document(disc().file));
-  const auto done = run(session, R"({"do":"hold","rows":0,"all":true},)" + ball + R"(,{"do":"step"})");
+  const auto done =
+      run(session, R"({"do":"hold","rows":0,"all":true},)" + ball + R"(,{"do":"step"})");
   ASSERT_TRUE(done) << done.error().message();
   EXPECT_EQ(session.state().surfaces[0].current->net(), (std::array{2, 2}));
   EXPECT_TRUE(session.state().surfaces[0].constraints.empty());
 }
 
 /// A ball in the middle of the disc's hole, deep in the surface that no face shows there.
-const std::string in_hole = R"({"do":"tool","name":"ball","radius":0.09,"rigid":true,"position":[0.6,0.5,0.03])";
+const std::string in_hole =
+    R"({"do":"tool","name":"ball","radius":0.09,"rigid":true,"position":[0.6,0.5,0.03])";
 
 TEST(TrimCommands, AToolInAHoleTouchesNothing) {
   for (const char* hold : {"", R"({"do":"hold","mode":"free"},)"}) {
     Session session(document(disc().file));
-    const auto done = run(session, hold + in_hole + R"(},{"do":"evolve","mode":"acm"},{"do":"step"})");
+    const auto done =
+        run(session, hold + in_hole + R"(},{"do":"evolve","mode":"acm"},{"do":"step"})");
     ASSERT_TRUE(done) << done.error().message();
     EXPECT_EQ(session.largest_displacement(0), 0);
     const StepRecord& step = session.state().steps.back();
@@ -197,8 +206,8 @@ TEST(TrimCommands, WhereNothingMayBeRefinedAndNothingIsFreeThatIsAnErrorWithTheR
 
 TEST(TrimCommands, AStepOverWhatIsHeldCanBeAllowed) {
   Session session(document(disc().file));
-  const auto done =
-      run(session, R"({"do":"refine","permission":"never"},)" + ball + R"(,{"do":"step","allow":"held"})");
+  const auto done = run(session, R"({"do":"refine","permission":"never"},)" + ball +
+                                     R"(,{"do":"step","allow":"held"})");
   EXPECT_TRUE(done) << done.error().message();
   EXPECT_EQ(session.largest_displacement(0), 0);
 }
@@ -207,7 +216,8 @@ TEST(TrimCommands, AnEdgeThatIsFreedMayMove) {
   const Disc d = disc();
   Session session(document(d.file));
   ASSERT_TRUE(run(session, R"({"do":"edge","which":")" + d.hole + R"(","hold":"free"},
-    {"do":"tool","radius":0.08,"at":[0.45,0.5]},{"do":"move","by":[0,0,0.06]},{"do":"evolve","mode":"static"})"));
+    {"do":"tool","radius":0.08,"at":[0.45,0.5]},{"do":"move","by":[0,0,0.06]},
+    {"do":"evolve","mode":"static"})"));
   const auto report = trim_report(session.state().surfaces[0]);
   ASSERT_TRUE(report);
   for (const auto& edge : report->edges) {
@@ -260,7 +270,8 @@ TEST(TrimCommands, EveryHoldReplacesTheOneBefore) {
 TEST(TrimCommands, ASnapshotKeepsTheHold) {
   const Disc d = disc();
   Session session(document(d.file));
-  ASSERT_TRUE(run(session, R"({"do":"edge","which":")" + d.hole + R"(","hold":"clamped"},)" + pressed));
+  ASSERT_TRUE(
+      run(session, R"({"do":"edge","which":")" + d.hole + R"(","hold":"clamped"},)" + pressed));
   auto restored = Session::restore(document(d.file), session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
   const SceneSurface &a = session.state().surfaces[0], &b = restored->state().surfaces[0];

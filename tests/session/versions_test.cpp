@@ -1,4 +1,5 @@
-// Scripts: the one version that is read, and that what is written of a session does the same as the session.
+// Scripts: the one version that is read, and that what is written of a session does the same as the
+// session.
 #include <filesystem>
 #include <fstream>
 
@@ -41,10 +42,12 @@ TEST(Script, OfVersion1IsRefusedWithThePageThatSaysHowToGoOn) {
 
 TEST(Script, OfNoVersionThatThereIsIsRefused) {
   for (const char* const version : {"0", "1.5", "3", "\"2\"", "null", "[2]", "true"}) {
-    const auto script = parse_script(std::string(R"({"commands":[],"knead":)") + version + "}", "s");
+    const auto script =
+        parse_script(std::string(R"({"commands":[],"knead":)") + version + "}", "s");
     ASSERT_FALSE(script) << version;
     EXPECT_EQ(script.error().where, "knead");
-    EXPECT_NE(script.error().remedy.find(R"({"knead": 2)"), std::string::npos) << script.error().remedy;
+    EXPECT_NE(script.error().remedy.find(R"({"knead": 2)"), std::string::npos)
+        << script.error().remedy;
   }
 }
 
@@ -103,7 +106,8 @@ TEST(CommandList, IsReadWithNothingBeforeIt) {
   EXPECT_EQ(commands_json(*parse_commands(commands_json(*commands))), commands_json(*commands));
   EXPECT_TRUE(parse_commands("[]")->empty());
   EXPECT_EQ(commands_json({}), "[]\n");
-  EXPECT_EQ(parse_commands(R"([{"do":"step"},{"do":"step","count":"x"}])").error().where, "commands[1].count");
+  EXPECT_EQ(parse_commands(R"([{"do":"step"},{"do":"step","count":"x"}])").error().where,
+            "commands[1].count");
   EXPECT_EQ(parse_commands(R"({"knead":2,"commands":[]})").error().where, "commands");
 }
 

@@ -18,16 +18,19 @@ struct RandomConstraints {
   Points solution;
   std::vector<LinearConstraint> constraints;
 
-  RandomConstraints(int size, int count, unsigned seed, bool normals) : solution(random_points(size, seed)) {
+  RandomConstraints(int size, int count, unsigned seed, bool normals)
+      : solution(random_points(size, seed)) {
     std::mt19937_64 random(seed);
     std::uniform_int_distribution<int> unknown(0, size - 1), length(1, 5);
     std::uniform_real_distribution<double> coefficient(-2, 2);
     for (int k = 0; k < count; ++k) {
       LinearConstraint c;
       c.name = "constraint " + std::to_string(k);
-      for (int t = length(random); t > 0; --t) c.terms.emplace_back(unknown(random), coefficient(random));
+      for (int t = length(random); t > 0; --t)
+        c.terms.emplace_back(unknown(random), coefficient(random));
       for (const auto& [i, a] : c.terms) c.value += a * solution.row(i).transpose();
-      if (normals && k % 3 == 0) c.normal = Point(coefficient(random), coefficient(random), coefficient(random));
+      if (normals && k % 3 == 0)
+        c.normal = Point(coefficient(random), coefficient(random), coefficient(random));
       constraints.push_back(c);
     }
   }
@@ -44,10 +47,12 @@ TEST(ConstraintSpace, EveryMemberSatisfiesTheConstraints) {
       const Points member = space->feasible(any);
       EXPECT_LT(space->violation(member), 1e-10) << "seed " << seed;
       // T y leaves every constraint as it is.
-      const Eigen::MatrixXd y = Eigen::MatrixXd::Random(space->free_count(), space->coupled() ? 1 : 3);
+      const Eigen::MatrixXd y =
+          Eigen::MatrixXd::Random(space->free_count(), space->coupled() ? 1 : 3);
       EXPECT_LT(space->violation(member + space->expand(y)), 1e-9) << "seed " << seed;
       // And nothing is lost: the known solution is a member.
-      EXPECT_LT((space->feasible(r.solution) - r.solution).cwiseAbs().maxCoeff(), 1e-9) << "seed " << seed;
+      EXPECT_LT((space->feasible(r.solution) - r.solution).cwiseAbs().maxCoeff(), 1e-9)
+          << "seed " << seed;
     }
   }
 }
@@ -57,7 +62,8 @@ TEST(ConstraintSpace, LeavesTheFreedomThatTheRankSays) {
     const int size = 12;
     RandomConstraints r(size, 7, seed, false);
     r.constraints.push_back(r.constraints[0]);  // said twice
-    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(r.constraints.size()), size);
+    Eigen::MatrixXd c =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(r.constraints.size()), size);
     for (std::size_t k = 0; k < r.constraints.size(); ++k) {
       for (const auto& [i, a] : r.constraints[k].terms) c(static_cast<Eigen::Index>(k), i) += a;
     }
@@ -77,7 +83,8 @@ TEST(ConstraintSpace, ReduceIsTheTransposeOfExpandAndRestrictTheirProduct) {
     const int width = with_held->coupled() ? 1 : 3;
     const Eigen::MatrixXd y = Eigen::MatrixXd::Random(with_held->free_count(), width);
     const Points b = random_points(10, 9);
-    EXPECT_NEAR(with_held->reduce(b).cwiseProduct(y).sum(), b.cwiseProduct(with_held->expand(y)).sum(), 1e-13);
+    EXPECT_NEAR(with_held->reduce(b).cwiseProduct(y).sum(),
+                b.cwiseProduct(with_held->expand(y)).sum(), 1e-13);
     EXPECT_LT((with_held->reduce(with_held->lumped(b)) - with_held->reduce(b)).norm(), 1e-13);
     Eigen::MatrixXd dense = Eigen::MatrixXd::Random(10, 10);
     dense = (dense + dense.transpose()).eval();
@@ -91,7 +98,8 @@ TEST(ConstraintSpace, HeldUnknownsKeepTheirBitsAndCarryOthers) {
   std::vector<bool> held(4, false);
   held[1] = true;
   // X_0 = X_1, X_2 + X_3 = 2 X_1.
-  const std::vector<LinearConstraint> constraints = {{"same", {{0, 1}, {1, -1}}}, {"mean", {{2, 1}, {3, 1}, {1, -2}}}};
+  const std::vector<LinearConstraint> constraints = {{"same", {{0, 1}, {1, -1}}},
+                                                     {"mean", {{2, 1}, {3, 1}, {1, -2}}}};
   const auto space = ConstraintSpace::create(4, constraints, held);
   ASSERT_TRUE(space);
   EXPECT_EQ(space->free_count(), 1);
@@ -108,7 +116,8 @@ TEST(ConstraintSpace, HeldUnknownsKeepTheirBitsAndCarryOthers) {
 
 TEST(ConstraintSpace, IsTheSameOverCoordinates) {
   const std::vector<bool> held = {false, true, false, false, false};
-  const std::vector<LinearConstraint> constraints = {{"a", {{0, 1}, {1, -1}}, Point(1, 2, 3)}, {"b", {{2, 1}, {3, 2}}}};
+  const std::vector<LinearConstraint> constraints = {{"a", {{0, 1}, {1, -1}}, Point(1, 2, 3)},
+                                                     {"b", {{2, 1}, {3, 2}}}};
   const auto space = ConstraintSpace::create(5, constraints, held);
   ASSERT_TRUE(space);
   const ConstraintSpace coordinates = space->on_coordinates();
@@ -116,15 +125,17 @@ TEST(ConstraintSpace, IsTheSameOverCoordinates) {
   ASSERT_EQ(coordinates.free_count(), 3 * space->free_count());
   const Points x = random_points(5, 3), y = random_points(space->free_count(), 4);
   EXPECT_EQ(coordinates.feasible(x), space->feasible(x));
-  EXPECT_EQ(coordinates.expand(Eigen::Map<const Eigen::VectorXd>(y.data(), y.size())), space->expand(y));
+  EXPECT_EQ(coordinates.expand(Eigen::Map<const Eigen::VectorXd>(y.data(), y.size())),
+            space->expand(y));
   for (int i = 0; i < 5; ++i) EXPECT_EQ(coordinates.is_determined(i), space->is_determined(i));
   EXPECT_EQ(coordinates.on_coordinates().expand(Eigen::VectorXd::Ones(coordinates.free_count())),
             coordinates.expand(Eigen::VectorXd::Ones(coordinates.free_count())));
 }
 
 TEST(ConstraintSpace, RedundantConstraintsAreFineAndContradictoryOnesAreNamed) {
-  const LinearConstraint first{"edge u0", {{0, 1}}, Point(1, 0, 0)}, second{"seam", {{0, 1}, {1, -1}}},
-      third{"pin", {{1, 2}}, Point(2, 0, 0)}, wrong{"pin at the corner", {{1, 1}}, Point(1, 1e-6, 0)};
+  const LinearConstraint first{"edge u0", {{0, 1}}, Point(1, 0, 0)},
+      second{"seam", {{0, 1}, {1, -1}}}, third{"pin", {{1, 2}}, Point(2, 0, 0)},
+      wrong{"pin at the corner", {{1, 1}}, Point(1, 1e-6, 0)};
   EXPECT_TRUE(ConstraintSpace::create(3, std::vector{first, second, third}));
   const auto refused = ConstraintSpace::create(3, std::vector{first, second, wrong});
   ASSERT_FALSE(refused);
@@ -148,9 +159,10 @@ TEST(ConstraintSpace, RefusesWhatIsNoConstraint) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {{2, 1}}}}));
   EXPECT_FALSE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {{0, nan}}}}));
-  EXPECT_FALSE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {{0, 1}}, Point(nan, 0, 0)}}));
   EXPECT_FALSE(
-      ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {{0, 1}}, Point(0, 0, 0), Point(0, 0, 0)}}));
+      ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {{0, 1}}, Point(nan, 0, 0)}}));
+  EXPECT_FALSE(ConstraintSpace::create(
+      2, std::vector{LinearConstraint{"a", {{0, 1}}, Point(0, 0, 0), Point(0, 0, 0)}}));
   EXPECT_FALSE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {}, Point(1, 0, 0)}}));
   EXPECT_TRUE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {}, Point(0, 0, 0)}}));
 }

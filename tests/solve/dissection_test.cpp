@@ -29,7 +29,8 @@ struct PatchSystem {
     std::vector<Eigen::Triplet<double>> entries;
     int first = 0;
     for (const auto& [m, n] : spans) {
-      patches.push_back(testing::relief(testing::uniform_clamped(degree, m), testing::uniform_clamped(degree, n), 1));
+      patches.push_back(testing::relief(testing::uniform_clamped(degree, m),
+                                        testing::uniform_clamped(degree, n), 1));
       const SparseMatrix k = Stiffness<2>::create(patches.back(), stretch_and_bend({}))->assemble(),
                          mass = Stiffness<2>::create(patches.back(), mass_energy<2>())->assemble();
       const SparseMatrix sum = k + mass;
@@ -40,8 +41,10 @@ struct PatchSystem {
       }
       if (first > 0) {
         for (const auto& [i, j] : {std::pair{first - 1, first}, std::pair{first - 3, first + 2}}) {
-          for (const auto& [p, q] : {std::pair{i, i}, std::pair{j, j}}) entries.emplace_back(p, q, 0.5);
-          for (const auto& [p, q] : {std::pair{i, j}, std::pair{j, i}}) entries.emplace_back(p, q, -0.5);
+          for (const auto& [p, q] : {std::pair{i, i}, std::pair{j, j}})
+            entries.emplace_back(p, q, 0.5);
+          for (const auto& [p, q] : {std::pair{i, j}, std::pair{j, i}})
+            entries.emplace_back(p, q, -0.5);
         }
       }
       first += static_cast<int>(sum.rows());
@@ -53,8 +56,8 @@ struct PatchSystem {
 
   [[nodiscard]] SparseMatrix in_order(const Dissection& d) const {
     SparseMatrix lower(a.rows(), a.cols());
-    lower.selfadjointView<Eigen::Lower>() =
-        a.selfadjointView<Eigen::Lower>().twistedBy(Eigen::PermutationMatrix<Eigen::Dynamic>(d.order));
+    lower.selfadjointView<Eigen::Lower>() = a.selfadjointView<Eigen::Lower>().twistedBy(
+        Eigen::PermutationMatrix<Eigen::Dynamic>(d.order));
     return lower;
   }
 };
@@ -70,17 +73,21 @@ void expect_right(const SparseMatrix& a, const Dissection& d) {
     const Dissection::Node& node = d.nodes[k];
     ASSERT_EQ(node.begin, next);
     next = node.end;
-    for (int i = node.begin; i < node.end; ++i) node_of[static_cast<std::size_t>(i)] = static_cast<int>(k);
+    for (int i = node.begin; i < node.end; ++i)
+      node_of[static_cast<std::size_t>(i)] = static_cast<int>(k);
     ASSERT_TRUE(node.parent < 0 || node.parent > static_cast<int>(k));
   }
   ASSERT_EQ(next, a.cols());
-  const auto node = [&](int unknown) { return node_of[static_cast<std::size_t>(d.order[unknown])]; };
+  const auto node = [&](int unknown) {
+    return node_of[static_cast<std::size_t>(d.order[unknown])];
+  };
   for (int j = 0; j < a.outerSize(); ++j) {
     for (SparseMatrix::InnerIterator it(a, j); it; ++it) {
       const int first = std::min(node(j), node(static_cast<int>(it.row()))),
                 last = std::max(node(j), node(static_cast<int>(it.row())));
       int behind = first;
-      while (behind >= 0 && behind < last) behind = d.nodes[static_cast<std::size_t>(behind)].parent;
+      while (behind >= 0 && behind < last)
+        behind = d.nodes[static_cast<std::size_t>(behind)].parent;
       ASSERT_EQ(behind, last) << j << " " << it.row();
     }
   }
@@ -88,7 +95,8 @@ void expect_right(const SparseMatrix& a, const Dissection& d) {
 
 TEST(Dissection, SeparatesWhatDoesNotDependOnEachOther) {
   for (const int degree : {1, 3, 5}) {
-    const PatchSystem one(degree, {{30, 41}}), several(degree, {{12, 9}, {3, 20}, {15, 15}, {1, 1}});
+    const PatchSystem one(degree, {{30, 41}}),
+        several(degree, {{12, 9}, {3, 20}, {15, 15}, {1, 1}});
     for (const PatchSystem* p : {&one, &several}) {
       for (const int size : {64, 100, 500}) {
         const Dissection d = dissect(p->a, p->places, size);
@@ -96,7 +104,8 @@ TEST(Dissection, SeparatesWhatDoesNotDependOnEachOther) {
         if (p->a.cols() > 3 * size) {
           EXPECT_GT(d.nodes.size(), 2U) << degree << " " << size;
         }
-        for (const Dissection::Node& node : d.nodes) EXPECT_LE(node.end - node.begin, std::max(size, 250));
+        for (const Dissection::Node& node : d.nodes)
+          EXPECT_LE(node.end - node.begin, std::max(size, 250));
       }
     }
   }
@@ -148,8 +157,8 @@ TEST(DissectedPanels, SolveAndGiveTheSameBitsByThreadsAndInstructionSets) {
   const auto solved = [&](InstructionSet set) {
     const auto panels = Panels::factor(lower, set, &d);
     EXPECT_TRUE(panels);
-    FourColumns x =
-        FourColumns::Constant(panels->work_rows(), 4, 1e300);  // rows beyond those of the matrix mean nothing
+    FourColumns x = FourColumns::Constant(panels->work_rows(), 4,
+                                          1e300);  // rows beyond those of the matrix mean nothing
     x.topRows(n) = b;
     panels->forward<4>(x.data(), panels->all());
     const FourColumns half = x.topRows(n);
@@ -166,7 +175,8 @@ TEST(DissectedPanels, SolveAndGiveTheSameBitsByThreadsAndInstructionSets) {
   EXPECT_LE((whole * expected - b).norm(), 1e-12 * b.norm());
   for (const int threads : testing::thread_counts) {
     for (const InstructionSet set : available_instruction_sets()) {
-      EXPECT_EQ(with_threads(threads, [&] { return solved(set); }), expected) << threads << " " << name(set);
+      EXPECT_EQ(with_threads(threads, [&] { return solved(set); }), expected)
+          << threads << " " << name(set);
     }
   }
 }
@@ -182,25 +192,28 @@ TEST(DissectedPanels, OfLargePanelsGiveTheSameBitsByAnyNumberOfThreads) {
   const Points expected = with_threads(1, solved);
   const Points reordered = d.order.asPermutation() * b;
   const SparseMatrix whole = lower.selfadjointView<Eigen::Lower>();
-  EXPECT_LE((whole * (d.order.asPermutation() * expected).eval() - reordered).norm(), 1e-11 * b.norm());
+  EXPECT_LE((whole * (d.order.asPermutation() * expected).eval() - reordered).norm(),
+            1e-11 * b.norm());
   for (const int threads : {2, 3}) EXPECT_EQ(with_threads(threads, solved), expected) << threads;
 }
 
 TEST(DissectedPanels, SolveWithinAPartByTheBitsOfTheWhole) {
   const PatchSystem p(3, {{30, 27}, {11, 12}});
   const SparseMatrix copy = p.a;
-  const auto dissected =
-      SparseCholesky::factor_in_order(p.in_order(dissect(p.a, p.places, 80)), dissect(p.a, p.places, 80));
+  const auto dissected = SparseCholesky::factor_in_order(p.in_order(dissect(p.a, p.places, 80)),
+                                                         dissect(p.a, p.places, 80));
   ASSERT_TRUE(dissected);
-  for (const std::vector<int>& unknowns :
-       {std::vector<int>{400, 401, 402, 433, 434}, std::vector<int>{0}, std::vector<int>{990, 2, 500}}) {
+  for (const std::vector<int>& unknowns : {std::vector<int>{400, 401, 402, 433, 434},
+                                           std::vector<int>{0}, std::vector<int>{990, 2, 500}}) {
     Points b = Points::Zero(p.a.rows(), 3);
     const Points here = random_points(static_cast<Eigen::Index>(unknowns.size()), 5);
-    for (std::size_t k = 0; k < unknowns.size(); ++k) b.row(unknowns[k]) = here.row(static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+      b.row(unknowns[k]) = here.row(static_cast<Eigen::Index>(k));
     const auto part = dissected->part(unknowns);
     const Points whole = dissected->solve(b);
     for (const int threads : testing::thread_counts) {
-      const Points within = with_threads(threads, [&] { return dissected->solve_within(part, here); });
+      const Points within =
+          with_threads(threads, [&] { return dissected->solve_within(part, here); });
       for (std::size_t k = 0; k < unknowns.size(); ++k) {
         EXPECT_EQ(within.row(static_cast<Eigen::Index>(k)), whole.row(unknowns[k])) << threads;
       }
@@ -236,7 +249,9 @@ TEST(DissectedPanels, AreRefusedWhereAnyPivotIsNotPositive) {
     SparseMatrix a = p.in_order(d);
     a.coeffRef(k, k) = -1;
     for (const int threads : {1, 2}) {
-      EXPECT_FALSE(with_threads(threads, [&] { return SparseCholesky::factor_in_order(a, d).has_value(); })) << k;
+      EXPECT_FALSE(with_threads(threads, [&] {
+        return SparseCholesky::factor_in_order(a, d).has_value();
+      })) << k;
     }
   }
 }

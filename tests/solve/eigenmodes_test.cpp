@@ -9,7 +9,8 @@
 namespace knead {
 namespace {
 
-/// A chain of N masses between springs of stiffness 1: eigenvalues 2 − 2 cos(k π / (N + 1)), three of each.
+/// A chain of N masses between springs of stiffness 1: eigenvalues 2 − 2 cos(k π / (N + 1)), three
+/// of each.
 SparseMatrix chain(int points) {
   SparseMatrix k(points, points);
   for (int i = 0; i < points; ++i) {
@@ -31,7 +32,8 @@ TEST(Eigenmodes, OfAChainAreExactWithAllCopies) {
   ASSERT_TRUE(modes) << modes.error().message();
   ASSERT_EQ(modes->size(), 9U);
   for (std::size_t i = 0; i < 9; ++i) {
-    const double exact = 2 - 2 * std::cos((static_cast<double>(i / 3) + 1) * std::numbers::pi / (points + 1));
+    const double exact =
+        2 - 2 * std::cos((static_cast<double>(i / 3) + 1) * std::numbers::pi / (points + 1));
     // Rounding of K, whose norm is 4.
     EXPECT_NEAR((*modes)[i].value, exact, 1e-14) << i;
     EXPECT_LT((*modes)[i].residual, 1e-9) << i;
@@ -40,7 +42,8 @@ TEST(Eigenmodes, OfAChainAreExactWithAllCopies) {
 }
 
 TEST(Eigenmodes, ConstraintsAreKept) {
-  // With its last point held the chain has one point less; its first points tied together swing along.
+  // With its last point held the chain has one point less; its first points tied together swing
+  // along.
   const int points = 40;
   const std::vector<LinearConstraint> held = {{"end", {{points - 1, 1.0}}}};
   const auto modes = vibration_modes(chain(points), unit_mass(points), held, 3);

@@ -17,11 +17,13 @@ namespace {
 
 using std::numbers::pi;
 
-/// A shell with what holds and loads it. u and v run from 0 to 1; control point (i, j) is row i n + j.
+/// A shell with what holds and loads it. u and v run from 0 to 1; control point (i, j) is row i n +
+/// j.
 class Structure {
  public:
   /// Interpolates a surface at the Greville abscissae of a uniform net.
-  Structure(int degree, int u_spans, int v_spans, const std::function<Point(double, double)>& shape) {
+  Structure(int degree, int u_spans, int v_spans,
+            const std::function<Point(double, double)>& shape) {
     const auto u = *KnotVector::clamped_uniform(degree, degree + u_spans);
     const auto v = *KnotVector::clamped_uniform(degree, degree + v_spans);
     m_ = u.count();
@@ -41,7 +43,9 @@ class Structure {
   }
 
   [[nodiscard]] const Surface& surface() const { return *surface_; }
-  [[nodiscard]] int row(int i, int j) const { return (i < 0 ? i + m_ : i) * n_ + (j < 0 ? j + n_ : j); }
+  [[nodiscard]] int row(int i, int j) const {
+    return (i < 0 ? i + m_ : i) * n_ + (j < 0 ? j + n_ : j);
+  }
   [[nodiscard]] int along_u() const { return m_; }
   [[nodiscard]] int along_v() const { return n_; }
 
@@ -54,7 +58,8 @@ class Structure {
     }
   }
   void hold(int a, const std::string& axes) { tie(a, -1, axes); }
-  /// Symmetry about the plane through edge `first` normal to an axis; `second` is the next row of the net.
+  /// Symmetry about the plane through edge `first` normal to an axis; `second` is the next row of
+  /// the net.
   void symmetry(const std::vector<int>& first, const std::vector<int>& second, char normal) {
     std::string others = "xyz";
     others.erase(others.find(normal), 1);
@@ -79,12 +84,14 @@ class Structure {
     for (int k = 0; k < q.basis.size(); ++k) {
       const auto at = static_cast<std::size_t>(k);
       for (int r = 0; r <= q.basis.degree; ++r) {
-        load.row(row(-1, q.basis.first[at] + r)) += q.weights[at] * q.basis.row(k, 0)[r] * force.transpose();
+        load.row(row(-1, q.basis.first[at] + r)) +=
+            q.weights[at] * q.basis.row(k, 0)[r] * force.transpose();
       }
     }
   }
 
-  [[nodiscard]] ShellEquilibrium solve(const ShellMaterial& material, const ShellStaticsOptions& options = {}) const {
+  [[nodiscard]] ShellEquilibrium solve(const ShellMaterial& material,
+                                       const ShellStaticsOptions& options = {}) const {
     const auto shell = ShellEnergy::create(surface(), material);
     if (!shell) ADD_FAILURE() << shell.error().message();
     auto result = shell_equilibrium(*shell, surface().control_points(), constraints, load, options);
@@ -122,7 +129,8 @@ class Structure {
   std::optional<Surface> surface_;
 };
 
-/// A quarter of the Scordelis–Lo roof: u from the crown to the free edge, v from the diaphragm to the middle.
+/// A quarter of the Scordelis–Lo roof: u from the crown to the free edge, v from the diaphragm to
+/// the middle.
 double roof(int degree, int spans) {
   Structure s(degree, spans, spans, [](double u, double v) {
     return Point(25 * std::sin(u * 40 * pi / 180), 25 * v, 25 * std::cos(u * 40 * pi / 180));
@@ -135,7 +143,8 @@ double roof(int degree, int spans) {
   return s.linear(material, s.row(-1, -1)).z();
 }
 
-/// An eighth of the pinched cylinder: u a quarter turn from the load, v from the diaphragm to the middle.
+/// An eighth of the pinched cylinder: u a quarter turn from the load, v from the diaphragm to the
+/// middle.
 double cylinder(int degree, int spans) {
   Structure s(degree, spans, spans, [](double u, double v) {
     return Point(300 * std::sin(u * pi / 2), 300 * v, 300 * std::cos(u * pi / 2));
@@ -169,7 +178,8 @@ TEST(ShellStatics, ScordelisLoRoof) {
   const double reference = -0.3006, limit = roof(4, 16);
   EXPECT_NEAR(limit, reference, 0.01 * 0.3006);
   EXPECT_NEAR(roof(3, 16), reference, 0.01 * 0.3006);
-  EXPECT_LE(std::abs(roof(3, 8) - limit), std::abs(roof(3, 4) - limit) / 10);  // fourth order: a sixteenth at last
+  EXPECT_LE(std::abs(roof(3, 8) - limit),
+            std::abs(roof(3, 4) - limit) / 10);  // fourth order: a sixteenth at last
 }
 
 TEST(ShellStatics, PinchedCylinder) {
@@ -227,8 +237,8 @@ TEST(ShellStatics, SlitAnnularPlate) {
   EXPECT_NEAR(outside, 17.528, 0.005 * 17.528);
 }
 
-/// That a result is the one printed, to half a unit of its last digit and what other instruction sets round
-/// differently.
+/// That a result is the one printed, to half a unit of its last digit and what other instruction
+/// sets round differently.
 void expect_printed(double result, double printed, double digit) {
   EXPECT_NEAR(result, printed, 0.51 * digit) << printed;
 }

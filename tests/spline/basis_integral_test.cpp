@@ -16,7 +16,8 @@ using testing::Quad;
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
 
-/// The m-fold integral ∫ (u − v)^(m−1)/(m−1)! N_i(v) dv (Cauchy) in quadruple precision, Gauss on every span.
+/// The m-fold integral ∫ (u − v)^(m−1)/(m−1)! N_i(v) dv (Cauchy) in quadruple precision, Gauss on
+/// every span.
 Quad quad_integral(const KnotVector& knots, int i, int m, double u) {
   const int p = knots.degree();
   const testing::QuadRule rule = testing::quad_rule((p + m) / 2 + 1);
@@ -55,7 +56,8 @@ TEST(BasisIntegral, is_exact_to_its_bound_everywhere_on_the_line) {
             const Quad exact = quad_integral(knots, i, m, u);
             if (exact != 0 && exact < Quad(1e-280)) continue;
             const Quad error = testing::magnitude(Quad(basis_integral(knots, i, m, u)) - exact);
-            EXPECT_LE(static_cast<double>(error), 4 * (p + 2 * m + 2) * ulp * static_cast<double>(exact))
+            EXPECT_LE(static_cast<double>(error),
+                      4 * (p + 2 * m + 2) * ulp * static_cast<double>(exact))
                 << name << ", I^" << m << " N_" << i << "(" << u << ")";
           }
         }
@@ -69,7 +71,8 @@ TEST(BasisIntegral, over_the_line_is_the_length_of_the_support_by_the_order) {
     for (const auto& [name, knots] : testing::knot_families(p)) {
       for (int i = 0; i < knots.count(); ++i) {
         const double area = (knots[i + p + 1] - knots[i]) / (p + 1);
-        EXPECT_NEAR(basis_integral(knots, i, 1, knots.knots().back() + 1), area, 8 * p * ulp * area) << name;
+        EXPECT_NEAR(basis_integral(knots, i, 1, knots.knots().back() + 1), area, 8 * p * ulp * area)
+            << name;
       }
     }
   }
@@ -86,8 +89,11 @@ TEST(BasisIntegral, gives_the_fourth_integrals_of_thesis_table_5_15) {
   for (const auto& row : rows) {
     const KnotVector knots = testing::thesis_knots(3, std::stoi(row.at("r")));
     const std::string& at = row.at("knot");
-    const double u = at == "6+10^-r" ? knots[10] : std::stod(at), exact = std::stod(row.at("exact"));
-    EXPECT_NEAR(basis_integral(knots, std::stoi(row.at("i")), 4, u), exact, 1e-15 * exact + 1e-5 * ulp) << at;
+    const double u = at == "6+10^-r" ? knots[10] : std::stod(at),
+                 exact = std::stod(row.at("exact"));
+    EXPECT_NEAR(basis_integral(knots, std::stoi(row.at("i")), 4, u), exact,
+                1e-15 * exact + 1e-5 * ulp)
+        << at;
   }
 }
 
@@ -99,11 +105,13 @@ TEST(BasisFunction, is_the_piece_of_its_span_and_zero_above_the_degree) {
         for (const double t : {0.0, 0.25, 1.0}) {
           const double u = t == 1 ? knots[s + 1] : knots[s] + t * (knots[s + 1] - knots[s]);
           const Side side = t == 1 ? Side::left : Side::right;
-          // On short spans beside long ones higher derivatives cancel whatever they are computed by.
+          // On short spans beside long ones higher derivatives cancel whatever they are computed
+          // by.
           for (int d = 0; d <= (family.ordinary() ? p + 1 : 0); ++d) {
             const std::vector<Quad> exact = testing::quad_span_basis(knots, p, d, s, Quad(u));
             double size = 0;  // the largest of that order: what differences may have cancelled from
-            for (const Quad value : exact) size = std::max(size, std::abs(static_cast<double>(value)));
+            for (const Quad value : exact)
+              size = std::max(size, std::abs(static_cast<double>(value)));
             for (int r = 0; r <= p; ++r) {
               const double expected = static_cast<double>(exact[static_cast<std::size_t>(r)]);
               EXPECT_NEAR(basis_function(knots, s - p + r, d, u, side), expected, 1e-13 * size)

@@ -37,7 +37,8 @@ TEST(BasisTable, RowsAreTheBasisAtEachParameterInTheGivenOrder) {
 TEST(BasisTable, SideDecidesAtKnotsAndOnlyThere) {
   const KnotVector knots = testing::make_knots(1, {0, 0, 1, 1, 2, 2});
   const std::vector<double> parameters = {0, 0.5, 1, 2};
-  const auto left = tabulate_basis(knots, parameters, 0, Side::left), right = tabulate_basis(knots, parameters, 0);
+  const auto left = tabulate_basis(knots, parameters, 0, Side::left),
+             right = tabulate_basis(knots, parameters, 0);
   EXPECT_EQ(left->first, (std::vector{0, 0, 0, 2}));
   EXPECT_EQ(right->first, (std::vector{0, 0, 2, 2}));
 }
@@ -50,8 +51,9 @@ TEST(BasisTable, NoParametersGiveAnEmptyTable) {
 
 TEST(BasisTable, FirstParameterOutsideOfTheDomainIsNamed) {
   const KnotVector knots = testing::uniform_unclamped(2, 3);  // knots 0 … 7, domain [2, 5]
-  for (const double bad : {1.0, std::nextafter(2.0, 1.0), std::nextafter(5.0, 6.0),
-                           std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double bad :
+       {1.0, std::nextafter(2.0, 1.0), std::nextafter(5.0, 6.0),
+        std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     const std::vector<double> parameters = {2, 5, bad, 9};
     const auto table = tabulate_basis(knots, parameters, 0);
     ASSERT_FALSE(table);
@@ -74,7 +76,9 @@ TEST_P(Quadrature, WeightsArePositiveAndSumToTheDomain) {
     EXPECT_TRUE(std::ranges::is_sorted(rule.parameters)) << name;
     EXPECT_GT(*std::ranges::min_element(rule.weights), 0) << name;
     const double sum = std::accumulate(rule.weights.begin(), rule.weights.end(), 0.0);
-    EXPECT_NEAR(sum / knots.domain().length(), 1, 4 * epsilon * static_cast<double>(rule.weights.size())) << name;
+    EXPECT_NEAR(sum / knots.domain().length(), 1,
+                4 * epsilon * static_cast<double>(rule.weights.size()))
+        << name;
   }
 }
 
@@ -86,12 +90,14 @@ TEST_P(Quadrature, AreaOfEveryFunctionIsExact) {
     for (const int pieces : {1, 3}) {
       const std::vector<int> split(knots.spans().size(), pieces);
       const auto rule = gauss_basis(knots, p / 2 + 1, 0, split);
-      ASSERT_EQ(rule.parameters.size(), split.size() * static_cast<std::size_t>(pieces * (p / 2 + 1)));
+      ASSERT_EQ(rule.parameters.size(),
+                split.size() * static_cast<std::size_t>(pieces * (p / 2 + 1)));
       std::vector<double> area(static_cast<std::size_t>(knots.count()), 0.0);
       for (int k = 0; k < rule.basis.size(); ++k) {
         const auto at = static_cast<std::size_t>(k);
         for (int r = 0; r <= p; ++r) {
-          area[static_cast<std::size_t>(rule.basis.first[at] + r)] += rule.weights[at] * rule.basis.row(k, 0)[r];
+          area[static_cast<std::size_t>(rule.basis.first[at] + r)] +=
+              rule.weights[at] * rule.basis.row(k, 0)[r];
         }
       }
       // A span of a few ulp of its knots places its points to that accuracy only.
@@ -101,7 +107,8 @@ TEST_P(Quadrature, AreaOfEveryFunctionIsExact) {
       const double bound = 1e-13 + 4 * p * epsilon * largest / shortest;
       for (int i = 0; i < knots.count(); ++i) {
         const double exact = (knots[i + p + 1] - knots[i]) / (p + 1);
-        EXPECT_NEAR(area[static_cast<std::size_t>(i)] / exact, 1, bound) << name << ", function " << i;
+        EXPECT_NEAR(area[static_cast<std::size_t>(i)] / exact, 1, bound)
+            << name << ", function " << i;
       }
     }
   }

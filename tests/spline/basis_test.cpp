@@ -23,14 +23,15 @@ using testing::epsilon;
 std::vector<double> parameters_of(const KnotVector& knots, int s) {
   const double a = knots[s], b = knots[s + 1];
   std::vector<double> result = {a, std::nextafter(a, b), std::nextafter(b, a), b};
-  for (const double t : {0.1, 0.25, 0.5, 0.7, 0.95}) result.push_back(std::clamp(a + t * (b - a), a, b));
+  for (const double t : {0.1, 0.25, 0.5, 0.7, 0.95})
+    result.push_back(std::clamp(a + t * (b - a), a, b));
   return result;
 }
 
 class Basis : public ::testing::TestWithParam<int> {
  protected:
-  /// Calls visit(name, knots, span, u) at every kind of place of every kind of knot vector of the degree; where the
-  /// sample is one of several, only there.
+  /// Calls visit(name, knots, span, u) at every kind of place of every kind of knot vector of the
+  /// degree; where the sample is one of several, only there.
   template <class Visit>
   void everywhere(Visit visit, testing::Sample sample = testing::Sample(1)) const {
     const auto visit_all = [&](const std::string& name, const KnotVector& knots) {
@@ -42,7 +43,8 @@ class Basis : public ::testing::TestWithParam<int> {
     };
     for (const auto& [name, knots] : testing::knot_families(GetParam())) visit_all(name, knots);
     std::mt19937_64 random(static_cast<unsigned>(GetParam()));
-    for (int k = 0; k < 20; ++k) visit_all("random " + std::to_string(k), testing::random_knots(random, GetParam()));
+    for (int k = 0; k < 20; ++k)
+      visit_all("random " + std::to_string(k), testing::random_knots(random, GetParam()));
   }
 };
 
@@ -69,14 +71,16 @@ TEST_P(Basis, ValuesAreExactToFourUlpPerDegree) {
       const Quad value = exact[static_cast<std::size_t>(r)];
       // Products may leave the range of normal numbers; there the error is absolute.
       const double bound = 4 * p * epsilon * static_cast<double>(value) + 1e-290;
-      ASSERT_LE(static_cast<double>(testing::magnitude(values[r] - value)), bound) << name << " at " << u;
+      ASSERT_LE(static_cast<double>(testing::magnitude(values[r] - value)), bound)
+          << name << " at " << u;
     }
   });
 }
 
 TEST_P(Basis, DerivativesOfEveryOrderAreExactToRounding) {
   const int p = GetParam(), order = p + 2;
-  // The nine places of a span have no factor in common with seven: every knot vector has its turn, and every place.
+  // The nine places of a span have no factor in common with seven: every knot vector has its turn,
+  // and every place.
   const testing::Sample sample(p <= 6 ? 1 : 7);
   const auto check = [=](const std::string& name, const KnotVector& knots, int s, double u) {
     std::vector<double> got(static_cast<std::size_t>((order + 1) * (p + 1)));
@@ -86,8 +90,8 @@ TEST_P(Basis, DerivativesOfEveryOrderAreExactToRounding) {
       const auto size = testing::quad_span_basis(knots, p, d, s, u, testing::Terms::magnitudes);
       for (int r = 0; r <= p; ++r) {
         const auto at = static_cast<std::size_t>(r);
-        const double error =
-            static_cast<double>(testing::magnitude(got[static_cast<std::size_t>(d * (p + 1) + r)] - exact[at]));
+        const double error = static_cast<double>(
+            testing::magnitude(got[static_cast<std::size_t>(d * (p + 1) + r)] - exact[at]));
         ASSERT_LE(error, 4 * (p + 1) * epsilon * static_cast<double>(size[at]) + 1e-290)
             << name << " at " << u << ", derivative " << d << " of function " << r;
       }
@@ -101,7 +105,8 @@ TEST_P(Basis, DerivativesAboveTheDegreeAreZero) {
   everywhere([p](const std::string& name, const KnotVector& knots, int s, double u) {
     std::vector<double> got(static_cast<std::size_t>((p + 4) * (p + 1)));
     basis_derivatives(knots, s, u, p + 3, got.data());
-    for (int k = (p + 1) * (p + 1); k < (p + 4) * (p + 1); ++k) ASSERT_EQ(got[static_cast<std::size_t>(k)], 0) << name;
+    for (int k = (p + 1) * (p + 1); k < (p + 4) * (p + 1); ++k)
+      ASSERT_EQ(got[static_cast<std::size_t>(k)], 0) << name;
   });
 }
 
@@ -115,7 +120,8 @@ TEST_P(Basis, ValuesAreTheZerothDerivatives) {
   });
 }
 
-/// Across a knot of multiplicity m the derivatives 0 … p − m are continuous, and the next one of some function jumps.
+/// Across a knot of multiplicity m the derivatives 0 … p − m are continuous, and the next one of
+/// some function jumps.
 TEST_P(Basis, SmoothnessAtAKnotIsDegreeMinusMultiplicity) {
   const int p = GetParam();
   for (const auto& [name, knots] : testing::knot_families(p)) {
@@ -131,17 +137,23 @@ TEST_P(Basis, SmoothnessAtAKnotIsDegreeMinusMultiplicity) {
       basis_derivatives(knots, left, u, p, before.data());
       basis_derivatives(knots, right, u, p, after.data());
       for (int d = 0; d <= std::min(p, p - m + 1); ++d) {
-        const auto size_left = testing::quad_span_basis(knots, p, d, left, u, testing::Terms::magnitudes),
-                   size_right = testing::quad_span_basis(knots, p, d, right, u, testing::Terms::magnitudes);
+        const auto size_left =
+                       testing::quad_span_basis(knots, p, d, left, u, testing::Terms::magnitudes),
+                   size_right =
+                       testing::quad_span_basis(knots, p, d, right, u, testing::Terms::magnitudes);
         double jump = 0;
         for (int i = left - p; i <= right; ++i) {
           const bool in_left = i <= left, in_right = i >= right - p;
-          const auto l = static_cast<std::size_t>(i - left + p), r = static_cast<std::size_t>(i - right + p);
-          const double difference = (in_right ? after[static_cast<std::size_t>(d * (p + 1)) + r] : 0) -
-                                    (in_left ? before[static_cast<std::size_t>(d * (p + 1)) + l] : 0);
-          const double size = static_cast<double>((in_left ? size_left[l] : 0) + (in_right ? size_right[r] : 0));
+          const auto l = static_cast<std::size_t>(i - left + p),
+                     r = static_cast<std::size_t>(i - right + p);
+          const double difference =
+              (in_right ? after[static_cast<std::size_t>(d * (p + 1)) + r] : 0) -
+              (in_left ? before[static_cast<std::size_t>(d * (p + 1)) + l] : 0);
+          const double size =
+              static_cast<double>((in_left ? size_left[l] : 0) + (in_right ? size_right[r] : 0));
           if (d <= p - m) {
-            ASSERT_LE(std::abs(difference), 8 * (p + 1) * epsilon * size + 1e-290) << name << " at " << u;
+            ASSERT_LE(std::abs(difference), 8 * (p + 1) * epsilon * size + 1e-290)
+                << name << " at " << u;
           } else if (size > 0) {
             jump = std::max(jump, std::abs(difference) / size);
           }
@@ -157,9 +169,11 @@ TEST_P(Basis, SmoothnessAtAKnotIsDegreeMinusMultiplicity) {
 TEST_P(Basis, MarsdensIdentityHolds) {
   // (y − u)^p = Σ_i N_i(u) Π_{k=1..p} (y − x_{i+k}), and its derivatives in u (Marsden 1970).
   const int p = GetParam();
-  // Differences of differences lose more at degrees above 15: up to 23 (p + 1) roundings there, below 16 elsewhere.
+  // Differences of differences lose more at degrees above 15: up to 23 (p + 1) roundings there,
+  // below 16 elsewhere.
   const double roundings = p <= 15 ? 16 : 32;
-  const KnotVector knots = testing::clamped_knots(p, {0, 1, 2, 4, 5}, {0, 1, std::min(2, p + 1), 1, 0});
+  const KnotVector knots =
+      testing::clamped_knots(p, {0, 1, 2, 4, 5}, {0, 1, std::min(2, p + 1), 1, 0});
   for (const int s : knots.spans()) {
     for (const double u : parameters_of(knots, s)) {
       std::vector<double> got(static_cast<std::size_t>((p + 1) * (p + 1)));
@@ -201,7 +215,8 @@ TEST(BasisValues, UniformCubicAtAKnotHasItsTextbookValues) {
   const KnotVector knots = testing::uniform_unclamped(3, 3);
   double got[4 * 4];
   basis_derivatives(knots, 4, 4, 3, got);
-  const double expected[16] = {1.0 / 6, 4.0 / 6, 1.0 / 6, 0, -0.5, 0, 0.5, 0, 1, -2, 1, 0, -1, 3, -3, 1};
+  const double expected[16] = {1.0 / 6, 4.0 / 6, 1.0 / 6, 0, -0.5, 0, 0.5, 0,
+                               1,       -2,      1,       0, -1,   3, -3,  1};
   for (int k = 0; k < 16; ++k) EXPECT_NEAR(got[k], expected[k], 4 * epsilon) << k;
 }
 

@@ -20,7 +20,8 @@ TriangleTree bumpy(int n) {
     for (int j = 0; j <= n; ++j) {
       points.emplace_back(i, j, std::sin(i) + std::cos(2.0 * j));
       if (i == n || j == n) continue;
-      const auto k = static_cast<std::uint32_t>(i * (n + 1) + j), next = k + static_cast<std::uint32_t>(n) + 1;
+      const auto k = static_cast<std::uint32_t>(i * (n + 1) + j),
+                 next = k + static_cast<std::uint32_t>(n) + 1;
       triangles.push_back({k, next, next + 1});
       triangles.push_back({k, next + 1, k + 1});
     }
@@ -34,7 +35,8 @@ TEST(TriangleTree, MeetsEverySharedCornerAndSide) {
   for (int i = 0; i <= 2 * n; ++i) {
     for (int j = 0; j <= 2 * n; ++j) {  // corners, and midpoints of all sides
       double to = infinity;
-      ASSERT_TRUE(tree.nearest({{i / 2.0, j / 2.0, 10}, -Point::UnitZ()}, to, any)) << i << " " << j;
+      ASSERT_TRUE(tree.nearest({{i / 2.0, j / 2.0, 10}, -Point::UnitZ()}, to, any))
+          << i << " " << j;
       if (i % 2 != 0 || j % 2 != 0) continue;
       EXPECT_NEAR(to, 10 - std::sin(i / 2) - std::cos(j), 1e-14);
     }
@@ -57,7 +59,8 @@ TEST(TriangleTree, FindsTheHitThatASearchOfAllTrianglesFinds) {
     double nearest = infinity;
     for (std::uint32_t t = 0; t < tree.triangles().size(); ++t) {
       double alone = infinity;
-      if (tree.nearest(ray, alone, [&](const TriangleTree::Hit& hit) { return hit.triangle == t; })) {
+      if (tree.nearest(ray, alone,
+                       [&](const TriangleTree::Hit& hit) { return hit.triangle == t; })) {
         nearest = std::min(nearest, alone);
       }
     }
@@ -79,11 +82,12 @@ TEST(TriangleTree, GoesOnWhereAHitDoesNotCount) {
   const TriangleTree stack(points, triangles);
   double to = infinity;
   std::optional<TriangleTree::Hit> last;
-  ASSERT_TRUE(stack.nearest({{0.25, 0.5, -1}, Point::UnitZ()}, to, [&](const TriangleTree::Hit& hit) {
-    if (hit.triangle < 61) return false;
-    last = hit;
-    return true;
-  }));
+  ASSERT_TRUE(
+      stack.nearest({{0.25, 0.5, -1}, Point::UnitZ()}, to, [&](const TriangleTree::Hit& hit) {
+        if (hit.triangle < 61) return false;
+        last = hit;
+        return true;
+      }));
   EXPECT_EQ(to, 62);
   EXPECT_NEAR(last->weights[0], 0.25, 1e-15);
   EXPECT_NEAR(last->weights[1], 0.25, 1e-15);

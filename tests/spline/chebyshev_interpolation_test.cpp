@@ -14,7 +14,8 @@
 namespace knead {
 namespace {
 
-/// max Σ_i |ℓ_i(u)| over the domain, ℓ_i the cardinal splines: how much larger than its values a spline can be.
+/// max Σ_i |ℓ_i(u)| over the domain, ℓ_i the cardinal splines: how much larger than its values a
+/// spline can be.
 double norm_of(const KnotVector& knots, const SiteInterpolation& at) {
   const int p = knots.degree(), samples = 2 * p + 3;
   const auto n = static_cast<std::size_t>(knots.count());
@@ -25,13 +26,15 @@ double norm_of(const KnotVector& knots, const SiteInterpolation& at) {
   for (const int span : knots.spans()) {
     const double a = knots[span], b = knots[span + 1];
     for (int k = 0; k <= samples; ++k) {
-      basis_values(knots, span, std::min(b, a + (b - a) * 0.5 * (1 - std::cos(std::numbers::pi * k / samples))),
+      basis_values(knots, span,
+                   std::min(b, a + (b - a) * 0.5 * (1 - std::cos(std::numbers::pi * k / samples))),
                    basis.data());
       double sum = 0;
       for (std::size_t i = 0; i < n; ++i) {
         double value = 0;
         for (int r = 0; r <= p; ++r) {
-          value += basis[static_cast<std::size_t>(r)] * cardinal[static_cast<std::size_t>(span - p + r) * n + i];
+          value += basis[static_cast<std::size_t>(r)] *
+                   cardinal[static_cast<std::size_t>(span - p + r) * n + i];
         }
         sum += std::abs(value);
       }
@@ -56,8 +59,10 @@ TEST(ChebyshevInterpolation, HasTheSitesOfTheChebyshevPolynomialOnABezierPiece) 
   for (const int p : testing::checked_degrees) {
     const std::vector<double> sites = chebyshev_sites(testing::clamped_knots(p, {-1, 1}));
     ASSERT_EQ(sites.size(), static_cast<std::size_t>(p + 1));
-    for (int i = 0; i <= p; ++i) {  // the exchange ends where extrema are equal to 1e-3: their places are to its root
-      EXPECT_NEAR(sites[static_cast<std::size_t>(i)], -std::cos(std::numbers::pi * i / p), 0.04) << p << " " << i;
+    for (int i = 0; i <= p;
+         ++i) {  // the exchange ends where extrema are equal to 1e-3: their places are to its root
+      EXPECT_NEAR(sites[static_cast<std::size_t>(i)], -std::cos(std::numbers::pi * i / p), 0.04)
+          << p << " " << i;
     }
   }
 }
@@ -80,7 +85,8 @@ TEST(ChebyshevInterpolation, IsStableAtEveryDegreeAndMultiplicityOverSpansOfAnyL
       EXPECT_LE(norm_of(knots, *made), most) << name;
     };
     for (const int m : {1, (p + 1) / 2, std::max(1, p - 1), p, p + 1}) {
-      check(testing::clamped_knots(p, {0, 1, 2, 3, 4}, {0, m, m, m, 0}), fmt::format("p={} m={}", p, m));
+      check(testing::clamped_knots(p, {0, 1, 2, 3, 4}, {0, m, m, m, 0}),
+            fmt::format("p={} m={}", p, m));
     }
     for (int k = 0; k < times; ++k) {
       check(uneven_knots(p, 6, 6, p + 1, random), fmt::format("p={} uneven {}", p, k));
@@ -115,10 +121,11 @@ TEST(ChebyshevInterpolation, GivesSplinesBackOnEveryKindOfKnots) {
         EXPECT_TRUE(knots.domain().contains(made->abscissae()[i])) << name;
         double value = 0;
         for (int r = 0; r <= p; ++r) {
-          value +=
-              made->basis().row(static_cast<int>(i), 0)[r] * c[static_cast<std::size_t>(made->basis().first[i] + r)];
+          value += made->basis().row(static_cast<int>(i), 0)[r] *
+                   c[static_cast<std::size_t>(made->basis().first[i] + r)];
         }
-        // Elimination is backward stable; coefficients of unclamped bases and of clusters are large.
+        // Elimination is backward stable; coefficients of unclamped bases and of clusters are
+        // large.
         EXPECT_NEAR(value, values[i], 1e-9) << name << " " << i;
       }
     }
@@ -132,7 +139,8 @@ TEST(ChebyshevInterpolation, SitesOfMirroredKnotsAreMirrored) {
     const double end = knots.domain().upper;
     std::vector<double> turned;
     for (int i = static_cast<int>(knots.knots().size()); i-- > 0;) turned.push_back(end - knots[i]);
-    const std::vector<double> there = chebyshev_sites(knots), back = chebyshev_sites(testing::make_knots(p, turned));
+    const std::vector<double> there = chebyshev_sites(knots),
+                              back = chebyshev_sites(testing::make_knots(p, turned));
     for (std::size_t i = 0; i < there.size(); ++i) {
       EXPECT_NEAR(there[i], end - back[there.size() - 1 - i], 1e-9 * end) << p << " " << i;
     }

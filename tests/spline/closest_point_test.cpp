@@ -20,7 +20,8 @@ std::vector<Point> random_points(int count, double reach, unsigned seed) {
   return points;
 }
 
-/// What every result promises: the point is the spline at the parameters, and the distance is that to it.
+/// What every result promises: the point is the spline at the parameters, and the distance is that
+/// to it.
 template <int D>
 void expect_consistent(const Spline<D>& spline, const Point& x, const ClosestPoint<D>& found) {
   const auto there = evaluate_point<D>(spline, found.parameters);
@@ -49,7 +50,8 @@ TEST(ClosestPoint, OnATorusLiesOnTheRayFromTheMiddleOfItsTube) {
   for (const Point& x : random_points(200, 4, 2)) {
     const auto found = search->nearest(x);
     EXPECT_TRUE(found.certified);
-    EXPECT_NEAR(found.distance, std::abs(std::hypot(std::hypot(x.x(), x.y()) - 3, x.z()) - 0.8), 1e-12);
+    EXPECT_NEAR(found.distance, std::abs(std::hypot(std::hypot(x.x(), x.y()) - 3, x.z()) - 0.8),
+                1e-12);
   }
 }
 
@@ -73,8 +75,8 @@ TEST(ClosestPoint, AtAPoleIsThePoleWhateverTheParameterAlongIt) {
 
 TEST(ClosestPoint, IsNoFartherThanAnySampleOfTheSurface) {
   for (const double weights : {1.0, 5.0}) {
-    const Surface s =
-        testing::relief(*KnotVector::clamped_uniform(3, 7), *KnotVector::clamped_uniform(2, 6), 5, 0.5, weights);
+    const Surface s = testing::relief(*KnotVector::clamped_uniform(3, 7),
+                                      *KnotVector::clamped_uniform(2, 6), 5, 0.5, weights);
     const auto search = ClosestPointSearch<2>::create(s);
     std::vector<double> grid;
     for (int k = 0; k <= 120; ++k) grid.push_back(k / 120.0);
@@ -82,7 +84,8 @@ TEST(ClosestPoint, IsNoFartherThanAnySampleOfTheSurface) {
     for (const Point& x : random_points(60, 1.5, 6)) {
       const auto found = search->nearest(x);
       EXPECT_TRUE(found.certified);
-      EXPECT_LE(found.distance, (samples.rowwise() - x.transpose()).rowwise().norm().minCoeff() + 1e-12);
+      EXPECT_LE(found.distance,
+                (samples.rowwise() - x.transpose()).rowwise().norm().minCoeff() + 1e-12);
       expect_consistent(s, x, found);
     }
   }
@@ -103,7 +106,8 @@ TEST(ClosestPoint, OfACurveIsItsEndWhereTheCurveLeadsAwayFromThePoint) {
   Points net(4, 3);
   net << 0, 0, 0, 1, 0, 0, 2, 0.5, 0, 3, 0, 0;
   const auto curve = Curve::create({*KnotVector::clamped_uniform(3, 4)}, net);
-  const auto before = closest_point(*curve, Point(-2, 0, 1)), after = closest_point(*curve, Point(5, -1, 0));
+  const auto before = closest_point(*curve, Point(-2, 0, 1)),
+             after = closest_point(*curve, Point(5, -1, 0));
   EXPECT_EQ(before->parameters[0], 0);
   EXPECT_EQ(after->parameters[0], 1);
   EXPECT_NEAR(before->distance, std::sqrt(5.0), 1e-15);
@@ -121,17 +125,20 @@ TEST(ClosestPoint, OfACurveIsNoFartherThanAnySample) {
   for (const Point& x : random_points(100, 1.2, 9)) {
     const auto found = search->nearest(x);
     EXPECT_TRUE(found.certified);
-    EXPECT_LE(found.distance, (samples.rowwise() - x.transpose()).rowwise().norm().minCoeff() + 1e-13);
+    EXPECT_LE(found.distance,
+              (samples.rowwise() - x.transpose()).rowwise().norm().minCoeff() + 1e-13);
   }
 }
 
 TEST(ClosestPointFromAStart, FindsThePointItWasTakenFrom) {
-  const Surface s = testing::relief(*KnotVector::clamped_uniform(3, 9), *KnotVector::clamped_uniform(3, 8), 3, 0.2, 3);
+  const Surface s = testing::relief(*KnotVector::clamped_uniform(3, 9),
+                                    *KnotVector::clamped_uniform(3, 8), 3, 0.2, 3);
   const auto search = ClosestPointSearch<2>::create(s);
   for (const double u : {0.0, 0.21, 0.5, 1.0}) {
     for (const double v : {0.0, 0.4, 0.93}) {
       const Point x = *evaluate_point<2>(s, {u, v});
-      const auto found = search->nearest_from(x, {std::min(u + 0.03, 1.0), std::max(v - 0.02, 0.0)});
+      const auto found =
+          search->nearest_from(x, {std::min(u + 0.03, 1.0), std::max(v - 0.02, 0.0)});
       EXPECT_FALSE(found.certified);
       EXPECT_NEAR(found.parameters[0], u, 1e-11);
       EXPECT_NEAR(found.parameters[1], v, 1e-11);
@@ -143,7 +150,8 @@ TEST(ClosestPointFromAStart, FindsThePointItWasTakenFrom) {
 TEST(ClosestPointFromAStart, PassesTheSeamOnlyWhereItMay) {
   const Surface cylinder = testing::cylinder(2);
   const auto search = ClosestPointSearch<2>::create(cylinder);
-  const Point x = 1.1 * Point(std::cos(0.2), std::sin(0.2), 0) + Point(0, 0, 1);  // just beyond the seam, u = 4
+  // Just beyond the seam, u = 4.
+  const Point x = 1.1 * Point(std::cos(0.2), std::sin(0.2), 0) + Point(0, 0, 1);
   const auto passed = search->nearest_from(x, {3.95, 0.5}, {true, false});
   EXPECT_NEAR(passed.distance, 0.1, 1e-13);
   EXPECT_LT(passed.parameters[0], 0.2);

@@ -35,7 +35,8 @@ TEST(CurvatureCombs, OfATorusAreOneOverTheRadiiOfItsCircles) {
 
 TEST(CurvatureCombs, HaveTwoTeethWhereCurvatureJumps) {
   // A parabola and a straight line, tangent at u = 1/2: degree 2 along u, straight along v.
-  const KnotVector u = *KnotVector::create(2, {0, 0, 0, 0.5, 1, 1, 1}), v = *KnotVector::create(1, {0, 0, 1, 1});
+  const KnotVector u = *KnotVector::create(2, {0, 0, 0, 0.5, 1, 1, 1}),
+                   v = *KnotVector::create(1, {0, 0, 1, 1});
   Points points(8, 3);
   const double x[4] = {0, 1, 3, 5}, z[4] = {1, 0, 0, 0};
   for (int i = 0; i < 4; ++i) {
@@ -53,9 +54,11 @@ TEST(CurvatureCombs, HaveTwoTeethWhereCurvatureJumps) {
   EXPECT_NEAR(comb.vectors.row(4).norm(), 0, 1e-14);
   for (std::size_t k = 0; k < comb.runs.size(); ++k) {
     const Side side = k % 4 == 3 ? Side::left : Side::right;
-    // The surface is a cylinder over the curve: its principal curvatures are that of the curve, and 0.
+    // The surface is a cylinder over the curve: its principal curvatures are that of the curve, and
+    // 0.
     const auto expected = curvature(surface, {comb.runs[k], 0.5}, side);
-    const double size = std::max(std::abs(expected->principal[0]), std::abs(expected->principal[1]));
+    const double size =
+        std::max(std::abs(expected->principal[0]), std::abs(expected->principal[1]));
     EXPECT_NEAR(comb.vectors.row(static_cast<Eigen::Index>(k)).norm(), size, 1e-12);
   }
 }

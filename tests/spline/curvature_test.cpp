@@ -40,7 +40,8 @@ TEST(SurfaceCurvature, OfATorusIsThatOfItsCirclesAtEveryPoint) {
       const auto k = curvature(*torus, {u, v});
       ASSERT_TRUE(k);
       const Point p = *evaluate_point<2>(*torus, {u, v});
-      const double rho = std::hypot(p.x(), p.y()), across = 1 / small, along = (rho - big) / small / rho;
+      const double rho = std::hypot(p.x(), p.y()), across = 1 / small,
+                   along = (rho - big) / small / rho;
       const Point out = (p - big / rho * Point(p.x(), p.y(), 0)) / small;
       const double side = k->normal.dot(out) > 0 ? -1 : 1;
       EXPECT_NEAR(k->normal.cross(out).norm(), 0, 1e-12);

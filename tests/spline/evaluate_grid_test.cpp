@@ -19,7 +19,8 @@ void expect_same_bits(const Spline<D>& spline, int order) {
     ASSERT_EQ(gridded->derivatives.size(), scattered->derivatives.size());
     for (std::size_t k = 0; k < scattered->derivatives.size(); ++k) {
       ASSERT_EQ(gridded->derivatives[k].rows(), scattered->derivatives[k].rows());
-      EXPECT_TRUE((gridded->derivatives[k].array() == scattered->derivatives[k].array()).all()) << "derivative " << k;
+      EXPECT_TRUE((gridded->derivatives[k].array() == scattered->derivatives[k].array()).all())
+          << "derivative " << k;
     }
   }
 }
@@ -48,7 +49,8 @@ TEST(EvaluateGrid, SurfacesHaveTheBitsOfTheirPoints) {
 
 TEST(EvaluateGrid, VolumesHaveTheBitsOfTheirPoints) {
   std::mt19937_64 random(13);
-  const auto u = testing::clamped_knots(2, {0, 1, 2}, {0, 2, 0}), v = testing::uniform_clamped(1, 3);
+  const auto u = testing::clamped_knots(2, {0, 1, 2}, {0, 2, 0}),
+             v = testing::uniform_clamped(1, 3);
   const auto w = testing::uniform_unclamped(3, 2);
   expect_same_bits<3>(testing::random_spline<3>(random, {u, v, w}), 2);
   expect_same_bits<3>(testing::random_spline<3>(random, {u, v, w}, 1), 2);
@@ -56,9 +58,10 @@ TEST(EvaluateGrid, VolumesHaveTheBitsOfTheirPoints) {
 
 TEST(EvaluateGrid, ParametersMayComeInAnyOrderAndRepeat) {
   std::mt19937_64 random(14);
-  const auto spline =
-      testing::random_spline<2>(random, {testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 4)});
-  const std::array<std::vector<double>, 2> grid = {std::vector<double>{4, 0, 2.5, 2.5}, {3.5, 0.5, 0.25, 3, 3, 4, 0}};
+  const auto spline = testing::random_spline<2>(
+      random, {testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 4)});
+  const std::array<std::vector<double>, 2> grid = {std::vector<double>{4, 0, 2.5, 2.5},
+                                                   {3.5, 0.5, 0.25, 3, 3, 4, 0}};
   const auto gridded = evaluate_grid<2>(spline, testing::spans_of<2>(grid), 1);
   const auto scattered = evaluate<2>(spline, testing::rows_of<2>(grid), 1);
   ASSERT_TRUE(gridded && scattered);
@@ -69,8 +72,8 @@ TEST(EvaluateGrid, ParametersMayComeInAnyOrderAndRepeat) {
 
 TEST(EvaluateGrid, MemoryOfAnEarlierResultDoesNotShowThrough) {
   std::mt19937_64 random(15);
-  const auto spline =
-      testing::random_spline<2>(random, {testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 4)});
+  const auto spline = testing::random_spline<2>(
+      random, {testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 4)});
   const auto fine = tabulate_basis(spline.knots(0), testing::places(spline.knots(0)), 2);
   const auto coarse = tabulate_basis(spline.knots(0), std::vector<double>{1, 3}, 2);
   const auto across = tabulate_basis(spline.knots(1), testing::places(spline.knots(1)), 2);
@@ -85,8 +88,8 @@ TEST(EvaluateGrid, MemoryOfAnEarlierResultDoesNotShowThrough) {
 
 TEST(EvaluateGrid, GridWithoutParametersIsEmpty) {
   std::mt19937_64 random(16);
-  const auto spline =
-      testing::random_spline<2>(random, {testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 4)});
+  const auto spline = testing::random_spline<2>(
+      random, {testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 4)});
   const std::array<std::vector<double>, 2> grid = {std::vector<double>{1, 2}, {}};
   const auto result = evaluate_grid<2>(spline, testing::spans_of<2>(grid), 1);
   ASSERT_TRUE(result);
@@ -96,8 +99,8 @@ TEST(EvaluateGrid, GridWithoutParametersIsEmpty) {
 
 TEST(EvaluateGrid, ParameterOutsideIsNamedByDirectionAndIndex) {
   std::mt19937_64 random(17);
-  const auto spline =
-      testing::random_spline<2>(random, {testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 4)});
+  const auto spline = testing::random_spline<2>(
+      random, {testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 4)});
   const std::array<std::vector<double>, 2> grid = {std::vector<double>{1, 2}, {0, 1, 4.5}};
   const auto result = evaluate_grid<2>(spline, testing::spans_of<2>(grid));
   ASSERT_FALSE(result);

@@ -18,8 +18,10 @@ struct Memory {
   std::vector<double> all;
   std::vector<std::span<double>> parts;
 
-  Memory(std::size_t count, std::size_t points) : numbers(3 * points), all(count * (numbers + 1), foreign) {
-    for (std::size_t k = 0; k < count; ++k) parts.push_back(std::span(all).subspan(k * (numbers + 1), numbers));
+  Memory(std::size_t count, std::size_t points)
+      : numbers(3 * points), all(count * (numbers + 1), foreign) {
+    for (std::size_t k = 0; k < count; ++k)
+      parts.push_back(std::span(all).subspan(k * (numbers + 1), numbers));
   }
 };
 
@@ -28,11 +30,13 @@ void expect_holds(const Memory& memory, const Evaluation<D>& expected) {
   for (std::size_t k = 0; k < memory.parts.size(); ++k) {
     const std::span<const double> wanted(expected.derivatives[k].data(), memory.numbers);
     EXPECT_TRUE(std::ranges::equal(memory.parts[k], wanted)) << "derivative " << k;
-    EXPECT_EQ(memory.all[k * (memory.numbers + 1) + memory.numbers], Memory::foreign) << "after derivative " << k;
+    EXPECT_EQ(memory.all[k * (memory.numbers + 1) + memory.numbers], Memory::foreign)
+        << "after derivative " << k;
   }
 }
 
-/// Memory of the caller gets the bits of `evaluate` and `evaluate_grid`, and nothing beside it is written.
+/// Memory of the caller gets the bits of `evaluate` and `evaluate_grid`, and nothing beside it is
+/// written.
 template <int D>
 void expect_same_bits(const Spline<D>& spline, int order) {
   const auto grid = testing::grid_of(spline);
@@ -42,7 +46,8 @@ void expect_same_bits(const Spline<D>& spline, int order) {
   for (std::size_t d = 0; d < D; ++d) {
     const Eigen::VectorXd column = rows.col(static_cast<Eigen::Index>(d));
     lines[d] = *tabulate_basis(spline.knots()[d], grid[d], order);
-    points[d] = *tabulate_basis(spline.knots()[d], {column.data(), static_cast<std::size_t>(column.size())}, order);
+    points[d] = *tabulate_basis(spline.knots()[d],
+                                {column.data(), static_cast<std::size_t>(column.size())}, order);
     line_tables[d] = &lines[d];
     point_tables[d] = &points[d];
   }

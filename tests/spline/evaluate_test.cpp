@@ -15,9 +15,11 @@ using testing::epsilon;
 
 TEST(MultiIndices, AreOrderedByTotalAndThenByDescendingFirstIndex) {
   using Index = MultiIndex<2>;
-  EXPECT_EQ(multi_indices<2>(2), (std::vector<Index>{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}));
+  EXPECT_EQ(multi_indices<2>(2),
+            (std::vector<Index>{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}));
   EXPECT_EQ(multi_indices<1>(2), (std::vector<MultiIndex<1>>{{0}, {1}, {2}}));
-  EXPECT_EQ(multi_indices<3>(1), (std::vector<MultiIndex<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(multi_indices<3>(1),
+            (std::vector<MultiIndex<3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
 }
 
 template <int D>
@@ -34,15 +36,17 @@ TEST(MultiIndices, PositionIsThePlaceInTheList) {
   expect_positions_match<3>(9);
 }
 
-/// The control point of a polynomial's spline is its polar form at the knots; for x_1 x_2 … of degree one in each
-/// factor, here for u^k: the mean of all products of k different ones of the p knots.
+/// The control point of a polynomial's spline is its polar form at the knots; for x_1 x_2 … of
+/// degree one in each factor, here for u^k: the mean of all products of k different ones of the p
+/// knots.
 double polar_power(const KnotVector& knots, int i, int k) {
   const int p = knots.degree();
   std::vector<double> elementary(static_cast<std::size_t>(k + 1), 0.0);
   elementary[0] = 1;
   for (int j = 1; j <= p; ++j) {
     for (int m = std::min(j, k); m >= 1; --m) {
-      elementary[static_cast<std::size_t>(m)] += knots[i + j] * elementary[static_cast<std::size_t>(m - 1)];
+      elementary[static_cast<std::size_t>(m)] +=
+          knots[i + j] * elementary[static_cast<std::size_t>(m - 1)];
     }
   }
   double binomial = 1;
@@ -58,7 +62,8 @@ double power_derivative(double u, int k, int d) {
 
 /// x = Π u_d^{k_d}, a polynomial the spline reproduces, with all its partial derivatives.
 template <int D>
-void expect_monomial_reproduced(const std::array<KnotVector, D>& knots, const std::array<int, D>& k) {
+void expect_monomial_reproduced(const std::array<KnotVector, D>& knots,
+                                const std::array<int, D>& k) {
   int size = 1;
   for (const KnotVector& x : knots) size *= x.count();
   Points points(size, 3);
@@ -84,9 +89,11 @@ void expect_monomial_reproduced(const std::array<KnotVector, D>& knots, const st
       int total = 0;
       for (int d = 0; d < D; ++d) {
         total += a[static_cast<std::size_t>(d)];
-        exact *= power_derivative(at(row, d), k[static_cast<std::size_t>(d)], a[static_cast<std::size_t>(d)]);
+        exact *= power_derivative(at(row, d), k[static_cast<std::size_t>(d)],
+                                  a[static_cast<std::size_t>(d)]);
       }
-      // Knots are of size 1 to 4 with spans of 1/2 at least: each derivative multiplies rounding by at most 2p · 2.
+      // Knots are of size 1 to 4 with spans of 1/2 at least: each derivative multiplies rounding by
+      // at most 2p · 2.
       const double scale = std::pow(4.0, 6) * std::pow(4.0 * knots[0].degree(), total);
       const auto value = result->at(a).row(row);
       ASSERT_NEAR(value(0), exact, 8 * epsilon * scale);
@@ -129,8 +136,8 @@ TEST(Evaluate, VolumeReproducesPolynomialsUpToItsDegrees) {
 
 TEST(Evaluate, CornersOfAClampedNetAreInterpolatedExactly) {
   std::mt19937_64 random(1);
-  const auto spline =
-      testing::random_spline<2>(random, {testing::uniform_clamped(3, 2), testing::uniform_clamped(2, 3)});
+  const auto spline = testing::random_spline<2>(
+      random, {testing::uniform_clamped(3, 2), testing::uniform_clamped(2, 3)});
   const auto [m, n] = spline.net();
   const auto& points = spline.control_points();
   EXPECT_EQ(*evaluate_point<2>(spline, {0, 0}), Point(points.row(0).transpose()));
@@ -142,15 +149,18 @@ TEST(Evaluate, CornersOfAClampedNetAreInterpolatedExactly) {
 TEST(Evaluate, DerivativesAgreeWithDifferences) {
   std::mt19937_64 random(2);
   for (const double decades : {-1.0, 0.3}) {
-    const auto spline =
-        testing::random_spline<2>(random, {testing::uniform_clamped(4, 2), testing::uniform_clamped(3, 2)}, decades);
+    const auto spline = testing::random_spline<2>(
+        random, {testing::uniform_clamped(4, 2), testing::uniform_clamped(3, 2)}, decades);
     const double u = 0.6, v = 1.3, h = 1e-4;
     const auto value = [&](double s, double t, int k) {
       Parameters<2> at(1, 2);
       at << s, t;
-      return Point(evaluate<2>(spline, at, 2)->derivatives[static_cast<std::size_t>(k)].row(0).transpose());
+      return Point(
+          evaluate<2>(spline, at, 2)->derivatives[static_cast<std::size_t>(k)].row(0).transpose());
     };
-    const auto expect_near = [](const Point& a, const Point& b) { EXPECT_LT((a - b).norm(), 1e-5 * (1 + b.norm())); };
+    const auto expect_near = [](const Point& a, const Point& b) {
+      EXPECT_LT((a - b).norm(), 1e-5 * (1 + b.norm()));
+    };
     // Positions: 0 is S, 1 S_u, 2 S_v, 3 S_uu, 4 S_uv, 5 S_vv.
     expect_near((value(u + h, v, 0) - value(u - h, v, 0)) / (2 * h), value(u, v, 1));
     expect_near((value(u, v + h, 0) - value(u, v - h, 0)) / (2 * h), value(u, v, 2));
@@ -165,38 +175,44 @@ TEST(Evaluate, BothLimitsExistAtAKnotOfFullMultiplicity) {
   // Two separate parabolas: the curve jumps from (1, 0, 0) to (5, 0, 0).
   Points points(6, 3);
   points << 0, 0, 0, 0.5, 1, 0, 1, 0, 0, 5, 0, 0, 6, 2, 0, 7, 0, 0;
-  const auto curve = testing::make_spline<1>({testing::make_knots(2, {0, 0, 0, 1, 1, 1, 2, 2, 2})}, points);
+  const auto curve =
+      testing::make_spline<1>({testing::make_knots(2, {0, 0, 0, 1, 1, 1, 2, 2, 2})}, points);
   const Parameters<1> at = Parameters<1>::Constant(1, 1, 1.0);
   EXPECT_EQ(evaluate<1>(curve, at, 0, Side::left)->points().row(0), points.row(2));
   EXPECT_EQ(evaluate<1>(curve, at, 0, Side::right)->points().row(0), points.row(3));
-  EXPECT_EQ(evaluate<1>(curve, at, 1, Side::left)->at({1}).row(0), 2 * (points.row(2) - points.row(1)));
-  EXPECT_EQ(evaluate<1>(curve, at, 1, Side::right)->at({1}).row(0), 2 * (points.row(4) - points.row(3)));
+  EXPECT_EQ(evaluate<1>(curve, at, 1, Side::left)->at({1}).row(0),
+            2 * (points.row(2) - points.row(1)));
+  EXPECT_EQ(evaluate<1>(curve, at, 1, Side::right)->at({1}).row(0),
+            2 * (points.row(4) - points.row(3)));
 }
 
 TEST(Evaluate, AffineMapsOfTheNetMapTheSurface) {
   std::mt19937_64 random(3);
   for (const double decades : {-1.0, 1.0}) {
     const auto spline = testing::random_spline<2>(
-        random, {testing::uniform_clamped(3, 3), testing::clamped_knots(2, {0, 0.1, 2}, {0, 2, 0})}, decades);
+        random, {testing::uniform_clamped(3, 3), testing::clamped_knots(2, {0, 0.1, 2}, {0, 2, 0})},
+        decades);
     Eigen::Matrix3d linear;
     linear << 1, 2, -1, 0.5, 3, 0, -2, 1, 1;
     const Eigen::RowVector3d shift(10, -20, 5);
-    const auto mapped = spline.with_control_points((spline.control_points() * linear.transpose()).rowwise() + shift);
+    const auto mapped = spline.with_control_points(
+        (spline.control_points() * linear.transpose()).rowwise() + shift);
     const Parameters<2> at = testing::rows_of<2>(testing::grid_of(spline));
     const auto before = evaluate<2>(spline, at, 1), after = evaluate<2>(*mapped, at, 1);
     const Points expected = (before->points() * linear.transpose()).rowwise() + shift;
     EXPECT_LT((after->points() - expected).cwiseAbs().maxCoeff(), 1e-13);
     for (const MultiIndex<2> a : {MultiIndex<2>{1, 0}, MultiIndex<2>{0, 1}}) {
       const double size = before->at(a).cwiseAbs().maxCoeff();
-      EXPECT_LT((after->at(a) - before->at(a) * linear.transpose()).cwiseAbs().maxCoeff(), 1e-12 * size * 20);
+      EXPECT_LT((after->at(a) - before->at(a) * linear.transpose()).cwiseAbs().maxCoeff(),
+                1e-12 * size * 20);
     }
   }
 }
 
 TEST(Evaluate, ParameterOutsideIsNamedByDirectionAndIndex) {
   std::mt19937_64 random(4);
-  const auto spline =
-      testing::random_spline<2>(random, {testing::uniform_clamped(2, 1), testing::uniform_clamped(2, 1)});
+  const auto spline = testing::random_spline<2>(
+      random, {testing::uniform_clamped(2, 1), testing::uniform_clamped(2, 1)});
   Parameters<2> at(3, 2);
   at << 0, 0, 0.5, 1.5, 2, 2;
   EXPECT_EQ(evaluate<2>(spline, at).error().where, "direction 0: parameter 2");

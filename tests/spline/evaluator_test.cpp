@@ -19,7 +19,8 @@ void expect_equal(const Evaluation<D>& a, const Evaluation<D>& b) {
   }
 }
 
-/// Evaluators of a spline's knots serve other nets, rational or not, with the bits of evaluation from scratch.
+/// Evaluators of a spline's knots serve other nets, rational or not, with the bits of evaluation
+/// from scratch.
 template <int D>
 void expect_kept(std::mt19937_64& random, const std::array<KnotVector, D>& knots) {
   const auto first = testing::random_spline<D>(random, knots);
@@ -55,13 +56,14 @@ TEST(Evaluator, ServesEveryNetOfItsKnots) {
     }
     expect_kept<2>(random, {testing::random_knots(random, p), testing::random_knots(random, 3)});
   }
-  expect_kept<3>(random,
-                 {testing::uniform_clamped(2, 3), testing::uniform_clamped(1, 3), testing::uniform_unclamped(3, 2)});
+  expect_kept<3>(random, {testing::uniform_clamped(2, 3), testing::uniform_clamped(1, 3),
+                          testing::uniform_unclamped(3, 2)});
 }
 
 TEST(Evaluator, RefusesOtherKnots) {
   std::mt19937_64 random(32);
-  const auto u = testing::uniform_clamped(3, 4), v = testing::uniform_clamped(2, 4), w = testing::uniform_clamped(2, 5);
+  const auto u = testing::uniform_clamped(3, 4), v = testing::uniform_clamped(2, 4),
+             w = testing::uniform_clamped(2, 5);
   const auto evaluator = Evaluator<2>::at_points({u, v}, Parameters<2>{{1, 2}});
   ASSERT_TRUE(evaluator);
   const auto refused = evaluator->evaluate(testing::random_spline<2>(random, {u, w}));
@@ -101,12 +103,14 @@ TEST(Evaluator, BitsDoNotDependOnTheNumberOfThreads) {
     const Large sample = large(decades);
     const std::array<std::span<const double>, 2> grid = {sample.u, sample.v};
     const Parameters<2> rows = testing::rows_of<2>({sample.u, sample.v});
-    const auto expected = testing::with_threads(1, [&] { return evaluate_grid<2>(sample.surface, grid, 2); });
+    const auto expected =
+        testing::with_threads(1, [&] { return evaluate_grid<2>(sample.surface, grid, 2); });
     ASSERT_TRUE(expected);
     for (const int threads : testing::thread_counts) {
       SCOPED_TRACE(threads);
       const auto found = testing::with_threads(threads, [&] {
-        return std::array{evaluate_grid<2>(sample.surface, grid, 2), evaluate<2>(sample.surface, rows, 2)};
+        return std::array{evaluate_grid<2>(sample.surface, grid, 2),
+                          evaluate<2>(sample.surface, rows, 2)};
       });
       for (const auto& one : found) {
         ASSERT_TRUE(one);
@@ -124,7 +128,8 @@ TEST(Evaluator, BitsOfVolumesDoNotDependOnTheNumberOfThreads) {
   for (int k = 0; k <= 32; ++k) u.push_back(6 * (k / 32.0));
   const auto run = [&] { return evaluate_grid<3>(volume, {u, u, u}, 1); };
   const auto expected = testing::with_threads(1, run);
-  for (const int threads : testing::thread_counts) expect_equal(*testing::with_threads(threads, run), *expected);
+  for (const int threads : testing::thread_counts)
+    expect_equal(*testing::with_threads(threads, run), *expected);
 }
 
 TEST(Evaluator, TheFirstBadDenominatorIsNamedWithAnyNumberOfThreads) {
@@ -132,11 +137,15 @@ TEST(Evaluator, TheFirstBadDenominatorIsNamedWithAnyNumberOfThreads) {
   // Around the control point (15, 12) and the one after it the denominator is negative.
   std::vector<double> weights(sample.surface.weights().begin(), sample.surface.weights().end());
   const int n = sample.surface.net()[1];
-  weights[static_cast<std::size_t>(15 * n + 12)] = weights[static_cast<std::size_t>(16 * n + 12)] = -1e3;
-  const auto bad = testing::make_spline<2>(sample.surface.knots(), sample.surface.control_points(), weights);
+  weights[static_cast<std::size_t>(15 * n + 12)] = weights[static_cast<std::size_t>(16 * n + 12)] =
+      -1e3;
+  const auto bad =
+      testing::make_spline<2>(sample.surface.knots(), sample.surface.control_points(), weights);
   const std::array<std::span<const double>, 2> grid = {sample.u, sample.v};
   const Parameters<2> rows = testing::rows_of<2>({sample.u, sample.v});
-  const auto run = [&] { return std::array{evaluate_grid<2>(bad, grid, 1), evaluate<2>(bad, rows, 1)}; };
+  const auto run = [&] {
+    return std::array{evaluate_grid<2>(bad, grid, 1), evaluate<2>(bad, rows, 1)};
+  };
   const auto expected = testing::with_threads(1, run);
   for (const int threads : testing::thread_counts) {
     const auto found = testing::with_threads(threads, run);

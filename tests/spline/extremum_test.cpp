@@ -23,27 +23,30 @@ Surface bump(const std::array<double, 4>& f, const std::array<double, 4>& g, dou
   return testing::make_spline<2>({knots, knots}, points);
 }
 
-/// The lateral surface of a full cylinder of radius r around the z axis, between z = 0 and z = height.
+/// The lateral surface of a full cylinder of radius r around the z axis, between z = 0 and z =
+/// height.
 Surface cylinder(double r, double height) {
-  const int corners[9][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
+  const int corners[9][2] = {{1, 0},   {1, 1},  {0, 1},  {-1, 1}, {-1, 0},
+                             {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
   const double angle = 0.3;  // turned, so that no extremum lies at a knot
   Points points(18, 3);
   std::vector<double> weights;
   for (int i = 0; i < 9; ++i) {
     const double x = r * corners[i][0], y = r * corners[i][1];
     for (int j = 0; j < 2; ++j) {
-      points.row(2 * i + j) << std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y,
-          j * height;
+      points.row(2 * i + j) << std::cos(angle) * x - std::sin(angle) * y,
+          std::sin(angle) * x + std::cos(angle) * y, j * height;
       weights.push_back(i % 2 == 0 ? 1 : 1 / std::numbers::sqrt2);
     }
   }
-  return testing::make_spline<2>(
-      {testing::make_knots(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}), testing::clamped_knots(1, {0, 1})}, points,
-      weights);
+  return testing::make_spline<2>({testing::make_knots(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}),
+                                  testing::clamped_knots(1, {0, 1})},
+                                 points, weights);
 }
 
 void expect_near(const Point& a, const Point& b, double tolerance) {
-  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), tolerance) << a.transpose() << " is not " << b.transpose();
+  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), tolerance)
+      << a.transpose() << " is not " << b.transpose();
 }
 
 TEST(BoundingBox, OfACylinderTouchesItAndNotItsControlPoints) {
@@ -80,7 +83,8 @@ TEST(BoundingBox, HoldsEveryPointAndIsHeldByTheControlPoints) {
       for (std::size_t d = 0; d < 2; ++d) {
         const KnotVector& knots = surface.knots()[d];
         for (const int s : knots.spans()) {
-          for (int k = 0; k <= 20; ++k) grid[d].push_back(std::lerp(knots[s], knots[s + 1], k / 20.0));
+          for (int k = 0; k <= 20; ++k)
+            grid[d].push_back(std::lerp(knots[s], knots[s + 1], k / 20.0));
         }
       }
       const auto points = evaluate_grid<2>(surface, testing::spans_of<2>(grid));
@@ -96,14 +100,15 @@ TEST(BoundingBox, HoldsEveryPointAndIsHeldByTheControlPoints) {
 }
 
 TEST(BoundingBox, SeesBothLimitsWhereASurfaceJumps) {
-  // In u two separate pieces of degree 1: z rises from 0 to 3, then jumps down to −2 and rises to 1.
+  // In u two separate pieces of degree 1: z rises from 0 to 3, then jumps down to −2 and rises
+  // to 1.
   Points points(8, 3);
   const double z[4] = {0, 3, -2, 1};
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 2; ++j) points.row(2 * i + j) << i, j, z[i];
   }
-  const auto surface =
-      testing::make_spline<2>({testing::make_knots(1, {0, 0, 1, 1, 2, 2}), testing::clamped_knots(1, {0, 1})}, points);
+  const auto surface = testing::make_spline<2>(
+      {testing::make_knots(1, {0, 0, 1, 1, 2, 2}), testing::clamped_knots(1, {0, 1})}, points);
   const auto box = bounding_box(surface);
   EXPECT_EQ(box.lower.z(), -2);
   EXPECT_EQ(box.upper.z(), 3);
@@ -131,15 +136,16 @@ TEST(LargestNorm, DoesNotDependOnUnits) {
   const auto unit = bump({0, 0, 1, 0}, {0, 1, 0, 0}).with_control_points(points);
   for (const int exponent : {-1000, -500, -300, -40, 40, 150, 165}) {
     const auto scaled = unit->with_control_points(points * std::ldexp(1.0, exponent));
-    EXPECT_NEAR(std::ldexp(largest_norm(*scaled).value, -exponent), largest_norm(*unit).value, 1e-9);
+    EXPECT_NEAR(std::ldexp(largest_norm(*scaled).value, -exponent), largest_norm(*unit).value,
+                1e-9);
   }
 }
 
 TEST(LargestNorm, IsAtLeastThatOfEveryPoint) {
   std::mt19937_64 random(32);
   for (int p = 1; p <= 5; ++p) {
-    const auto surface =
-        testing::random_spline<2>(random, {testing::uniform_clamped(p, 4), testing::uniform_clamped(6 - p, 5)});
+    const auto surface = testing::random_spline<2>(
+        random, {testing::uniform_clamped(p, 4), testing::uniform_clamped(6 - p, 5)});
     std::array<std::vector<double>, 2> grid;
     for (std::size_t d = 0; d < 2; ++d) {
       for (int k = 0; k <= 200; ++k) grid[d].push_back(surface.knots()[d].domain().upper * k / 200);
@@ -147,7 +153,8 @@ TEST(LargestNorm, IsAtLeastThatOfEveryPoint) {
     const auto points = evaluate_grid<2>(surface, testing::spans_of<2>(grid));
     const double largest = points->points().rowwise().norm().maxCoeff();
     EXPECT_GE(largest_norm(surface).value, largest * (1 - 1e-9));
-    EXPECT_LE(largest_norm(surface).value, surface.control_points().rowwise().norm().maxCoeff() * (1 + 1e-9));
+    EXPECT_LE(largest_norm(surface).value,
+              surface.control_points().rowwise().norm().maxCoeff() * (1 + 1e-9));
   }
 }
 

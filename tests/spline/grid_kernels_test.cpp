@@ -20,16 +20,19 @@ using detail::GridKernels;
 constexpr double untouched = 0x1.8p300;
 
 bool same_numbers(std::span<const double> a, std::span<const double> b) {
-  return std::ranges::equal(a, b, {}, std::bit_cast<std::uint64_t, double>, std::bit_cast<std::uint64_t, double>);
+  return std::ranges::equal(a, b, {}, std::bit_cast<std::uint64_t, double>,
+                            std::bit_cast<std::uint64_t, double>);
 }
 
-std::vector<double> random_numbers(std::mt19937_64& random, std::ptrdiff_t count, double lower = -1) {
+std::vector<double> random_numbers(std::mt19937_64& random, std::ptrdiff_t count,
+                                   double lower = -1) {
   std::vector<double> result(static_cast<std::size_t>(count));
   for (double& x : result) x = std::uniform_real_distribution<double>(lower, 1)(random);
   return result;
 }
 
-/// Calls check(kernels) with those of every set that this machine has beside the reference, two numbers wide.
+/// Calls check(kernels) with those of every set that this machine has beside the reference, two
+/// numbers wide.
 void with_every_set(const std::function<void(const GridKernels&)>& check) {
   for (const InstructionSet set : available_instruction_sets()) {
     SCOPED_TRACE(name(set));
@@ -41,7 +44,8 @@ void with_every_set(const std::function<void(const GridKernels&)>& check) {
 std::vector<detail::SpanRun> random_runs(std::mt19937_64& random, std::ptrdiff_t size) {
   std::vector<detail::SpanRun> runs;
   for (std::ptrdiff_t k = 0; k < size;) {
-    const auto end = std::min(size, k + std::uniform_int_distribution<std::ptrdiff_t>(1, 9)(random));
+    const auto end =
+        std::min(size, k + std::uniform_int_distribution<std::ptrdiff_t>(1, 9)(random));
     runs.push_back({std::ssize(runs), k, end});
     k = end;
   }
@@ -52,12 +56,14 @@ TEST(GridKernels, ContractWithTheSameBits) {
   std::mt19937_64 random(71);
   for (std::ptrdiff_t terms = 1; terms <= 8; ++terms) {
     for (std::ptrdiff_t length = 1; length <= 35; ++length) {
-      const auto values = random_numbers(random, terms), from = random_numbers(random, terms * length);
+      const auto values = random_numbers(random, terms),
+                 from = random_numbers(random, terms * length);
       std::vector<double> expected;
       for (std::ptrdiff_t c = 0; c < length; ++c) {
         double sum = values[0] * from[static_cast<std::size_t>(c)];
         for (std::ptrdiff_t r = 1; r < terms; ++r)
-          sum += values[static_cast<std::size_t>(r)] * from[static_cast<std::size_t>(r * length + c)];
+          sum +=
+              values[static_cast<std::size_t>(r)] * from[static_cast<std::size_t>(r * length + c)];
         expected.push_back(sum);
       }
       expected.push_back(untouched);
@@ -77,7 +83,8 @@ TEST(GridKernels, SumRowsWithTheSameBitsAndWriteNothingBeyond) {
       const auto runs = random_runs(random, size);
       const std::ptrdiff_t stride = size + GridKernels::spare, points = terms + std::ssize(runs);
       const detail::GridRow row{runs.data(), std::ssize(runs), size, stride, terms};
-      const auto values = random_numbers(random, terms * stride), line = random_numbers(random, 4 * points);
+      const auto values = random_numbers(random, terms * stride),
+                 line = random_numbers(random, 4 * points);
       std::vector<double> cartesian, homogeneous;
       for (const detail::SpanRun& run : runs) {
         for (std::ptrdiff_t k = run.begin; k < run.end; ++k) {
@@ -100,7 +107,8 @@ TEST(GridKernels, SumRowsWithTheSameBitsAndWriteNothingBeyond) {
         std::vector<double> apart(static_cast<std::size_t>(4 * stride + GridKernels::spare));
         kernels.homogeneous(row, values.data(), line.data(), apart.data());
         for (std::ptrdiff_t k = 0; k < 4 * size; ++k) {
-          EXPECT_EQ(apart[static_cast<std::size_t>(k % 4 * stride + k / 4)], homogeneous[static_cast<std::size_t>(k)]);
+          EXPECT_EQ(apart[static_cast<std::size_t>(k % 4 * stride + k / 4)],
+                    homogeneous[static_cast<std::size_t>(k)]);
         }
       });
     }
@@ -116,14 +124,17 @@ TEST(GridKernels, FindTheFirstDenominatorThatIsNotPositive) {
     for (std::ptrdiff_t bad = 0; bad <= size; ++bad) {
       for (const double value : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
         auto from = random_numbers(random, 4 * stride + GridKernels::spare, 0.5);
-        for (std::ptrdiff_t k = bad; k < stride; ++k) from[static_cast<std::size_t>(3 * stride + k)] = value;
+        for (std::ptrdiff_t k = bad; k < stride; ++k)
+          from[static_cast<std::size_t>(3 * stride + k)] = value;
         with_every_set([&](const GridKernels& kernels) {
-          std::vector<double> work(3 * GridKernels::spare), to(static_cast<std::size_t>(3 * size + 4), untouched);
+          std::vector<double> work(3 * GridKernels::spare),
+              to(static_cast<std::size_t>(3 * size + 4), untouched);
           double* const out[] = {to.data()};
           EXPECT_EQ(kernels.divide(rule, from.data(), stride, size, work.data(), out, 1), bad);
           for (std::ptrdiff_t i = 0; bad == size && i < 3 * size; ++i) {
-            EXPECT_EQ(to[static_cast<std::size_t>(3 + i)], from[static_cast<std::size_t>(i % 3 * stride + i / 3)] /
-                                                               from[static_cast<std::size_t>(3 * stride + i / 3)]);
+            EXPECT_EQ(to[static_cast<std::size_t>(3 + i)],
+                      from[static_cast<std::size_t>(i % 3 * stride + i / 3)] /
+                          from[static_cast<std::size_t>(3 * stride + i / 3)]);
           }
           EXPECT_EQ(to[2], untouched);
           EXPECT_EQ(to.back(), untouched);
@@ -139,15 +150,18 @@ TEST(GridKernels, GiveNormalsWithTheSameBits) {
     auto u = random_numbers(random, 3 * count), v = random_numbers(random, 3 * count);
     for (std::size_t k = 0; k < u.size(); k += 3) {
       const auto kind = random() % 5;  // parallel, zero, nearly parallel, and twice any
-      for (std::size_t c = k; kind < 3 && c < k + 3; ++c) v[c] = kind == 0 ? -2 * u[c] : kind == 1 ? 0 : u[c];
+      for (std::size_t c = k; kind < 3 && c < k + 3; ++c)
+        v[c] = kind == 0 ? -2 * u[c] : kind == 1 ? 0 : u[c];
       if (kind == 2) v[k] += 1e-9;
     }
     std::vector<double> expected;
     for (std::size_t k = 0; k < u.size(); k += 3) {
       const double *a = u.data() + k, *b = v.data() + k;
-      const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
+      const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2],
+                   z = a[0] * b[1] - a[1] * b[0];
       const double length = std::sqrt(x * x + y * y + z * z);
-      const double speeds = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+      const double speeds =
+          a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
       const double factor = length > 1e-9 * speeds ? 1 / length : 0;
       expected.insert(expected.end(), {factor * x, factor * y, factor * z});
     }
@@ -176,8 +190,8 @@ std::vector<double> some_parameters(std::mt19937_64& random, const KnotVector& k
 
 /// Every set's grid has the bits of `evaluate` at its points.
 template <int D>
-void expect_points_by_every_set(std::mt19937_64& random, const Spline<D>& spline, std::array<int, D> counts,
-                                int order) {
+void expect_points_by_every_set(std::mt19937_64& random, const Spline<D>& spline,
+                                std::array<int, D> counts, int order) {
   std::array<std::vector<double>, D> grid;
   std::array<BasisTable, D> tables;
   std::array<const BasisTable*, D> pointers;
@@ -195,8 +209,8 @@ void expect_points_by_every_set(std::mt19937_64& random, const Spline<D>& spline
     for (std::size_t k = 0; k < found.derivatives.size(); ++k) {
       const Points &a = found.derivatives[k], &b = expected->derivatives[k];
       ASSERT_EQ(a.rows(), b.rows());
-      EXPECT_TRUE(
-          same_numbers({a.data(), static_cast<std::size_t>(a.size())}, {b.data(), static_cast<std::size_t>(b.size())}))
+      EXPECT_TRUE(same_numbers({a.data(), static_cast<std::size_t>(a.size())},
+                               {b.data(), static_cast<std::size_t>(b.size())}))
           << "derivative " << k;
     }
   });
@@ -213,9 +227,12 @@ TEST_P(GridsOfDegree, HaveTheSameBitsByEveryInstructionSet) {
     count = count % 17 + 1;
     const auto across = testing::random_knots(random, static_cast<int>(random() % 4) + 1);
     for (const double decades : {-1.0, 2.0}) {
-      expect_points_by_every_set<1>(random, testing::random_spline<1>(random, {knots}, decades), {count}, 2);
-      expect_points_by_every_set<2>(random, testing::random_spline<2>(random, {across, knots}, decades), {3, count}, 2);
-      expect_points_by_every_set<2>(random, testing::random_spline<2>(random, {knots, across}, decades),
+      expect_points_by_every_set<1>(random, testing::random_spline<1>(random, {knots}, decades),
+                                    {count}, 2);
+      expect_points_by_every_set<2>(
+          random, testing::random_spline<2>(random, {across, knots}, decades), {3, count}, 2);
+      expect_points_by_every_set<2>(random,
+                                    testing::random_spline<2>(random, {knots, across}, decades),
                                     {count, 18 - count}, 1);
     }
   }
@@ -229,7 +246,8 @@ TEST(GridKernels, EvaluateVolumesWithTheSameBits) {
     const auto u = testing::random_knots(random, 2), v = testing::random_knots(random, 1);
     const auto w = testing::random_knots(random, static_cast<int>(random() % 5) + 1);
     for (const double decades : {-1.0, 1.0}) {
-      expect_points_by_every_set<3>(random, testing::random_spline<3>(random, {u, v, w}, decades), {2, 3, count}, 2);
+      expect_points_by_every_set<3>(random, testing::random_spline<3>(random, {u, v, w}, decades),
+                                    {2, 3, count}, 2);
     }
   }
 }

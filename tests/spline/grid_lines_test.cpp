@@ -13,8 +13,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A band of eight turns, about a helix, with the degree, knots and net that a thread of a screw has: 13 × 1, 98 × 2,
-/// one span per turn, joined with multiplicity 12.
+/// A band of eight turns, about a helix, with the degree, knots and net that a thread of a screw
+/// has: 13 × 1, 98 × 2, one span per turn, joined with multiplicity 12.
 Surface thread(double radius, double pitch) {
   constexpr double turns = 8;
   std::vector<double> values(14, 0.0);
@@ -37,12 +37,15 @@ Surface thread(double radius, double pitch) {
   return *Surface::create({*std::move(knots), *KnotVector::clamped_uniform(1, 2)}, std::move(net));
 }
 
-/// The largest distance of the middles of chords along a direction from the surface there, across the chord.
+/// The largest distance of the middles of chords along a direction from the surface there, across
+/// the chord.
 double chord_error(const Surface& surface, const std::array<GridLines, 2>& lines, int d) {
   double most = 0;
   const auto& along = lines[static_cast<std::size_t>(d)].parameters;
   for (const double v : lines[static_cast<std::size_t>(1 - d)].parameters) {
-    const auto at = [&](double u) { return *evaluate_point<2>(surface, d == 0 ? std::array{u, v} : std::array{v, u}); };
+    const auto at = [&](double u) {
+      return *evaluate_point<2>(surface, d == 0 ? std::array{u, v} : std::array{v, u});
+    };
     for (std::size_t k = 0; k + 1 < along.size(); ++k) {
       const Point a = at(along[k]), b = at(along[k + 1]);
       const double length = (b - a).norm();
@@ -59,12 +62,14 @@ double chord_error(const Surface& surface, const std::array<GridLines, 2>& lines
 TEST(GridLines, AThreadOfManyTurnsIsRoundToTheTolerance) {
   const Surface surface = thread(3, 1);
   const GridLines coarse = grid_lines(surface.knots(0), 96);
-  EXPECT_GT(chord_error(surface, {coarse, grid_lines(surface.knots(1), 96)}, 0), 0.05);  // a twelve-sided nut
+  EXPECT_GT(chord_error(surface, {coarse, grid_lines(surface.knots(1), 96)}, 0),
+            0.05);  // a twelve-sided nut
   for (const double tolerance : {0.01, 0.001}) {
     const auto lines = grid_lines(surface, {.tolerance = tolerance});
     ASSERT_TRUE(lines) << lines.error().message();
     EXPECT_LE(chord_error(surface, *lines, 0), 1.2 * tolerance);
-    EXPECT_LE(static_cast<double>((*lines)[0].parameters.size()), 4.2 * 8 * pi / std::sqrt(8 * tolerance / 3) + 100);
+    EXPECT_LE(static_cast<double>((*lines)[0].parameters.size()),
+              4.2 * 8 * pi / std::sqrt(8 * tolerance / 3) + 100);
     EXPECT_EQ((*lines)[1].parameters.size(), 2U);  // straight
     for (const auto k : (*lines)[0].knot_lines) ASSERT_LT(k, (*lines)[0].parameters.size());
     EXPECT_EQ((*lines)[0].knot_lines.size(), surface.knots(0).spans().size() + 1);
@@ -74,8 +79,8 @@ TEST(GridLines, AThreadOfManyTurnsIsRoundToTheTolerance) {
 TEST(GridLines, WhatIsFlatHasTheLinesOfItsKnots) {
   Points net(16, 3);
   for (int k = 0; k < 16; ++k) net.row(k) << k / 4, k % 4, 0;
-  const auto sheet =
-      Surface::create({*KnotVector::clamped_uniform(3, 4), *KnotVector::clamped_uniform(3, 4)}, std::move(net));
+  const auto sheet = Surface::create(
+      {*KnotVector::clamped_uniform(3, 4), *KnotVector::clamped_uniform(3, 4)}, std::move(net));
   const auto lines = grid_lines(*sheet, {.tolerance = 1e-6});
   ASSERT_TRUE(lines);
   for (std::size_t d = 0; d < 2; ++d) {
@@ -133,7 +138,8 @@ TEST(GridLines, OfAWindowKeepToTheirLimits) {
   const auto lines = grid_lines(surface, {.tolerance = 0.01, .most = 900, .window = whole});
   ASSERT_TRUE(lines);
   EXPECT_LE((*lines)[0].parameters.size(), 900U);
-  EXPECT_GT((*lines)[0].parameters.size(), grid_lines(surface, {.tolerance = 0.01})->at(0).parameters.size());
+  EXPECT_GT((*lines)[0].parameters.size(),
+            grid_lines(surface, {.tolerance = 0.01})->at(0).parameters.size());
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ TEST(DerivativeJumps, are_the_differences_of_the_one_sided_limits) {
             const Quad exact = quad_jump(knots, i, r, at.knot);
             const double jump = at.of_order(r, p);
             if (r == p - at.multiplicity + 1) {
-              EXPECT_LE(static_cast<double>(testing::magnitude(Quad(jump) - exact) / testing::magnitude(exact)),
+              EXPECT_LE(static_cast<double>(testing::magnitude(Quad(jump) - exact) /
+                                            testing::magnitude(exact)),
                         2 * (p + 3) * 2.3e-16)
                   << name << " N_" << i << " order " << r;
             } else if (r < p - at.multiplicity + 1 || r > p) {
@@ -43,7 +44,8 @@ TEST(DerivativeJumps, are_the_differences_of_the_one_sided_limits) {
             } else {
               double size = 0;
               for (const auto& other : all) size = std::max(size, std::abs(other.of_order(r, p)));
-              EXPECT_NEAR(jump, static_cast<double>(exact), 1e-12 * size) << name << " N_" << i << " order " << r;
+              EXPECT_NEAR(jump, static_cast<double>(exact), 1e-12 * size)
+                  << name << " N_" << i << " order " << r;
             }
           }
         }
@@ -81,7 +83,8 @@ TEST(DerivativeJumps, of_the_highest_order_sum_to_zero) {
     const KnotVector knots = testing::thesis_knots(p, 1);
     for (int i = 0; i < knots.count(); ++i) {
       double sum = 0, size = 0;
-      for (const auto& at : derivative_jumps(knots, i)) sum += at.jumps.back(), size += std::abs(at.jumps.back());
+      for (const auto& at : derivative_jumps(knots, i))
+        sum += at.jumps.back(), size += std::abs(at.jumps.back());
       EXPECT_NEAR(sum, 0, 1e-14 * size);
     }
   }
@@ -96,8 +99,8 @@ TEST(DerivativeJumps, are_the_dirac_weights_of_thesis_table_5_16) {
   for (const auto& row : rows) {
     const double exact = std::stod(row.at("dirac_weight"));
     // 6 + 1e-10 as a double is off by up to half an ulp of 6, which is 4e-6 of the gap.
-    EXPECT_NEAR(jumps.at(static_cast<std::size_t>(std::stoi(row.at("knot_index")))).jumps.back(), exact,
-                5e-6 * std::abs(exact));
+    EXPECT_NEAR(jumps.at(static_cast<std::size_t>(std::stoi(row.at("knot_index")))).jumps.back(),
+                exact, 5e-6 * std::abs(exact));
   }
 }
 

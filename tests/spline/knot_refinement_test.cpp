@@ -33,12 +33,14 @@ std::vector<double> random_inserted(std::mt19937_64& random, const KnotVector& k
     const double length = knots[s + 1] - knots[s];
     for (const double t : {0.5, 1e-9, 0.3}) {
       const double u = knots[s] + t * length;
-      if (coin() && knots[s] < u && u < knots[s + 1]) inserted.insert(inserted.end(), coin() ? 1 : 2, u);
+      if (coin() && knots[s] < u && u < knots[s + 1])
+        inserted.insert(inserted.end(), coin() ? 1 : 2, u);
     }
     const double u = knots[s];
     const int room = knots.degree() + 1 - knots.multiplicity(u);
     if (a < u && u < b && room > 0 && coin()) {
-      inserted.insert(inserted.end(), std::uniform_int_distribution<std::size_t>(1, room)(random), u);
+      inserted.insert(inserted.end(), std::uniform_int_distribution<std::size_t>(1, room)(random),
+                      u);
     }
   }
   if (knots.degree() == 1) {  // two of the same are the limit
@@ -63,26 +65,30 @@ Quad identity_error(const Refinement& r) {
       for (int i = s - q; i <= s; ++i) {
         for (int k = 0; k <= p; ++k) {
           sum[static_cast<std::size_t>(r.first(i) + k)] +=
-              fine[static_cast<std::size_t>(i - s + q)] * Quad(r.row(i)[static_cast<std::size_t>(k)]);
+              fine[static_cast<std::size_t>(i - s + q)] *
+              Quad(r.row(i)[static_cast<std::size_t>(k)]);
         }
       }
-      for (int k = 0; k <= p; ++k) sum[static_cast<std::size_t>(span - p + k)] -= coarse[static_cast<std::size_t>(k)];
+      for (int k = 0; k <= p; ++k)
+        sum[static_cast<std::size_t>(span - p + k)] -= coarse[static_cast<std::size_t>(k)];
       for (const Quad value : sum) worst = std::max(worst, testing::magnitude(value));
     }
   }
   return worst;
 }
 
-/// The insertion matrix from x to x with `inserted`, in quadruple precision, one knot at a time (Boehm): only positive
-/// numbers are added. Row by row over all columns; `x` ends as the knots with all of them, which must lie among the
-/// inner ones.
-std::vector<std::vector<Quad>> quad_insertion(std::vector<double>& x, int p, const std::vector<double>& inserted) {
+/// The insertion matrix from x to x with `inserted`, in quadruple precision, one knot at a time
+/// (Boehm): only positive numbers are added. Row by row over all columns; `x` ends as the knots
+/// with all of them, which must lie among the inner ones.
+std::vector<std::vector<Quad>> quad_insertion(std::vector<double>& x, int p,
+                                              const std::vector<double>& inserted) {
   const auto columns = x.size() - static_cast<std::size_t>(p) - 1;
   std::vector<std::vector<Quad>> rows(columns, std::vector<Quad>(columns, Quad(0)));
   for (std::size_t i = 0; i < columns; ++i) rows[i][i] = 1;
   for (const double u : inserted) {
     const auto after = std::ranges::upper_bound(x, u);
-    const auto span = static_cast<std::size_t>(after - x.begin()) - 1, degree = static_cast<std::size_t>(p);
+    const auto span = static_cast<std::size_t>(after - x.begin()) - 1,
+               degree = static_cast<std::size_t>(p);
     auto next = rows;
     next.insert(next.begin() + static_cast<std::ptrdiff_t>(span - degree), rows[span - degree]);
     for (std::size_t i = span - degree + 1; i <= span; ++i) {
@@ -112,11 +118,12 @@ std::vector<Quad> quad_row(const Refinement& r, int i) {
   const std::vector<double> y(r.to().knots().begin(), r.to().knots().end());
   std::vector<Quad> sum(static_cast<std::size_t>(r.from().count()), Quad(0));
   for (int left_out = 1; left_out <= (p == q ? 1 : q); ++left_out) {
-    // The polar form at y_{i+1} … without the one left out is a coefficient over knots that hold these in a row: all
-    // coarse knots, and of the fine ones those from y_i on to y_{i+q+1}.
+    // The polar form at y_{i+1} … without the one left out is a coefficient over knots that hold
+    // these in a row: all coarse knots, and of the fine ones those from y_i on to y_{i+q+1}.
     std::vector<double> window(y.begin() + i, y.begin() + i + q + 2);
     if (p < q) window.erase(window.begin() + left_out);
-    // Further knots at both ends, so that there are functions wherever a knot is inserted; their columns do not count.
+    // Further knots at both ends, so that there are functions wherever a knot is inserted; their
+    // columns do not count.
     std::vector<double> x(r.from().knots().begin(), r.from().knots().end());
     const double far = 1 + x.back() - x.front();
     x.insert(x.begin(), static_cast<std::size_t>(p + 1), x.front() - far);
@@ -129,7 +136,8 @@ std::vector<Quad> quad_row(const Refinement& r, int i) {
       return sum;
     }
     const auto& row = rows[static_cast<std::size_t>(found.begin() - x.begin())];
-    for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += row[j + static_cast<std::size_t>(p + 1)] / (p == q ? 1 : q);
+    for (std::size_t j = 0; j < sum.size(); ++j)
+      sum[j] += row[j + static_cast<std::size_t>(p + 1)] / (p == q ? 1 : q);
   }
   return sum;
 }
@@ -250,7 +258,8 @@ TEST(Refinement, PeriodicKnotsStayPeriodic) {
     expect_exact_entries(r, "periodic");
     EXPECT_LE(static_cast<double>(identity_error(r)), 4 * (p + 1) * 0x1p-52);
     // Periodic coefficients stay periodic.
-    std::vector<double> c(static_cast<std::size_t>(knots.count())), fine(static_cast<std::size_t>(r.to().count()));
+    std::vector<double> c(static_cast<std::size_t>(knots.count())),
+        fine(static_cast<std::size_t>(r.to().count()));
     for (std::size_t j = 0; j < c.size(); ++j) c[j] = std::sin(1 + static_cast<double>(j % 5));
     r.apply(c.data(), fine.data(), 1, 1);
     for (std::size_t i = 0; i < static_cast<std::size_t>(p); ++i) {
@@ -263,12 +272,14 @@ TEST(Refinement, MatrixAndApplyAreTheSameMap) {
   std::mt19937_64 random(5);
   const auto knots = clamped_knots(3, {0, 1, 2.5, 3, 4.5, 5}, {0, 1, 1, 3, 1, 0});
   const auto r = make(knots, elevated_knots(knots));
-  Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> c(knots.count(), 4), fine(r.to().count(), 4);
+  Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> c(knots.count(), 4),
+      fine(r.to().count(), 4);
   c.setRandom();
   r.apply(c.data(), fine.data(), 1, 4);
   EXPECT_LE((r.matrix() * c - fine).cwiseAbs().maxCoeff(), 1e-15);
   // Two nets one behind the other.
-  std::vector<double> two(2 * static_cast<std::size_t>(c.size())), out(2 * static_cast<std::size_t>(fine.size()));
+  std::vector<double> two(2 * static_cast<std::size_t>(c.size())),
+      out(2 * static_cast<std::size_t>(fine.size()));
   std::copy_n(c.data(), c.size(), two.begin());
   std::copy_n(c.data(), c.size(), two.begin() + c.size());
   r.apply(two.data(), out.data(), 2, 4);
@@ -288,7 +299,8 @@ TEST(Refinement, EndsOfAnUnclampedDomainMayBeRepeated) {
         EXPECT_EQ(r.to().domain().lower, a);
         EXPECT_EQ(r.to().domain().upper, b);
         EXPECT_LE(static_cast<double>(identity_error(r)), 4 * (p + 1) * 0x1p-52);
-        expect_exact_entries(r, "p = " + std::to_string(p) + ", " + std::to_string(times) + " times");
+        expect_exact_entries(r,
+                             "p = " + std::to_string(p) + ", " + std::to_string(times) + " times");
       }
     }
   }
@@ -305,9 +317,11 @@ TEST(Refinement, WhatCannotBeInsertedIsNamed) {
   EXPECT_NE(message({0.5, std::nan("")}).find("inserted knot 1"), std::string::npos);
   EXPECT_NE(message({2.5}).find("outside of the domain"), std::string::npos);
   EXPECT_NE(message({-1e-300}).find("outside of the domain"), std::string::npos);
-  EXPECT_NE(message({1, 0.5, 1}).find("inserted knot 2: the knot 1 would be repeated more than 3 times"),
-            std::string::npos);
-  EXPECT_NE(message({2}).find("would be repeated"), std::string::npos) << "the last knot of a clamped vector";
+  EXPECT_NE(
+      message({1, 0.5, 1}).find("inserted knot 2: the knot 1 would be repeated more than 3 times"),
+      std::string::npos);
+  EXPECT_NE(message({2}).find("would be repeated"), std::string::npos)
+      << "the last knot of a clamped vector";
   EXPECT_NE(message({0}).find("would be repeated"), std::string::npos);
   EXPECT_TRUE(with_knots(knots, std::vector<double>{}));
 
@@ -317,8 +331,10 @@ TEST(Refinement, WhatCannotBeInsertedIsNamed) {
   EXPECT_FALSE(elevated_knots(clamped_knots(max_degree, {0, 1})));
 
   EXPECT_FALSE(Refinement::create(knots, clamped_knots(2, {0, 1, 2}))) << "a knot is missing";
-  EXPECT_FALSE(Refinement::create(knots, clamped_knots(2, {0, 1, 3}, {0, 2, 0}))) << "another domain";
-  EXPECT_FALSE(Refinement::create(knots, clamped_knots(4, {0, 1, 2}, {0, 4, 0}))) << "two degrees at once";
+  EXPECT_FALSE(Refinement::create(knots, clamped_knots(2, {0, 1, 3}, {0, 2, 0})))
+      << "another domain";
+  EXPECT_FALSE(Refinement::create(knots, clamped_knots(4, {0, 1, 2}, {0, 4, 0})))
+      << "two degrees at once";
 }
 
 TEST(SpanMidpoints, AreTakenWhereTheIntervalMeetsTheInside) {

@@ -18,7 +18,8 @@ using testing::random_spline;
 template <int D>
 double distance(const Spline<D>& a, const Spline<D>& b) {
   auto grid = testing::grid_of(a);
-  const auto x = evaluate_grid<D>(a, testing::spans_of<D>(grid)), y = evaluate_grid<D>(b, testing::spans_of<D>(grid));
+  const auto x = evaluate_grid<D>(a, testing::spans_of<D>(grid)),
+             y = evaluate_grid<D>(b, testing::spans_of<D>(grid));
   if (!x || !y) {
     ADD_FAILURE() << "no evaluation";
     return 1e300;
@@ -26,7 +27,8 @@ double distance(const Spline<D>& a, const Spline<D>& b) {
   return (x->points() - y->points()).rowwise().norm().maxCoeff();
 }
 
-/// A smooth surface on given knots: control points on a gentle landscape over the Greville abscissae.
+/// A smooth surface on given knots: control points on a gentle landscape over the Greville
+/// abscissae.
 Surface landscape(const std::array<KnotVector, 2>& knots, double roughness = 0) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> noise(-roughness, roughness);
@@ -34,7 +36,8 @@ Surface landscape(const std::array<KnotVector, 2>& knots, double roughness = 0) 
   for (int i = 0; i < knots[0].count(); ++i) {
     for (int j = 0; j < knots[1].count(); ++j) {
       const double u = knots[0].greville(i), v = knots[1].greville(j);
-      points.row(i * knots[1].count() + j) << u, v, std::sin(0.4 * u) * std::cos(0.3 * v) + noise(random);
+      points.row(i * knots[1].count() + j) << u, v,
+          std::sin(0.4 * u) * std::cos(0.3 * v) + noise(random);
     }
   }
   return make_spline<2>(knots, points);
@@ -59,7 +62,8 @@ TEST(KnotRemoval, WhatWasInsertedComesOutAgain) {
   }
 }
 
-/// Control points and weights (10^±decades; none below 0) that vary slowly over the domain, with some noise.
+/// Control points and weights (10^±decades; none below 0) that vary slowly over the domain, with
+/// some noise.
 Surface smooth(const std::array<KnotVector, 2>& knots, double decades, double noise) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(-noise, noise);
@@ -72,7 +76,8 @@ Surface smooth(const std::array<KnotVector, 2>& knots, double decades, double no
     for (int j = 0; j < knots[1].count(); ++j) {
       const double u = place(knots[0], i), v = place(knots[1], j);
       points.row(i * knots[1].count() + j) << u, v, 0.1 * std::sin(3 * v + u) + uniform(random);
-      if (decades >= 0) weights.push_back(std::pow(10, decades * std::sin(2 * v)) * (1 + uniform(random)));
+      if (decades >= 0)
+        weights.push_back(std::pow(10, decades * std::sin(2 * v)) * (1 + uniform(random)));
     }
   }
   return make_spline<2>(knots, points, weights);
@@ -92,7 +97,8 @@ TEST(KnotRemoval, TheShapeStaysWithinTheBoundAndTheBoundWithinTheTolerance) {
             ASSERT_TRUE(less) << name;
             EXPECT_LE(less->error_bound, tolerance) << name;
             // What evaluation rounds is allowed beside the bound.
-            EXPECT_LE(distance(s, less->spline), less->error_bound + 64 * (p + 1) * 0x1p-52) << name << tolerance;
+            EXPECT_LE(distance(s, less->spline), less->error_bound + 64 * (p + 1) * 0x1p-52)
+                << name << tolerance;
             removed += static_cast<int>(less->removed.size());
           }
         }
@@ -119,12 +125,13 @@ TEST(KnotRemoval, AToleranceIsUsed) {
 }
 
 TEST(KnotRemoval, AFullCircleIsNotFlattened) {
-  // Nine points, double knots at the quadrants: nothing can go at 1e-6; knots inserted by refinement can.
+  // Nine points, double knots at the quadrants: nothing can go at 1e-6; knots inserted by
+  // refinement can.
   const double w = std::sqrt(0.5);
   Points net(9, 3);
   net << 1, 0, 0, 1, 1, 0, 0, 1, 0, -1, 1, 0, -1, 0, 0, -1, -1, 0, 0, -1, 0, 1, -1, 0, 1, 0, 0;
-  const auto circle =
-      make_spline<1>({clamped_knots(2, {0, 1, 2, 3, 4}, {0, 2, 2, 2, 0})}, net, {1, w, 1, w, 1, w, 1, w, 1});
+  const auto circle = make_spline<1>({clamped_knots(2, {0, 1, 2, 3, 4}, {0, 2, 2, 2, 0})}, net,
+                                     {1, w, 1, w, 1, w, 1, w, 1});
   const auto same = remove_knots(circle, 0, 1e-6);
   ASSERT_TRUE(same);
   EXPECT_TRUE(same->removed.empty());
@@ -149,7 +156,8 @@ TEST(KnotRemoval, EndsAndRowsThatAreNotTouchedKeepTheirBits) {
   for (int i = 0; i < s.net()[0]; ++i) {
     if (15 <= i && i <= 18) continue;  // the rows that took the change
     EXPECT_EQ(std::memcmp(back->spline.control_points().row(i * columns).data(),
-                          s.control_points().row(i * columns).data(), static_cast<std::size_t>(24 * columns)),
+                          s.control_points().row(i * columns).data(),
+                          static_cast<std::size_t>(24 * columns)),
               0)
         << i;
   }
@@ -157,7 +165,8 @@ TEST(KnotRemoval, EndsAndRowsThatAreNotTouchedKeepTheirBits) {
   ASSERT_TRUE(rough);
   EXPECT_GT(rough->removed.size(), 20U);
   EXPECT_EQ(rough->spline.control_points().topRows(columns), s.control_points().topRows(columns));
-  EXPECT_EQ(rough->spline.control_points().bottomRows(columns), s.control_points().bottomRows(columns));
+  EXPECT_EQ(rough->spline.control_points().bottomRows(columns),
+            s.control_points().bottomRows(columns));
 }
 
 TEST(KnotRemoval, CompanionsKeepTheirShapesToo) {
@@ -165,18 +174,22 @@ TEST(KnotRemoval, CompanionsKeepTheirShapesToo) {
   const auto s = landscape({knots, testing::uniform_clamped(2, 3)});
   Points bump = Points::Zero(s.size(), 3);
   bump.row(11 * s.net()[1] + 2).z() = 1;
-  const auto alone = remove_knots(s, 0, 1e-2), together = remove_knots(s, 0, 1e-2, std::span(&bump, 1));
+  const auto alone = remove_knots(s, 0, 1e-2),
+             together = remove_knots(s, 0, 1e-2, std::span(&bump, 1));
   ASSERT_TRUE(alone);
   ASSERT_TRUE(together);
   EXPECT_LT(together->removed.size(), alone->removed.size());
   ASSERT_EQ(together->companions.size(), 1U);
-  EXPECT_LE(distance(*s.with_control_points(bump), *together->spline.with_control_points(together->companions[0])),
+  EXPECT_LE(distance(*s.with_control_points(bump),
+                     *together->spline.with_control_points(together->companions[0])),
             together->error_bound);
 }
 
 TEST(KnotRemoval, ALargeNetTakesSeconds) {
-  const auto coarse = landscape({testing::uniform_clamped(3, 100), testing::uniform_clamped(3, 297)}, 0.1);
-  const auto finer = insert_knots<2>(coarse, {span_midpoints(coarse.knots(0), coarse.knots(0).domain()), {}});
+  const auto coarse =
+      landscape({testing::uniform_clamped(3, 100), testing::uniform_clamped(3, 297)}, 0.1);
+  const auto finer =
+      insert_knots<2>(coarse, {span_midpoints(coarse.knots(0), coarse.knots(0).domain()), {}});
   ASSERT_TRUE(finer);
   const auto back = remove_knots(*finer, 0, 1e-9);
   ASSERT_TRUE(back);
@@ -194,7 +207,8 @@ TEST(KnotRemoval, WrongArgumentsAreErrors) {
   ASSERT_TRUE(nothing);
   EXPECT_TRUE(nothing->removed.empty());
   const Points wrong = Points::Zero(3, 3);
-  EXPECT_NE(remove_knots(s, 0, 1, std::span(&wrong, 1)).error().message().find("companion 0"), std::string::npos);
+  EXPECT_NE(remove_knots(s, 0, 1, std::span(&wrong, 1)).error().message().find("companion 0"),
+            std::string::npos);
   std::vector<double> weights(static_cast<std::size_t>(s.size()), 1.0);
   weights[5] = 0;
   const auto heavy = make_spline<2>(s.knots(), s.control_points(), weights);

@@ -13,7 +13,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using testing::nan;
 
-void expect_error(int degree, std::vector<double> knots, const std::string& where, const std::string& what) {
+void expect_error(int degree, std::vector<double> knots, const std::string& where,
+                  const std::string& what) {
   const auto made = KnotVector::create(degree, std::move(knots));
   ASSERT_FALSE(made) << "expected: " << what;
   EXPECT_EQ(made.error().kind, ErrorKind::input);
@@ -124,7 +125,8 @@ TEST(KnotVector, SpansAreTheNonEmptyOnesOfTheDomain) {
 TEST(KnotVector, GrevilleAbscissaeOfKnownVectors) {
   const auto knots = testing::make_knots(3, {0, 0, 0, 0, 1, 2, 3, 3, 3, 3});
   const std::vector<double> expected = {0, 1.0 / 3, 1, 2, 8.0 / 3, 3};
-  for (int i = 0; i < knots.count(); ++i) EXPECT_DOUBLE_EQ(knots.greville(i), expected[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < knots.count(); ++i)
+    EXPECT_DOUBLE_EQ(knots.greville(i), expected[static_cast<std::size_t>(i)]);
   EXPECT_EQ(testing::make_knots(3, {0.1, 0.1, 0.1, 0.1, 0.7, 0.7, 0.7, 0.7}).greville(3), 0.7);
 }
 

@@ -64,7 +64,8 @@ TEST(UnitNormals, HaveUnitLengthAndStandOnBothDerivatives) {
 TEST(UnitNormals, AreThoseOfCurvature) {
   const Surface surface = sphere(3);
   const auto normals = unit_normals(surface, Parameters<2>{{0.3, 0.4}});
-  EXPECT_LE((normals->row(0).transpose() - curvature(surface, {0.3, 0.4})->normal).norm(), 4 * epsilon);
+  EXPECT_LE((normals->row(0).transpose() - curvature(surface, {0.3, 0.4})->normal).norm(),
+            4 * epsilon);
 }
 
 TEST(UnitNormals, OfAGridAreThoseOfItsPoints) {
@@ -108,14 +109,15 @@ TEST(UnitNormals, AreZeroWhereOneDirectionIsABillionTimesFaster) {
     const auto short_span = *KnotVector::create(1, {0, 0, length, length});
     const auto flat = testing::make_spline<2>({short_span, *KnotVector::create(1, {0, 0, 1, 1})},
                                               Points{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}});
-    EXPECT_EQ(unit_normals(flat, Parameters<2>{{0, 0}})->row(0), Eigen::RowVector3d(0, 0, normal ? 1 : 0));
+    EXPECT_EQ(unit_normals(flat, Parameters<2>{{0, 0}})->row(0),
+              Eigen::RowVector3d(0, 0, normal ? 1 : 0));
   }
 }
 
 TEST(UnitNormals, DoNotDependOnTheSizeOfTheSurface) {
   std::mt19937_64 random(43);
-  const auto surface =
-      testing::random_spline<2>(random, {testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 4)});
+  const auto surface = testing::random_spline<2>(
+      random, {testing::uniform_clamped(3, 4), testing::uniform_clamped(2, 4)});
   const Parameters<2> at = testing::rows_of<2>(testing::grid_of(surface));
   const Points expected = *unit_normals(surface, at);
   for (const double size : {std::ldexp(1, -240), std::ldexp(1, 160)}) {
@@ -130,11 +132,13 @@ TEST(UnitNormals, BitsDoNotDependOnTheNumberOfThreads) {
   for (int k = 0; k <= 240; ++k) u.push_back(k / 240.0);
   const auto run = [&] { return *unit_normals_on_grid(surface, {u, u}); };
   const Points expected = testing::with_threads(1, run);
-  for (const int threads : testing::thread_counts) EXPECT_EQ(testing::with_threads(threads, run), expected);
+  for (const int threads : testing::thread_counts)
+    EXPECT_EQ(testing::with_threads(threads, run), expected);
 }
 
 TEST(UnitNormals, FailAsEvaluationDoes) {
-  EXPECT_EQ(unit_normals(sphere(1), Parameters<2>{{0, 0}, {0, 2}}).error().where, "direction 1: parameter 1");
+  EXPECT_EQ(unit_normals(sphere(1), Parameters<2>{{0, 0}, {0, 2}}).error().where,
+            "direction 1: parameter 1");
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 
 namespace knead::testing {
 
-/// Numerator and denominator of a rational spline at one point, by their defining sums in quadruple precision.
+/// Numerator and denominator of a rational spline at one point, by their defining sums in quadruple
+/// precision.
 template <int D>
 struct QuadReference {
   const Spline<D>& spline;

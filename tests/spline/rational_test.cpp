@@ -15,16 +15,19 @@ using testing::Quad;
 
 using testing::epsilon;
 
-/// The full circle of radius r as a quadratic with nine control points (The NURBS Book, Example 7.2).
+/// The full circle of radius r as a quadratic with nine control points (The NURBS Book,
+/// Example 7.2).
 Curve circle(double r) {
   Points points(9, 3);
   std::vector<double> weights;
-  const int corners[9][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
+  const int corners[9][2] = {{1, 0},   {1, 1},  {0, 1},  {-1, 1}, {-1, 0},
+                             {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
   for (int i = 0; i < 9; ++i) {
     points.row(i) << r * corners[i][0], r * corners[i][1], 0;
     weights.push_back(i % 2 == 0 ? 1 : 1 / std::numbers::sqrt2);
   }
-  return testing::make_spline<1>({testing::make_knots(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4})}, points, weights);
+  return testing::make_spline<1>({testing::make_knots(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4})},
+                                 points, weights);
 }
 
 double binomial(int n, int k) {
@@ -46,7 +49,8 @@ TEST(RationalCurve, CircleIsExactToRounding) {
 }
 
 TEST(RationalCurve, DerivativesOfACircleKeepItsRadius) {
-  // C · C = r² for all u, so Σ_j binom(k, j) C^(j) · C^(k−j) = 0 for every order k >= 1, both sides of every knot.
+  // C · C = r² for all u, so Σ_j binom(k, j) C^(j) · C^(k−j) = 0 for every order k >= 1, both sides
+  // of every knot.
   const Curve curve = circle(1);
   Parameters<1> at(81, 1);
   for (int k = 0; k <= 80; ++k) at(k, 0) = k / 20.0;
@@ -58,9 +62,11 @@ TEST(RationalCurve, DerivativesOfACircleKeepItsRadius) {
       for (int k = 1; k <= order; ++k) {
         double sum = 0, size = 0;
         for (int j = 0; j <= k; ++j) {
-          const double term = binomial(k, j) * result->at({j}).row(row).dot(result->at({k - j}).row(row));
+          const double term =
+              binomial(k, j) * result->at({j}).row(row).dot(result->at({k - j}).row(row));
           sum += term;
-          size += binomial(k, j) * result->at({j}).row(row).norm() * result->at({k - j}).row(row).norm();
+          size += binomial(k, j) * result->at({j}).row(row).norm() *
+                  result->at({k - j}).row(row).norm();
         }
         ASSERT_NEAR(sum, 0, 100 * epsilon * size) << "order " << k << " at " << at(row, 0);
       }
@@ -68,13 +74,15 @@ TEST(RationalCurve, DerivativesOfACircleKeepItsRadius) {
   }
 }
 
-/// First derivatives and the mixed one of random surfaces whose weights range over 10^±decades, against quadruple
-/// precision. With |x| <= 1 and W_a the sum of magnitudes that ∂^a w is made of, the quotient rule's terms are at most
-/// 2 W_u / w, and 2 W_uv / w + 4 W_u W_v / w²: rounding errors are relative to these.
+/// First derivatives and the mixed one of random surfaces whose weights range over 10^±decades,
+/// against quadruple precision. With |x| <= 1 and W_a the sum of magnitudes that ∂^a w is made of,
+/// the quotient rule's terms are at most 2 W_u / w, and 2 W_uv / w + 4 W_u W_v / w²: rounding
+/// errors are relative to these.
 void expect_exact_to_rounding(double decades, unsigned seed) {
   std::mt19937_64 random(seed);
   const auto surface = testing::random_spline<2>(
-      random, {testing::uniform_clamped(3, 3), testing::clamped_knots(2, {0, 0.5, 2}, {0, 2, 0})}, decades);
+      random, {testing::uniform_clamped(3, 3), testing::clamped_knots(2, {0, 0.5, 2}, {0, 2, 0})},
+      decades);
   const Parameters<2> at = testing::rows_of<2>(testing::grid_of(surface));
   const auto result = evaluate<2>(surface, at, 2);
   ASSERT_TRUE(result);
@@ -89,7 +97,8 @@ void expect_exact_to_rounding(double decades, unsigned seed) {
       const Quad s = h[c] / w, su = (hu[c] - hu[3] * s) / w, sv = (hv[c] - hv[3] * s) / w;
       const Quad suv = (huv[c] - hu[3] * sv - hv[3] * su - huv[3] * s) / w;
       const auto expect_near = [&](MultiIndex<2> a, Quad exact, Quad terms) {
-        const Quad error = testing::magnitude(result->at(a)(row, static_cast<Eigen::Index>(c)) - exact);
+        const Quad error =
+            testing::magnitude(result->at(a)(row, static_cast<Eigen::Index>(c)) - exact);
         EXPECT_LE(static_cast<double>(error), 32 * epsilon * static_cast<double>(terms));
       };
       expect_near({0, 0}, s, 1);
@@ -111,8 +120,8 @@ TEST(RationalSurface, WeightsMayRangeOverTwelveDecades) {
 
 TEST(RationalSurface, PointsStayInTheBoxOfTheirControlPoints) {
   std::mt19937_64 random(21);
-  const auto surface =
-      testing::random_spline<2>(random, {testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 3)}, 6);
+  const auto surface = testing::random_spline<2>(
+      random, {testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 3)}, 6);
   const auto result = evaluate<2>(surface, testing::rows_of<2>(testing::grid_of(surface)));
   ASSERT_TRUE(result);
   const Eigen::RowVector3d lower = surface.control_points().colwise().minCoeff();
@@ -123,10 +132,11 @@ TEST(RationalSurface, PointsStayInTheBoxOfTheirControlPoints) {
 
 TEST(RationalSurface, EqualWeightsGiveThePolynomialSurface) {
   std::mt19937_64 random(22);
-  const auto polynomial =
-      testing::random_spline<2>(random, {testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 3)});
-  const auto rational = testing::make_spline<2>(polynomial.knots(), polynomial.control_points(),
-                                                std::vector<double>(static_cast<std::size_t>(polynomial.size()), 0.7));
+  const auto polynomial = testing::random_spline<2>(
+      random, {testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 3)});
+  const auto rational = testing::make_spline<2>(
+      polynomial.knots(), polynomial.control_points(),
+      std::vector<double>(static_cast<std::size_t>(polynomial.size()), 0.7));
   const Parameters<2> at = testing::rows_of<2>(testing::grid_of(polynomial));
   const auto expected = evaluate<2>(polynomial, at, 2), got = evaluate<2>(rational, at, 2);
   for (std::size_t k = 0; k < expected->derivatives.size(); ++k) {
@@ -136,14 +146,15 @@ TEST(RationalSurface, EqualWeightsGiveThePolynomialSurface) {
 
 TEST(RationalSurface, CommonFactorOfTheWeightsChangesNoBit) {
   std::mt19937_64 random(23);
-  const auto surface =
-      testing::random_spline<2>(random, {testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 3)}, 1);
+  const auto surface = testing::random_spline<2>(
+      random, {testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 3)}, 1);
   std::vector<double> scaled(surface.weights().begin(), surface.weights().end());
   for (double& w : scaled) w = std::ldexp(w, -40);
   const auto other = testing::make_spline<2>(surface.knots(), surface.control_points(), scaled);
   const Parameters<2> at = testing::rows_of<2>(testing::grid_of(surface));
   const auto a = evaluate<2>(surface, at, 3), b = evaluate<2>(other, at, 3);
-  for (std::size_t k = 0; k < a->derivatives.size(); ++k) EXPECT_EQ(a->derivatives[k], b->derivatives[k]);
+  for (std::size_t k = 0; k < a->derivatives.size(); ++k)
+    EXPECT_EQ(a->derivatives[k], b->derivatives[k]);
 }
 
 TEST(RationalSurface, DenominatorThatIsNotPositiveIsNamed) {
@@ -164,7 +175,8 @@ TEST(RationalSurface, DenominatorThatIsNotPositiveIsNamed) {
 TEST(RationalSurface, NegativeWeightIsFineWhereTheDenominatorStaysPositive) {
   Points points(3, 3);
   points << 0, 0, 0, 1, 1, 0, 2, 0, 0;
-  const auto curve = testing::make_spline<1>({testing::make_knots(2, {0, 0, 0, 1, 1, 1})}, points, {1, -0.5, 1});
+  const auto curve =
+      testing::make_spline<1>({testing::make_knots(2, {0, 0, 0, 1, 1, 1})}, points, {1, -0.5, 1});
   const auto middle = evaluate_point<1>(curve, {0.5});
   ASSERT_TRUE(middle);
   // (1/4 · P0 − 1/2 · 1/2 · P1 + 1/4 · P2) / (1/4 − 1/4 + 1/4) = (1, −1, 0).

@@ -21,7 +21,8 @@ Parameters<2> grid(int pieces) {
   Parameters<2> at((pieces + 1) * (pieces + 1), 2);
   for (int k = 0; k <= pieces; ++k) {
     for (int l = 0; l <= pieces; ++l)
-      at.row(k * (pieces + 1) + l) << static_cast<double>(k) / pieces, static_cast<double>(l) / pieces;
+      at.row(k * (pieces + 1) + l) << static_cast<double>(k) / pieces,
+          static_cast<double>(l) / pieces;
   }
   return at;
 }
@@ -60,15 +61,17 @@ TEST(Revolution, TorusIsExactToRounding) {
     EXPECT_GT(normal.dot(p - Point(p.x(), p.y(), 0) * (major / out)), 0);
   }
   // A turn ends where it began, to the bit.
-  for (int j = 0; j < 9; ++j) EXPECT_EQ(torus->control_points().row(j), torus->control_points().row(8 * 9 + j));
+  for (int j = 0; j < 9; ++j)
+    EXPECT_EQ(torus->control_points().row(j), torus->control_points().row(8 * 9 + j));
 }
 
 TEST(Revolution, EveryPointGoesRoundAtTheRadiusAndHeightOfTheProfile) {
   Points points(6, 3);
   points << 3, 0, 0, 5, 0, 1, 2, 0, 2, 0.5, 0, 4, 1, 0, 6, 0, 0, 7;
   for (const bool rational : {false, true}) {
-    const auto profile = Curve::create({*KnotVector::create(3, {-1, -1, -1, -1, 0, 1.5, 2, 2, 2, 2})}, points,
-                                       rational ? std::vector<double>{1, 2, 0.5, 1, 3, 1} : std::vector<double>{});
+    const auto profile =
+        Curve::create({*KnotVector::create(3, {-1, -1, -1, -1, 0, 1.5, 2, 2, 2, 2})}, points,
+                      rational ? std::vector<double>{1, 2, 0.5, 1, 3, 1} : std::vector<double>{});
     ASSERT_TRUE(profile);
     const auto surface = revolve(*profile);
     ASSERT_TRUE(surface);
@@ -95,7 +98,8 @@ TEST(Revolution, RefusesAProfileOffThePlane) {
   points << 1, 0, 0, 1, 0.1, 1;
   const auto made = revolve(*Curve::create({*KnotVector::clamped_uniform(1, 2)}, points));
   ASSERT_FALSE(made);
-  EXPECT_NE(made.error().message().find("control point 1"), std::string::npos) << made.error().message();
+  EXPECT_NE(made.error().message().find("control point 1"), std::string::npos)
+      << made.error().message();
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace knead::testing {
 
 /// Any valid spline, or a failure that says why there is none.
 template <int D>
-Spline<D> make_spline(std::array<KnotVector, D> knots, Points points, std::vector<double> weights = {}) {
+Spline<D> make_spline(std::array<KnotVector, D> knots, Points points,
+                      std::vector<double> weights = {}) {
   auto made = Spline<D>::create(std::move(knots), std::move(points), std::move(weights));
   if (!made) ADD_FAILURE() << made.error().message();
   return std::move(*made);
@@ -19,14 +20,16 @@ Spline<D> make_spline(std::array<KnotVector, D> knots, Points points, std::vecto
 
 /// Coordinates in [-1, 1]; weights 10^x with |x| <= decades, none for decades < 0.
 template <int D>
-Spline<D> random_spline(std::mt19937_64& random, std::array<KnotVector, D> knots, double decades = -1) {
+Spline<D> random_spline(std::mt19937_64& random, std::array<KnotVector, D> knots,
+                        double decades = -1) {
   int size = 1;
   for (const KnotVector& k : knots) size *= k.count();
   std::uniform_real_distribution<double> uniform(-1, 1);
   Points points(size, 3);
   for (int i = 0; i < size; ++i) points.row(i) << uniform(random), uniform(random), uniform(random);
   std::vector<double> weights;
-  for (int i = 0; i < size && decades >= 0; ++i) weights.push_back(std::pow(10, decades * uniform(random)));
+  for (int i = 0; i < size && decades >= 0; ++i)
+    weights.push_back(std::pow(10, decades * uniform(random)));
   return make_spline<D>(std::move(knots), std::move(points), std::move(weights));
 }
 

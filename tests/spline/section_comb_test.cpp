@@ -28,7 +28,8 @@ void expect_in_plane(const SectionComb& comb, const SectionPlane& plane, double 
 
 TEST(SectionCombs, OfASphereAreOneOverTheRadiusOfTheCircle) {
   const double r = 30;
-  for (const Point& normal : {Point(0, 0, 1), Point(1, 0, 0), Point(0.6, 0, 0.8), Point(0.48, 0.6, 0.64)}) {
+  for (const Point& normal :
+       {Point(0, 0, 1), Point(1, 0, 0), Point(0.6, 0, 0.8), Point(0.48, 0.6, 0.64)}) {
     for (const double offset : {0.3, 12.0, -25.0}) {
       const SectionPlane plane{normal, offset};
       const auto combs = section_combs(sphere(r), plane, 0.01);
@@ -40,9 +41,11 @@ TEST(SectionCombs, OfASphereAreOneOverTheRadiusOfTheCircle) {
         expect_in_plane(comb, plane, r);
         teeth += comb.places.rows();
         for (Eigen::Index k = 0; k < comb.places.rows(); ++k) {
-          const Point towards = offset * normal - Point(comb.places.row(k).transpose());  // of length `small`
+          // Of length `small`.
+          const Point towards = offset * normal - Point(comb.places.row(k).transpose());
           EXPECT_NEAR(towards.norm(), small, 1e-10 * r);
-          EXPECT_NEAR((Point(comb.vectors.row(k).transpose()) - towards / (small * small)).norm(), 0, 1e-9 / small);
+          EXPECT_NEAR((Point(comb.vectors.row(k).transpose()) - towards / (small * small)).norm(),
+                      0, 1e-9 / small);
         }
       }
       EXPECT_GT(teeth, 24);
@@ -92,7 +95,8 @@ TEST(SectionCombs, FollowEachCurveOnce) {
   ASSERT_EQ(combs->size(), 1U);
   const Points& places = combs->front().places;
   double length = 0;
-  for (Eigen::Index k = 0; k + 1 < places.rows(); ++k) length += (places.row(k + 1) - places.row(k)).norm();
+  for (Eigen::Index k = 0; k + 1 < places.rows(); ++k)
+    length += (places.row(k + 1) - places.row(k)).norm();
   const double whole = 2 * std::acos(-1.0) * std::sqrt(800.0);
   EXPECT_LT(length, whole);
   EXPECT_GT(length, 0.99 * whole);

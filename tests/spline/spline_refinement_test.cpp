@@ -16,7 +16,8 @@ using testing::random_spline;
 
 double size_of(const Points& points) { return points.cwiseAbs().maxCoeff(); }
 
-/// The largest distance of both on a grid of the finer one's places, relative to the largest coordinate.
+/// The largest distance of both on a grid of the finer one's places, relative to the largest
+/// coordinate.
 template <int D>
 double moved(const Spline<D>& before, const Spline<D>& after) {
   const auto grid = testing::grid_of(after);
@@ -32,7 +33,9 @@ double moved(const Spline<D>& before, const Spline<D>& after) {
 /// The promise, in which the rounding of both evaluations is included.
 double bound(int p) { return 24 * (p + 1) * 0x1p-52; }
 
-std::vector<double> middles(const KnotVector& knots) { return span_midpoints(knots, knots.domain()); }
+std::vector<double> middles(const KnotVector& knots) {
+  return span_midpoints(knots, knots.domain());
+}
 
 template <class Check>
 void for_each_surface(Check check) {
@@ -95,12 +98,16 @@ TEST(Refine, CurvesAndVolumesAreRefinedByTheSameCode) {
         EXPECT_LE(moved(curve, *bezier), bound(3)) << name;
       }
     }
-    const auto volume = random_spline<3>(
-        random, {clamped_knots(2, {0, 1, 3}), testing::uniform_unclamped(3, 3), testing::periodic(2, {1, 2, 0.5})},
-        decades);
-    const auto finer = insert_knots<3>(volume, {std::vector{0.25, 0.25}, std::vector<double>{}, std::vector{2.75}});
+    const auto volume =
+        random_spline<3>(random,
+                         {clamped_knots(2, {0, 1, 3}), testing::uniform_unclamped(3, 3),
+                          testing::periodic(2, {1, 2, 0.5})},
+                         decades);
+    const auto finer = insert_knots<3>(
+        volume, {std::vector{0.25, 0.25}, std::vector<double>{}, std::vector{2.75}});
     ASSERT_TRUE(finer);
-    EXPECT_EQ(finer->net(), (std::array{volume.net()[0] + 2, volume.net()[1], volume.net()[2] + 1}));
+    EXPECT_EQ(finer->net(),
+              (std::array{volume.net()[0] + 2, volume.net()[1], volume.net()[2] + 1}));
     EXPECT_LE(moved(volume, *finer), bound(3));
     for (int d = 0; d < 3; ++d) EXPECT_LE(moved(volume, *elevate_degree(volume, d)), bound(3));
   }
@@ -108,15 +115,16 @@ TEST(Refine, CurvesAndVolumesAreRefinedByTheSameCode) {
 
 TEST(Refine, BezierPiecesAreTheSpans) {
   std::mt19937_64 random(9);
-  const auto s =
-      random_spline<2>(random, {clamped_knots(3, {0, 1, 2.5, 3}, {0, 2, 4, 0}), clamped_knots(2, {0, 1, 4})});
+  const auto s = random_spline<2>(
+      random, {clamped_knots(3, {0, 1, 2.5, 3}, {0, 2, 4, 0}), clamped_knots(2, {0, 1, 4})});
   const auto pieces = bezier_pieces(s);
   ASSERT_TRUE(pieces);
   EXPECT_EQ(pieces->net(), (std::array{12, 6}));
   EXPECT_LE(moved(s, *pieces), bound(3));
   // Piece (1, 0) stands on its own: rows 4 … 7, columns 0 … 2.
   Points net(12, 3);
-  for (int i = 0; i < 4; ++i) net.middleRows(3 * i, 3) = pieces->control_points().middleRows(6 * (4 + i), 3);
+  for (int i = 0; i < 4; ++i)
+    net.middleRows(3 * i, 3) = pieces->control_points().middleRows(6 * (4 + i), 3);
   const auto piece = make_spline<2>({clamped_knots(3, {1, 2.5}), clamped_knots(2, {0, 1})}, net);
   for (const double u : {1.0, 1.7, 2.25}) {
     const Point a = *evaluate_point<2>(s, {u, 0.4}), b = *evaluate_point<2>(piece, {u, 0.4});
@@ -127,7 +135,8 @@ TEST(Refine, BezierPiecesAreTheSpans) {
 TEST(Refine, ControlPointsAndWeightsThatAreNotTouchedKeepTheirBits) {
   std::mt19937_64 random(6);
   for (const double decades : {-1.0, 6.0}) {
-    const auto s = random_spline<2>(random, {testing::uniform_clamped(3, 20), testing::uniform_clamped(2, 4)}, decades);
+    const auto s = random_spline<2>(
+        random, {testing::uniform_clamped(3, 20), testing::uniform_clamped(2, 4)}, decades);
     const auto finer = insert_knots<2>(s, {std::vector{10.5}, std::vector<double>{}});
     ASSERT_TRUE(finer);
     const int columns = s.net()[1];
@@ -162,7 +171,8 @@ TEST(Refine, KnotsInsertedOneByOneOrTogetherGiveTheSame) {
   for (const double u : list) one_by_one = *insert_knots<1>(one_by_one, {std::vector{u}});
   ASSERT_TRUE(together);
   EXPECT_EQ(together->knots(), one_by_one.knots());
-  EXPECT_LE((together->control_points() - one_by_one.control_points()).cwiseAbs().maxCoeff(), bound(4));
+  EXPECT_LE((together->control_points() - one_by_one.control_points()).cwiseAbs().maxCoeff(),
+            bound(4));
 }
 
 TEST(Refine, ALargeNetIsRefinedInBothDirections) {
@@ -182,7 +192,8 @@ TEST(Refine, ALargeNetIsRefinedInBothDirections) {
 
 TEST(Refine, ARegionHalvesTheSpansItMeets) {
   std::mt19937_64 random(12);
-  const auto s = random_spline<2>(random, {testing::uniform_clamped(3, 8), testing::uniform_clamped(2, 8)});
+  const auto s =
+      random_spline<2>(random, {testing::uniform_clamped(3, 8), testing::uniform_clamped(2, 8)});
   const auto finer = refine_region<2>(s, {Interval{2, 3.5}, Interval{7.5, 99}});
   ASSERT_TRUE(finer);
   EXPECT_EQ(finer->net(), (std::array{13, 11}));
@@ -197,7 +208,8 @@ TEST(Refine, ARegionHalvesTheSpansItMeets) {
 
 TEST(Refine, ErrorsNameTheDirection) {
   std::mt19937_64 random(13);
-  const auto s = random_spline<2>(random, {testing::uniform_clamped(3, 2), testing::uniform_clamped(max_degree, 2)});
+  const auto s = random_spline<2>(
+      random, {testing::uniform_clamped(3, 2), testing::uniform_clamped(max_degree, 2)});
   EXPECT_NE(insert_knots<2>(s, {std::vector<double>{}, std::vector{-1.0}})
                 .error()
                 .message()
@@ -207,7 +219,8 @@ TEST(Refine, ErrorsNameTheDirection) {
   const auto other = Refinement::create(s.knots(0), s.knots(0));
   EXPECT_EQ(refined(s, 1, *other).error().kind, ErrorKind::usage);
   const auto line = make_spline<1>({clamped_knots(1, {0, 1})}, Points::Random(2, 3), {1, -1});
-  EXPECT_EQ(insert_knots<1>(line, {std::vector{0.5}}).error().kind, ErrorKind::numerical) << "weight 0 in the middle";
+  EXPECT_EQ(insert_knots<1>(line, {std::vector{0.5}}).error().kind, ErrorKind::numerical)
+      << "weight 0 in the middle";
 }
 
 }  // namespace

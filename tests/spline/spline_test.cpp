@@ -54,13 +54,16 @@ TEST(Spline, NumbersWhoseProductsOverflowAreRefusedWithPlaceAndValue) {
     const auto far = Curve::create({quadratic}, points);
     ASSERT_FALSE(far) << large;
     EXPECT_EQ(far.error().where, "control point 2");
-    EXPECT_NE(far.error().message().find(fmt::format("coordinate {} is too large", large)), std::string::npos);
+    EXPECT_NE(far.error().message().find(fmt::format("coordinate {} is too large", large)),
+              std::string::npos);
     EXPECT_NE(far.error().message().find("1e+50"), std::string::npos);
     const auto heavy = Curve::create({quadratic}, counted(4), {1, 1, 1, large});
     ASSERT_FALSE(heavy) << large;
     EXPECT_EQ(heavy.error().where, "control point 3");
-    EXPECT_NE(heavy.error().message().find(fmt::format("the weight {} is too large", large)), std::string::npos);
-    const auto long_domain = Curve::create({*KnotVector::create(1, {0, 0, large, large})}, counted(2));
+    EXPECT_NE(heavy.error().message().find(fmt::format("the weight {} is too large", large)),
+              std::string::npos);
+    const auto long_domain =
+        Curve::create({*KnotVector::create(1, {0, 0, large, large})}, counted(2));
     EXPECT_EQ(long_domain.error().where, "knot 3");
     EXPECT_FALSE(Curve::create({*KnotVector::create(1, {0, 0, 1 / large, 1 / large})}, counted(2)));
     EXPECT_FALSE(Curve::create({quadratic}, counted(4), std::vector<double>(4, 1 / large)));
@@ -87,8 +90,10 @@ TEST(Spline, NetThatDoesNotFitTheKnotsIsRefused) {
 TEST(Spline, ControlPointThatIsNoNumberIsNamedByItsIndices) {
   Points points = counted(16);
   points(7, 2) = nan;
-  EXPECT_EQ(Volume::create({linear, quadratic, linear}, points).error().where, "control point (0, 3, 1)");
-  EXPECT_EQ(Surface::create({linear, quadratic}, points.topRows(8)).error().where, "control point (1, 3)");
+  EXPECT_EQ(Volume::create({linear, quadratic, linear}, points).error().where,
+            "control point (0, 3, 1)");
+  EXPECT_EQ(Surface::create({linear, quadratic}, points.topRows(8)).error().where,
+            "control point (1, 3)");
   points(1, 0) = std::numeric_limits<double>::infinity();
   EXPECT_EQ(Curve::create({quadratic}, points.topRows(4)).error().where, "control point 1");
 }

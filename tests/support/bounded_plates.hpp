@@ -25,7 +25,8 @@ inline std::string name_of(IgesBounding bounding) {
 /// Parameters of a B-spline surface (128).
 inline std::string spline_parameters(const Surface& s) {
   const auto [m, n] = s.net();
-  std::string text = fmt::format("{},{},{},{},0,0,1,0,0", m - 1, n - 1, s.knots(0).degree(), s.knots(1).degree());
+  std::string text =
+      fmt::format("{},{},{},{},0,0,1,0,0", m - 1, n - 1, s.knots(0).degree(), s.knots(1).degree());
   for (int d = 0; d < 2; ++d) {
     for (const double t : s.knots(d).knots()) text += "," + StepBuilder::real(t);
   }
@@ -38,8 +39,8 @@ inline std::string spline_parameters(const Surface& s) {
   return text + ",0.,1.,0.,1.";
 }
 
-/// The roof over [0, 4] × [0, 2] times `scale`, as two surfaces that meet smoothly at x = 2; or the west one alone.
-/// \param unit "M", "MM" or "IN"
+/// The roof over [0, 4] × [0, 2] times `scale`, as two surfaces that meet smoothly at x = 2; or the
+/// west one alone. \param unit "M", "MM" or "IN"
 inline BoundedSheets bounded_plates(IgesBounding bounding, const std::string& unit, double scale,
                                     bool with_east = true) {
   IgesBuilder b;
@@ -54,23 +55,27 @@ inline BoundedSheets bounded_plates(IgesBounding bounding, const std::string& un
   for (std::size_t k = 0; k < (with_east ? 2U : 1U); ++k) {
     const auto& [x, u, v] = sheets[k];
     const Surface patch = roof_patch(u, v, {12, 10});
-    const int surface = b.add(128, spline_parameters(*patch.with_control_points(scale * patch.control_points())));
-    const std::array<std::array<double, 2>, 4> corner = {{{x[0], 0}, {x[1], 0}, {x[1], 2}, {x[0], 2}}};
+    const int surface =
+        b.add(128, spline_parameters(*patch.with_control_points(scale * patch.control_points())));
+    const std::array<std::array<double, 2>, 4> corner = {
+        {{x[0], 0}, {x[1], 0}, {x[1], 2}, {x[0], 2}}};
     std::vector<int> space, flat;
     for (std::size_t c = 0; c < 4; ++c) {
       const auto p = corner[c], q = corner[(c + 1) % 4];
       const auto place = [&](const std::array<double, 2>& r, const std::array<double, 2>& to) {
-        return fmt::format("{},{},{}", StepBuilder::real(scale * (r[0] + to[0]) / 2),
-                           StepBuilder::real(scale * (r[1] + to[1]) / 2),
-                           StepBuilder::real(scale * (1 + roof_x(r[0], to[0]) + roof_y(r[1], to[1]))));
+        return fmt::format(
+            "{},{},{}", StepBuilder::real(scale * (r[0] + to[0]) / 2),
+            StepBuilder::real(scale * (r[1] + to[1]) / 2),
+            StepBuilder::real(scale * (1 + roof_x(r[0], to[0]) + roof_y(r[1], to[1]))));
       };
       const auto fraction = [&](const std::array<double, 2>& r) {
         return fmt::format("{},{},0.", StepBuilder::real((r[0] - u[0]) / (u[1] - u[0])),
                            StepBuilder::real((r[1] - v[0]) / (v[1] - v[0])));
       };
       if (bounding != IgesBounding::in_parameters)
-        space.push_back(b.add(126, fmt::format("2,2,0,0,1,0,0.,0.,0.,1.,1.,1.,1.,1.,1.,{},{},{},0.,1.,0.,0.,1.",
-                                               place(p, p), place(p, q), place(q, q))));
+        space.push_back(
+            b.add(126, fmt::format("2,2,0,0,1,0,0.,0.,0.,1.,1.,1.,1.,1.,1.,{},{},{},0.,1.,0.,0.,1.",
+                                   place(p, p), place(p, q), place(q, q))));
       flat.push_back(b.add(110, fraction(p) + "," + fraction(q)));
     }
     const auto joined = [&](const std::vector<int>& curves) {
@@ -85,7 +90,8 @@ inline BoundedSheets bounded_plates(IgesBounding bounding, const std::string& un
       face = b.add(143, fmt::format("1,{},1,{}", surface, b.add(141, parts)));
     } else {
       const int in_space = bounding == IgesBounding::trimmed ? joined(space) : 0;
-      const int on = b.add(142, fmt::format("1,{},{},{},{}", surface, joined(flat), in_space, in_space == 0 ? 1 : 2));
+      const int on = b.add(142, fmt::format("1,{},{},{},{}", surface, joined(flat), in_space,
+                                            in_space == 0 ? 1 : 2));
       face = b.add(144, fmt::format("{},1,0,{}", surface, on));
     }
     result.surfaces[k] = fmt::format("#{}", surface);
@@ -107,8 +113,8 @@ inline std::vector<MadeSheets> all_sheets() {
   for (const std::string unit : {"m", "mm"}) {
     const double scale = unit == "m" ? 5 : 5000;
     for (const Bounding bounding : all_boundings)
-      result.push_back(
-          {name_of(bounding) + "_" + unit, ".step", [=] { return bounded_sheets(bounding, unit, scale); }});
+      result.push_back({name_of(bounding) + "_" + unit, ".step",
+                        [=] { return bounded_sheets(bounding, unit, scale); }});
     for (const IgesBounding bounding : all_iges_boundings)
       result.push_back({"iges_" + name_of(bounding) + "_" + unit, ".igs",
                         [=] { return bounded_plates(bounding, unit == "m" ? "M" : "MM", scale); }});

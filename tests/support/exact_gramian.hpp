@@ -7,8 +7,9 @@
 #include "knead/spline/knot_vector.hpp"
 #include "support/quad_gramian.hpp"
 
-/// Gramians in exact rational arithmetic: doubles are rationals, and so is all that follows from them. Slow; it shows
-/// that quadruple precision is good enough as the reference for everything else.
+/// Gramians in exact rational arithmetic: doubles are rationals, and so is all that follows from
+/// them. Slow; it shows that quadruple precision is good enough as the reference for everything
+/// else.
 namespace knead::testing {
 
 using Polynomial = std::vector<mpq_class>;  ///< coefficients of 1, v, v², …
@@ -46,7 +47,8 @@ inline std::vector<Polynomial> exact_span_basis(const KnotVector& x, int d, int 
 /// G^ab, full rows of the band as in `QuadGramian`: row i, column j − i + p.
 inline std::vector<mpq_class> exact_gramian(const KnotVector& x, int a, int b) {
   const int p = x.degree();
-  std::vector<mpq_class> values(static_cast<std::size_t>(x.count()) * static_cast<std::size_t>(2 * p + 1));
+  std::vector<mpq_class> values(static_cast<std::size_t>(x.count()) *
+                                static_cast<std::size_t>(2 * p + 1));
   if (a > p || b > p) return values;
   for (const int s : x.spans()) {
     const std::vector<Polynomial> f = exact_span_basis(x, a, s), g = exact_span_basis(x, b, s);
@@ -59,7 +61,8 @@ inline std::vector<mpq_class> exact_gramian(const KnotVector& x, int a, int b) {
         mpq_class& sum = values[static_cast<std::size_t>((s - p + i) * (2 * p + 1) + j - i + p)];
         for (std::size_t k = 0; k <= static_cast<std::size_t>(p - a); ++k) {
           for (std::size_t l = 0; l <= static_cast<std::size_t>(p - b); ++l) {
-            sum += f[static_cast<std::size_t>(i)][k] * g[static_cast<std::size_t>(j)][l] * integral[k + l];
+            sum += f[static_cast<std::size_t>(i)][k] * g[static_cast<std::size_t>(j)][l] *
+                   integral[k + l];
           }
         }
       }

@@ -18,7 +18,8 @@ SplineField<D> make_field(std::array<KnotVector, D> knots, std::vector<double> c
 
 /// Coefficients between lower and upper.
 template <int D>
-SplineField<D> random_field(std::array<KnotVector, D> knots, unsigned seed, double lower = 0, double upper = 1) {
+SplineField<D> random_field(std::array<KnotVector, D> knots, unsigned seed, double lower = 0,
+                            double upper = 1) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> value(lower, upper);
   std::size_t count = 1;

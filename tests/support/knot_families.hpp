@@ -11,12 +11,13 @@
 #include "figures/thesis_knots.hpp"
 #include "knead/spline/knot_vector.hpp"
 
-/// Families of knot vectors, so that every algorithm meets every kind of input: `knot_families(p)` is all of them, and
-/// each family stands alone too. `random_knots` draws one of any kind.
+/// Families of knot vectors, so that every algorithm meets every kind of input: `knot_families(p)`
+/// is all of them, and each family stands alone too. `random_knots` draws one of any kind.
 namespace knead::testing {
 
 /// Every degree of the kernels, and some above: for what is slow to check.
-inline const std::vector<int> checked_degrees = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 20, 25};
+inline const std::vector<int> checked_degrees = {1,  2,  3,  4,  5,  6,  7,  8,  9,
+                                                 10, 11, 12, 13, 14, 15, 16, 20, 25};
 
 struct NamedKnots {
   std::string name;
@@ -24,7 +25,8 @@ struct NamedKnots {
 
   /// No short spans beside long ones: what a method must manage that loses digits as spans shrink.
   [[nodiscard]] bool ordinary() const {
-    return name.find("cluster") == name.npos && name.find("tenfold") == name.npos && name.find("thesis") == name.npos;
+    return name.find("cluster") == name.npos && name.find("tenfold") == name.npos &&
+           name.find("thesis") == name.npos;
   }
 };
 
@@ -34,8 +36,10 @@ inline KnotVector make_knots(int degree, std::vector<double> knots) {
   return std::move(*made);
 }
 
-/// Clamped: first and last break p + 1 times, break k in between `multiplicity[k]` times (once where it is empty).
-inline KnotVector clamped_knots(int degree, const std::vector<double>& breaks, std::vector<int> multiplicity = {}) {
+/// Clamped: first and last break p + 1 times, break k in between `multiplicity[k]` times (once
+/// where it is empty).
+inline KnotVector clamped_knots(int degree, const std::vector<double>& breaks,
+                                std::vector<int> multiplicity = {}) {
   multiplicity.resize(breaks.size(), 1);
   multiplicity.front() = multiplicity.back() = degree + 1;
   std::vector<double> knots;
@@ -53,7 +57,8 @@ inline std::vector<double> breaks_of(const std::vector<double>& lengths, double 
 }
 
 inline KnotVector uniform_clamped(int degree, int spans) {
-  return clamped_knots(degree, breaks_of(std::vector<double>(static_cast<std::size_t>(spans), 1.0)));
+  return clamped_knots(degree,
+                       breaks_of(std::vector<double>(static_cast<std::size_t>(spans), 1.0)));
 }
 
 /// Knots 0, 1, 2, …: not clamped, domain of `spans` spans.
@@ -63,12 +68,14 @@ inline KnotVector uniform_unclamped(int degree, int spans) {
   return make_knots(degree, std::move(knots));
 }
 
-/// Knot differences repeat with the period of the domain: the first and the last p functions join smoothly.
+/// Knot differences repeat with the period of the domain: the first and the last p functions join
+/// smoothly.
 inline KnotVector periodic(int degree, const std::vector<double>& lengths) {
   const int count = static_cast<int>(lengths.size());
   std::vector<double> knots{0};
   for (int k = 0; k < count + 2 * degree; ++k) {
-    knots.push_back(knots.back() + lengths[static_cast<std::size_t>(((k - degree) % count + count) % count)]);
+    knots.push_back(knots.back() +
+                    lengths[static_cast<std::size_t>(((k - degree) % count + count) % count)]);
   }
   return make_knots(degree, std::move(knots));
 }
@@ -89,7 +96,8 @@ inline std::vector<NamedKnots> knot_families(int p) {
   add("negative", clamped_knots(p, {-3, -2.5, -1, -0.125, 0, 0.75}));
 
   std::vector<double> growing, shrinking;
-  for (int k = 0; k < 8; ++k) growing.push_back(std::pow(10.0, k - 4)), shrinking.push_back(std::pow(10.0, 4 - k));
+  for (int k = 0; k < 8; ++k)
+    growing.push_back(std::pow(10.0, k - 4)), shrinking.push_back(std::pow(10.0, 4 - k));
   add("spans growing tenfold", clamped_knots(p, breaks_of(growing)));
   add("spans shrinking tenfold", clamped_knots(p, breaks_of(shrinking)));
 
@@ -114,11 +122,13 @@ inline std::vector<NamedKnots> knot_families(int p) {
   {
     // Not clamped, with repetitions inside, at one end of the domain and outside of it.
     std::vector<double> knots;
-    for (int i = 0; i <= 2 * p + 7; ++i) knots.push_back(std::floor(i / 2.0) + (i % 3 == 0 ? 0 : 0.25));
+    for (int i = 0; i <= 2 * p + 7; ++i)
+      knots.push_back(std::floor(i / 2.0) + (i % 3 == 0 ? 0 : 0.25));
     std::ranges::sort(knots);
     add("unclamped with repetitions", make_knots(p, knots));
     if (p >= 2) {
-      std::vector<double> half(static_cast<std::size_t>(p), 0.0);  // multiplicity p at the start: not quite clamped
+      std::vector<double> half(static_cast<std::size_t>(p),
+                               0.0);  // multiplicity p at the start: not quite clamped
       for (int i = 0; i <= p + 4; ++i) half.push_back(1 + i * i / 4.0);
       add("almost clamped at the start", make_knots(p, half));
     }
@@ -131,11 +141,15 @@ inline std::vector<NamedKnots> knot_families(int p) {
   return families;
 }
 
-/// A random knot vector: spans uniform, exponential, log-uniform over ten decades, or clustered; multiplicities mostly
-/// 1 and up to p + 1; ends clamped or not.
+/// A random knot vector: spans uniform, exponential, log-uniform over ten decades, or clustered;
+/// multiplicities mostly 1 and up to p + 1; ends clamped or not.
 inline KnotVector random_knots(std::mt19937_64& random, int p) {
-  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
-  const auto integer = [&](int a, int b) { return std::uniform_int_distribution<int>(a, b)(random); };
+  const auto uniform = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  const auto integer = [&](int a, int b) {
+    return std::uniform_int_distribution<int>(a, b)(random);
+  };
   const int kind = integer(0, 4), spans = integer(1, 12), repeats = integer(0, 3);
   double u = integer(0, 5) == 0 ? uniform(-1e6, 1e6) : uniform(-2, 2);
   const auto length = [&] {
@@ -163,7 +177,9 @@ inline KnotVector random_knots(std::mt19937_64& random, int p) {
   }
   for (int k = 1; k < spans; ++k) {
     u = next(u);
-    knots.insert(knots.end(), static_cast<std::size_t>(repeats == 0 && integer(0, 2) == 0 ? integer(1, p + 1) : 1), u);
+    knots.insert(
+        knots.end(),
+        static_cast<std::size_t>(repeats == 0 && integer(0, 2) == 0 ? integer(1, p + 1) : 1), u);
   }
   u = next(u);
   knots.insert(knots.end(), clamped_end ? static_cast<std::size_t>(p + 1) : 1, u);

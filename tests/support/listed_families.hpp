@@ -8,17 +8,23 @@
 namespace knead::testing {
 
 inline constexpr std::array listed_families = {
-    "uniform",          "random",         "growing tenfold",   "shrinking tenfold", "thesis",   "cluster of 1e-8",
-    "cluster of 1e-13", "knots near 1e6", "one repeated knot", "repeated knots",    "one span", "unclamped"};
+    "uniform",         "random",           "growing tenfold", "shrinking tenfold", "thesis",
+    "cluster of 1e-8", "cluster of 1e-13", "knots near 1e6",  "one repeated knot", "repeated knots",
+    "one span",        "unclamped"};
 
 /// A random member of `listed_families[family]`, all its numbers drawn from `random`.
 inline KnotVector random_member(std::mt19937_64& random, int p, std::size_t family) {
-  const auto real = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
-  const auto integer = [&](int a, int b) { return std::uniform_int_distribution<int>(a, b)(random); };
+  const auto real = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  const auto integer = [&](int a, int b) {
+    return std::uniform_int_distribution<int>(a, b)(random);
+  };
   const std::string name = listed_families.at(family);
   const int spans = integer(2, 12);
   std::vector<double> lengths;
-  for (int k = 0; k < spans; ++k) lengths.push_back(-std::log(real(1e-6, 1)));  // exponential: short beside long
+  for (int k = 0; k < spans; ++k)
+    lengths.push_back(-std::log(real(1e-6, 1)));  // exponential: short beside long
 
   if (name == "uniform") {
     const double h = std::pow(10.0, real(-3, 3));
@@ -37,12 +43,14 @@ inline KnotVector random_member(std::mt19937_64& random, int p, std::size_t fami
     std::vector<double> around;
     const int at = integer(1, spans), size = integer(2, p + 2);
     for (int k = 0; k < spans; ++k) {
-      if (k + 1 == at) around.insert(around.end(), static_cast<std::size_t>(size), gap * real(0.5, 1.5));
+      if (k + 1 == at)
+        around.insert(around.end(), static_cast<std::size_t>(size), gap * real(0.5, 1.5));
       around.push_back(lengths[static_cast<std::size_t>(k)]);
     }
     return clamped_knots(p, breaks_of(around, real(-0.5, 0.5)));
   }
-  if (name == "knots near 1e6") return clamped_knots(p, breaks_of(lengths, integer(0, 1) == 0 ? 1e6 : -1e6));
+  if (name == "knots near 1e6")
+    return clamped_knots(p, breaks_of(lengths, integer(0, 1) == 0 ? 1e6 : -1e6));
   if (name == "one repeated knot" || name == "repeated knots") {
     std::vector<int> multiplicity(lengths.size() + 1, 1);
     if (name == "one repeated knot") {
@@ -57,7 +65,8 @@ inline KnotVector random_member(std::mt19937_64& random, int p, std::size_t fami
     return clamped_knots(p, {start, start + std::pow(10.0, real(-6, 6))});
   }
   if (name == "unclamped") {
-    for (int k = 0; k < 2 * p; ++k) lengths.push_back(integer(0, 5) == 0 ? 0 : -std::log(real(1e-6, 1)));
+    for (int k = 0; k < 2 * p; ++k)
+      lengths.push_back(integer(0, 5) == 0 ? 0 : -std::log(real(1e-6, 1)));
     std::ranges::shuffle(lengths, random);
     lengths[static_cast<std::size_t>(p)] = 1;  // the domain is not empty
     std::vector<double> knots = breaks_of(lengths);

@@ -13,14 +13,15 @@ namespace knead::testing {
 /// The parameters of a B-spline surface (128).
 inline std::string iges_surface(const Surface& s) {
   const auto [m, n] = s.net();
-  std::string text = fmt::format("{},{},{},{},0,0,{},0,0", m - 1, n - 1, s.knots(0).degree(), s.knots(1).degree(),
-                                 s.rational() ? 0 : 1);
+  std::string text = fmt::format("{},{},{},{},0,0,{},0,0", m - 1, n - 1, s.knots(0).degree(),
+                                 s.knots(1).degree(), s.rational() ? 0 : 1);
   for (int d = 0; d < 2; ++d) {
     for (const double knot : s.knots(d).knots()) text += fmt::format(",{:.17E}", knot);
   }
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < m; ++i) {
-      text += fmt::format(",{:.17E}", s.rational() ? s.weights()[static_cast<std::size_t>(i * n + j)] : 1.0);
+      text += fmt::format(",{:.17E}",
+                          s.rational() ? s.weights()[static_cast<std::size_t>(i * n + j)] : 1.0);
     }
   }
   for (int j = 0; j < n; ++j) {
@@ -35,10 +36,12 @@ inline std::string iges_surface(const Surface& s) {
 
 /// A flat bicubic sheet over [x, x + 4] × [0, 2], wider by 1 on every side, on knots of its own.
 inline Surface wide_sheet(double x, int columns, int rows) {
-  const KnotVector u = *KnotVector::clamped_uniform(3, columns), v = *KnotVector::clamped_uniform(3, rows);
+  const KnotVector u = *KnotVector::clamped_uniform(3, columns),
+                   v = *KnotVector::clamped_uniform(3, rows);
   Points points(columns * rows, 3);
   for (int i = 0; i < columns; ++i) {
-    for (int j = 0; j < rows; ++j) points.row(i * rows + j) << x - 1 + 6 * u.greville(i), 4 * v.greville(j) - 1, 0;
+    for (int j = 0; j < rows; ++j)
+      points.row(i * rows + j) << x - 1 + 6 * u.greville(i), 4 * v.greville(j) - 1, 0;
   }
   return *Surface::create({u, v}, points);
 }
@@ -73,8 +76,8 @@ inline std::string bounded_143() {
   return b.text();
 }
 
-/// A B-rep solid (186): a box of six bilinear surfaces, whose faces (510) share edges (504) and vertices (502), in inch
-/// and with other delimiters.
+/// A B-rep solid (186): a box of six bilinear surfaces, whose faces (510) share edges (504) and
+/// vertices (502), in inch and with other delimiters.
 inline std::string solid_186() {
   IgesBuilder b;
   b.separator = '/';
@@ -86,7 +89,9 @@ inline std::string solid_186() {
     std::ranges::replace(text, ',', '/');
     return b.add(type, text, 0, form);
   };
-  const auto place = [](int k) { return fmt::format("{}.,{}.,{}.", 3 * (k & 1), 2 * ((k >> 1) & 1), (k >> 2) & 1); };
+  const auto place = [](int k) {
+    return fmt::format("{}.,{}.,{}.", 3 * (k & 1), 2 * ((k >> 1) & 1), (k >> 2) & 1);
+  };
   std::string places = "8", ends = "12";
   for (int k = 0; k < 8; ++k) places += "," + place(k);
   const int vertices = add(502, places, 1);
@@ -106,15 +111,17 @@ inline std::string solid_186() {
       {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
   std::string shell = "6";
   for (const auto& side : sides) {
-    const int surface = add(128, "1,1,1,1,0,0,1,0,0,0.,0.,1.,1.,0.,0.,1.,1.,1.,1.,1.,1.," + place(side[0]) + "," +
-                                     place(side[1]) + "," + place(side[3]) + "," + place(side[2]) + ",0.,1.,0.,1.");
+    const int surface =
+        add(128, "1,1,1,1,0,0,1,0,0,0.,0.,1.,1.,0.,0.,1.,1.,1.,1.,1.,1.," + place(side[0]) + "," +
+                     place(side[1]) + "," + place(side[3]) + "," + place(side[2]) + ",0.,1.,0.,1.");
     std::string loop = "4";
     for (std::size_t k = 0; k < 4; ++k) {
       const int from = side[k], to = side[(k + 1) % 4];
       const auto at = std::ranges::find(edges, std::array{std::min(from, to), std::max(from, to)});
       loop += fmt::format(",0,{},{},{},0", list, at - edges.begin() + 1, from < to ? 1 : 0);
     }
-    shell += fmt::format(",{},1", add(510, fmt::format("{},1,1,{}", surface, add(508, loop, 1)), 1));
+    shell +=
+        fmt::format(",{},1", add(510, fmt::format("{},1,1,{}", surface, add(508, loop, 1)), 1));
   }
   add(186, fmt::format("{},1,0", add(514, shell, 1)));
   return b.text();

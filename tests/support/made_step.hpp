@@ -22,14 +22,16 @@ class StepBuilder : public FaceBuilder {
                                     : "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
     if (unit == "inch") {
       const int exponents = entity("DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)");
-      const int measure = entity(fmt::format("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(2.54E1),#{})", length));
-      length =
-          entity(fmt::format("(CONVERSION_BASED_UNIT('INCH',#{})LENGTH_UNIT()NAMED_UNIT(#{}))", measure, exponents));
+      const int measure =
+          entity(fmt::format("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(2.54E1),#{})", length));
+      length = entity(fmt::format("(CONVERSION_BASED_UNIT('INCH',#{})LENGTH_UNIT()NAMED_UNIT(#{}))",
+                                  measure, exponents));
     }
     const int angle = entity("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
     const int solid = entity("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
-    const int near = entity(
-        fmt::format("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-6),#{},'distance_accuracy_value','')", length));
+    const int near = entity(fmt::format(
+        "UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-6),#{},'distance_accuracy_value','')",
+        length));
     return entity(
         fmt::format("(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#{}))"
                     "GLOBAL_UNIT_ASSIGNED_CONTEXT((#{},#{},#{}))REPRESENTATION_CONTEXT('','3D'))",
@@ -40,14 +42,17 @@ class StepBuilder : public FaceBuilder {
     int definition = 0, representation = 0, frame = 0;
   };
   /// A product whose shape is a representation of this type; `items` are there beside its frame.
-  Product product(const std::string& name, const std::string& type, const std::vector<int>& items, int context) {
+  Product product(const std::string& name, const std::string& type, const std::vector<int>& items,
+                  int context) {
     const int application = entity("APPLICATION_CONTEXT('mechanical design')");
     const int owner = entity(fmt::format("PRODUCT_CONTEXT('',#{},'mechanical')", application));
     const int made = entity(fmt::format("PRODUCT('{0}','{0}','',(#{1}))", name, owner));
     const int version = entity(fmt::format("PRODUCT_DEFINITION_FORMATION('1','',#{})", made));
-    const int stage = entity(fmt::format("PRODUCT_DEFINITION_CONTEXT('part definition',#{},'design')", application));
+    const int stage = entity(
+        fmt::format("PRODUCT_DEFINITION_CONTEXT('part definition',#{},'design')", application));
     Product result;
-    result.definition = entity(fmt::format("PRODUCT_DEFINITION('design','',#{},#{})", version, stage));
+    result.definition =
+        entity(fmt::format("PRODUCT_DEFINITION('design','',#{},#{})", version, stage));
     result.frame = frame();
     std::string list = ref(result.frame);
     for (const int item : items) list += "," + ref(item);
@@ -58,10 +63,11 @@ class StepBuilder : public FaceBuilder {
   }
   /// Puts a product into another, whose representation has the frame as an item.
   void place(const Product& part, const Product& whole, int frame, const std::string& name) {
-    const int use = entity(fmt::format("NEXT_ASSEMBLY_USAGE_OCCURRENCE('{0}','{0}','',#{1},#{2},$)", name,
-                                       whole.definition, part.definition));
+    const int use = entity(fmt::format("NEXT_ASSEMBLY_USAGE_OCCURRENCE('{0}','{0}','',#{1},#{2},$)",
+                                       name, whole.definition, part.definition));
     const int shape = entity(fmt::format("PRODUCT_DEFINITION_SHAPE('','',#{})", use));
-    const int move = entity(fmt::format("ITEM_DEFINED_TRANSFORMATION('','',#{},#{})", part.frame, frame));
+    const int move =
+        entity(fmt::format("ITEM_DEFINED_TRANSFORMATION('','',#{},#{})", part.frame, frame));
     const int relation =
         entity(fmt::format("(REPRESENTATION_RELATIONSHIP('','',#{},#{})"
                            "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#{})"
@@ -71,7 +77,8 @@ class StepBuilder : public FaceBuilder {
   }
   int placement(std::array<double, 3> at, std::array<double, 3> axis, std::array<double, 3> along) {
     return entity(fmt::format("AXIS2_PLACEMENT_3D('',#{},#{},#{})", point(at[0], at[1], at[2]),
-                              direction(axis[0], axis[1], axis[2]), direction(along[0], along[1], along[2])));
+                              direction(axis[0], axis[1], axis[2]),
+                              direction(along[0], along[1], along[2])));
   }
   int plane(std::array<double, 3> at, std::array<double, 3> normal, std::array<double, 3> along) {
     return entity(fmt::format("PLANE('',#{})", placement(at, normal, along)));
@@ -86,17 +93,20 @@ class StepBuilder : public FaceBuilder {
       for (int j = 0; j < n; ++j) {
         const auto p = s.control_points().row(i * n + j);
         row.push_back(point(p[0], p[1], p[2]));
-        if (s.rational()) row_weights += (j == 0 ? "" : ",") + real(s.weights()[static_cast<std::size_t>(i * n + j)]);
+        if (s.rational())
+          row_weights +=
+              (j == 0 ? "" : ",") + real(s.weights()[static_cast<std::size_t>(i * n + j)]);
       }
       net += (i == 0 ? "(" : ",(") + list_of(row) + ")";
       weights += (i == 0 ? "(" : ",(") + row_weights + ")";
     }
     const auto [mu, ku] = distinct(s.knots(0));
     const auto [mv, kv] = distinct(s.knots(1));
-    const std::string degrees =
-        fmt::format("{},{},({}),.UNSPECIFIED.,.F.,.F.,.F.", s.knots(0).degree(), s.knots(1).degree(), net);
+    const std::string degrees = fmt::format("{},{},({}),.UNSPECIFIED.,.F.,.F.,.F.",
+                                            s.knots(0).degree(), s.knots(1).degree(), net);
     const std::string knots = fmt::format("({}),({}),({}),({}),.UNSPECIFIED.", mu, mv, ku, kv);
-    if (!s.rational()) return entity(fmt::format("B_SPLINE_SURFACE_WITH_KNOTS('{}',{},{})", name, degrees, knots));
+    if (!s.rational())
+      return entity(fmt::format("B_SPLINE_SURFACE_WITH_KNOTS('{}',{},{})", name, degrees, knots));
     return entity(
         fmt::format("(BOUNDED_SURFACE()B_SPLINE_SURFACE({})B_SPLINE_SURFACE_WITH_KNOTS({})"
                     "GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(({}))"
@@ -108,17 +118,19 @@ class StepBuilder : public FaceBuilder {
     std::vector<int> ids;
     for (const auto& p : points) ids.push_back(point(p[0], p[1], p[2]));
     const std::size_t order = points.size();
-    return edge(from, to,
-                fmt::format("B_SPLINE_CURVE_WITH_KNOTS('',{0},({1}),.UNSPECIFIED.,.F.,.F.,({2},{2}),(0.,1.),"
-                            ".UNSPECIFIED.)",
-                            order - 1, list_of(ids), order));
+    return edge(
+        from, to,
+        fmt::format(
+            "B_SPLINE_CURVE_WITH_KNOTS('',{0},({1}),.UNSPECIFIED.,.F.,.F.,({2},{2}),(0.,1.),"
+            ".UNSPECIFIED.)",
+            order - 1, list_of(ids), order));
   }
   int straight_edge(int from, int to, std::array<double, 3> a, std::array<double, 3> b) {
     return line(from, to, a, {b[0] - a[0], b[1] - a[1], b[2] - a[2]});
   }
 
-  /// The file of these records in the opposite order, one that some systems write, with a comment before each
-  /// hundredth.
+  /// The file of these records in the opposite order, one that some systems write, with a comment
+  /// before each hundredth.
   [[nodiscard]] std::string backward(const std::string& schema) const {
     const std::string all = text();
     std::string data;
@@ -132,12 +144,16 @@ class StepBuilder : public FaceBuilder {
     }
     return file_of(schema, data);
   }
-  [[nodiscard]] std::string forward(const std::string& schema) const { return file_of(schema, text()); }
+  [[nodiscard]] std::string forward(const std::string& schema) const {
+    return file_of(schema, text());
+  }
 
  private:
   static std::string file_of(const std::string& schema, const std::string& data) {
-    return "ISO-10303-21;\r\nHEADER;\r\n/* of another system */\r\nFILE_DESCRIPTION((''),'2;1');\r\n"
-           "FILE_NAME('Geh\\X2\\00E4\\X0\\use','2024-01-01T00:00:00',('O''Hara'),(''),'','','');\r\nFILE_SCHEMA(('" +
+    return "ISO-10303-21;\r\nHEADER;\r\n/* of another system "
+           "*/\r\nFILE_DESCRIPTION((''),'2;1');\r\n"
+           "FILE_NAME('Geh\\X2\\00E4\\X0\\use','2024-01-01T00:00:00',('O''Hara'),(''),'','','');"
+           "\r\nFILE_SCHEMA(('" +
            schema + "'));\r\nENDSEC;\r\nDATA;\r\n" + data + "ENDSEC;\r\nEND-ISO-10303-21;\r\n";
   }
   /// Multiplicities and distinct knots.

@@ -14,7 +14,9 @@
 
 namespace knead::testing {
 
-inline std::filesystem::path samples() { return std::filesystem::path(KNEAD_SOURCE_DIR) / "samples"; }
+inline std::filesystem::path samples() {
+  return std::filesystem::path(KNEAD_SOURCE_DIR) / "samples";
+}
 
 /// How files are made that tests read by their names.
 using FileMakers = std::map<std::string, std::function<bool(const std::filesystem::path&)>>;
@@ -23,7 +25,9 @@ inline FileMakers& file_makers() {
     FileMakers all;
     for (const auto* list : {&made_step_files, &made_iges_files}) {
       for (const auto& [name, text] : *list) {
-        all[name] = [text](const auto& path) { return write_file_atomically(path, text()).has_value(); };
+        all[name] = [text](const auto& path) {
+          return write_file_atomically(path, text()).has_value();
+        };
       }
     }
     return all;
@@ -34,7 +38,8 @@ inline FileMakers& file_makers() {
 /// The folder of made files, which goes with the process.
 inline const std::filesystem::path& made_folder() {
   struct Folder {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / ("knead-made-" + std::to_string(::getpid()));
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("knead-made-" + std::to_string(::getpid()));
     Folder() { std::filesystem::create_directories(path); }
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
@@ -69,11 +74,15 @@ inline std::vector<std::string> with_own(std::vector<std::string> own, const aut
   return own;
 }
 /// STEP files of the project: those of `samples`, and made ones.
-inline std::vector<std::string> own_step() { return with_own({"bonnet.step"}, names_of(made_step_files)); }
+inline std::vector<std::string> own_step() {
+  return with_own({"bonnet.step"}, names_of(made_step_files));
+}
 
 // All files of a kind, the parameters of tests.
 inline std::vector<std::string> step_files() { return with_own(own_step(), foreign_step); }
-inline std::vector<std::string> iges_files() { return with_own(names_of(made_iges_files), foreign_iges); }
+inline std::vector<std::string> iges_files() {
+  return with_own(names_of(made_iges_files), foreign_iges);
+}
 
 inline std::vector<std::filesystem::path> own_step_paths() {
   std::vector<std::filesystem::path> result;

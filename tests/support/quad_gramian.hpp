@@ -5,8 +5,9 @@
 
 #include "knead/spline/knot_vector.hpp"
 
-/// Reference values in quadruple precision (113 bits): sums of positive terms come out right to about 1e-32, sums that
-/// cancel to 1e-32 of their terms. Written independently of the library: its own basis functions, derivatives and rule.
+/// Reference values in quadruple precision (113 bits): sums of positive terms come out right to
+/// about 1e-32, sums that cancel to 1e-32 of their terms. Written independently of the library: its
+/// own basis functions, derivatives and rule.
 namespace knead::testing {
 
 __extension__ typedef __float128 Quad;
@@ -37,8 +38,8 @@ inline QuadRule quad_rule(int n) {
   return rule;
 }
 
-/// N_i^(d)(u) of degree q, the polynomial piece of span s, by the defining recursion (Cox–de Boor; a function without
-/// support counts as zero).
+/// N_i^(d)(u) of degree q, the polynomial piece of span s, by the defining recursion (Cox–de Boor;
+/// a function without support counts as zero).
 template <class Knots>
 Quad quad_basis(const Knots& x, int i, int q, int d, int s, Quad u) {
   if (d > q || i > s || s > i + q) return 0;
@@ -55,13 +56,16 @@ Quad quad_basis(const Knots& x, int i, int q, int d, int s, Quad u) {
   return value;
 }
 
-/// The sign of the second term of a derivative, N' = q (N/d − N/d): `magnitudes` adds up what `values` subtracts, which
-/// gives the sum of the magnitudes of all terms, the size that rounding errors are relative to.
+/// The sign of the second term of a derivative, N' = q (N/d − N/d): `magnitudes` adds up what
+/// `values` subtracts, which gives the sum of the magnitudes of all terms, the size that rounding
+/// errors are relative to.
 enum class Terms { values, magnitudes };
 
-/// All p + 1 functions of span s at once, order d, in O(p²): the same recursion by levels. out[r] = N_{s-p+r}^(d)(u).
+/// All p + 1 functions of span s at once, order d, in O(p²): the same recursion by levels. out[r] =
+/// N_{s-p+r}^(d)(u).
 template <class Knots>
-std::vector<Quad> quad_span_basis(const Knots& x, int p, int d, int s, Quad u, Terms terms = Terms::values) {
+std::vector<Quad> quad_span_basis(const Knots& x, int p, int d, int s, Quad u,
+                                  Terms terms = Terms::values) {
   const int sign = terms == Terms::values ? -1 : 1;
   std::vector<Quad> level(static_cast<std::size_t>(p) + 1, Quad(0));
   if (d > p) return level;
@@ -72,7 +76,8 @@ std::vector<Quad> quad_span_basis(const Knots& x, int p, int d, int s, Quad u, T
       const auto at = static_cast<std::size_t>(r);
       Quad here = 0, after = 0;
       if (r < q) {
-        const Quad lower = Quad(x[s + 1 - q + r]), upper = Quad(x[s + 1 + r]), quotient = level[at] / (upper - lower);
+        const Quad lower = Quad(x[s + 1 - q + r]), upper = Quad(x[s + 1 + r]),
+                   quotient = level[at] / (upper - lower);
         here = q > p - d ? sign * q * quotient : (upper - u) * quotient;
         after = q > p - d ? q * quotient : (u - lower) * quotient;
       }
@@ -83,19 +88,26 @@ std::vector<Quad> quad_span_basis(const Knots& x, int p, int d, int s, Quad u, T
   return level;
 }
 
-/// G^ab and ∫|N_i^(a) N_j^(b)| (the latter by the points of the rule), as full rows of the band: row i, column j − i +
-/// p. By `Terms::magnitudes` the latter is the integral of the products of the sums of magnitudes instead.
+/// G^ab and ∫|N_i^(a) N_j^(b)| (the latter by the points of the rule), as full rows of the band:
+/// row i, column j − i + p. By `Terms::magnitudes` the latter is the integral of the products of
+/// the sums of magnitudes instead.
 struct QuadGramian {
   int n = 0, p = 0;
   std::vector<Quad> values, absolutes;
   [[nodiscard]] std::size_t at(int i, int j) const {
-    return static_cast<std::size_t>(i) * static_cast<std::size_t>(2 * p + 1) + static_cast<std::size_t>(j - i + p);
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(2 * p + 1) +
+           static_cast<std::size_t>(j - i + p);
   }
-  [[nodiscard]] Quad value(int i, int j) const { return i - j > p || j - i > p ? Quad(0) : values[at(i, j)]; }
-  [[nodiscard]] Quad absolute(int i, int j) const { return i - j > p || j - i > p ? Quad(0) : absolutes[at(i, j)]; }
+  [[nodiscard]] Quad value(int i, int j) const {
+    return i - j > p || j - i > p ? Quad(0) : values[at(i, j)];
+  }
+  [[nodiscard]] Quad absolute(int i, int j) const {
+    return i - j > p || j - i > p ? Quad(0) : absolutes[at(i, j)];
+  }
 };
 
-inline QuadGramian quad_gramian(const KnotVector& knots, int a, int b, Terms beside = Terms::values) {
+inline QuadGramian quad_gramian(const KnotVector& knots, int a, int b,
+                                Terms beside = Terms::values) {
   const int p = knots.degree(), n = knots.count();
   QuadGramian result{n, p, {}, {}};
   result.values.assign(static_cast<std::size_t>(n) * static_cast<std::size_t>(2 * p + 1), Quad(0));
@@ -114,7 +126,8 @@ inline QuadGramian quad_gramian(const KnotVector& knots, int a, int b, Terms bes
       }
       for (std::size_t i = 0; i < f.size(); ++i) {
         for (std::size_t j = 0; j < f.size(); ++j) {
-          const std::size_t at = result.at(s - p + static_cast<int>(i), s - p + static_cast<int>(j));
+          const std::size_t at =
+              result.at(s - p + static_cast<int>(i), s - p + static_cast<int>(j));
           result.values[at] += weight * f[i] * h_b[j];
           result.absolutes[at] += magnitude(weight * size_a[i] * size_b[j]);
         }

@@ -9,9 +9,10 @@
 
 namespace knead::testing {
 
-/// ∫ R_i^(a) R_j^(b) in quadruple precision: each span in parts that halve towards both ends, where the
-/// poles come near, 24 points each.
-inline Eigen::MatrixXd quad_rational(const KnotVector& knots, const std::vector<double>& weights, int a, int b) {
+/// ∫ R_i^(a) R_j^(b) in quadruple precision: each span in parts that halve towards both ends, where
+/// the poles come near, 24 points each.
+inline Eigen::MatrixXd quad_rational(const KnotVector& knots, const std::vector<double>& weights,
+                                     int a, int b) {
   const int p = knots.degree(), n = knots.count();
   static const QuadRule rule = quad_rule(24);
   std::vector<Quad> sums(static_cast<std::size_t>(n * n), Quad(0));
@@ -52,7 +53,8 @@ inline Eigen::MatrixXd quad_rational(const KnotVector& knots, const std::vector<
   }
   Eigen::MatrixXd result(n, n);
   for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) result(i, j) = static_cast<double>(sums[static_cast<std::size_t>(i * n + j)]);
+    for (int j = 0; j < n; ++j)
+      result(i, j) = static_cast<double>(sums[static_cast<std::size_t>(i * n + j)]);
   }
   return result;
 }

@@ -7,7 +7,8 @@
 namespace knead::testing {
 
 inline PlacedShape sphere_at(const Point& centre, double radius) {
-  auto made = PlacedShape::create(SphereShape{radius}, {Eigen::Quaterniond::Identity(), centre, {1, 1, 1}});
+  auto made =
+      PlacedShape::create(SphereShape{radius}, {Eigen::Quaterniond::Identity(), centre, {1, 1, 1}});
   if (!made) ADD_FAILURE() << made.error().message();
   return std::move(*made);
 }

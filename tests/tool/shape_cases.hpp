@@ -55,7 +55,9 @@ inline Sheet turned(std::function<std::array<double, 2>(double)> meridian) {
   };
 }
 inline Sheet turned_segment(double ra, double za, double rb, double zb) {
-  return turned([=](double t) { return std::array<double, 2>{ra + t * (rb - ra), za + t * (zb - za)}; });
+  return turned([=](double t) {
+    return std::array<double, 2>{ra + t * (rb - ra), za + t * (zb - za)};
+  });
 }
 inline Sheet turned_arc(double rc, double zc, double r, double from, double to) {
   return turned([=](double t) {
@@ -65,7 +67,9 @@ inline Sheet turned_arc(double rc, double zc, double r, double from, double to) 
 }
 
 inline ShapeCase superellipsoid_case(std::array<double, 3> a, double e1, double e2) {
-  ShapeCase c{"superellipsoid " + std::to_string(e1) + " " + std::to_string(e2), SuperellipsoidShape{a, e1, e2}, {}};
+  ShapeCase c{"superellipsoid " + std::to_string(e1) + " " + std::to_string(e2),
+              SuperellipsoidShape{a, e1, e2},
+              {}};
   for (int half = 0; half < 2; ++half) {
     c.sheets.push_back([=](double u, double v) {
       const auto m = superellipse(u / 4 + (half == 0 ? 0 : 0.75), e1), p = superellipse(v, e2);
@@ -76,7 +80,9 @@ inline ShapeCase superellipsoid_case(std::array<double, 3> a, double e1, double 
 }
 
 inline ShapeCase supertoroid_case(double major, std::array<double, 2> a, double e1, double e2) {
-  ShapeCase c{"supertoroid " + std::to_string(e1) + " " + std::to_string(e2), SupertoroidShape{major, a, e1, e2}, {}};
+  ShapeCase c{"supertoroid " + std::to_string(e1) + " " + std::to_string(e2),
+              SupertoroidShape{major, a, e1, e2},
+              {}};
   c.sheets.push_back([=](double u, double v) {
     const auto m = superellipse(u, e1), p = superellipse(v, e2);
     const double rho = major + a[0] * m[0];
@@ -127,7 +133,8 @@ inline ShapeCase wedge_case(double length, double angle, double height, double r
       return std::array<double, 2>{rounding * std::cos(b), centre + rounding * std::sin(b)};
     });
   }
-  c.sheets.push_back([=](double u, double v) { return Point(length * (u - 0.5), foot * (2 * v - 1), 0); });
+  c.sheets.push_back(
+      [=](double u, double v) { return Point(length * (u - 0.5), foot * (2 * v - 1), 0); });
   for (double side : {-1.0, 1.0}) {
     for (const auto& piece : pieces) {
       c.sheets.push_back([=](double u, double v) {
@@ -150,26 +157,31 @@ inline std::vector<ShapeCase> shape_cases() {
   cases.push_back({"sphere", SphereShape{0.7}, {turned_arc(0, 0, 0.7, -0.5, 0.5)}});
   cases.push_back({"ellipsoid", EllipsoidShape{{0.5, 1.2, 0.8}}, {[](double u, double v) {
                      const double a = std::numbers::pi * (u - 0.5), b = 2 * std::numbers::pi * v;
-                     return Point(0.5 * std::cos(a) * std::cos(b), 1.2 * std::cos(a) * std::sin(b), 0.8 * std::sin(a));
+                     return Point(0.5 * std::cos(a) * std::cos(b), 1.2 * std::cos(a) * std::sin(b),
+                                  0.8 * std::sin(a));
                    }}});
   cases.push_back(box_case({0.5, 1, 0.7}, 0));
   cases.push_back(box_case({0.5, 1, 0.7}, 0.2));
-  cases.push_back(
-      {"cylinder",
-       CylinderShape{0.6, 0.9},
-       {turned_segment(0, -0.9, 0.6, -0.9), turned_segment(0.6, -0.9, 0.6, 0.9), turned_segment(0.6, 0.9, 0, 0.9)}});
-  cases.push_back({"cone", ConeShape{0.6, 1.1, 0}, {turned_segment(0, 0, 0.6, 0), turned_segment(0.6, 0, 0, 1.1)}});
+  cases.push_back({"cylinder",
+                   CylinderShape{0.6, 0.9},
+                   {turned_segment(0, -0.9, 0.6, -0.9), turned_segment(0.6, -0.9, 0.6, 0.9),
+                    turned_segment(0.6, 0.9, 0, 0.9)}});
+  cases.push_back({"cone",
+                   ConeShape{0.6, 1.1, 0},
+                   {turned_segment(0, 0, 0.6, 0), turned_segment(0.6, 0, 0, 1.1)}});
   cases.push_back({"frustum",
                    ConeShape{0.6, 1.1, 0.9},
-                   {turned_segment(0, 0, 0.6, 0), turned_segment(0.6, 0, 0.9, 1.1), turned_segment(0.9, 1.1, 0, 1.1)}});
-  cases.push_back(
-      {"capsule",
-       CapsuleShape{0.5, 0.8},
-       {turned_arc(0, 0.8, 0.5, 0, 0.5), turned_segment(0.5, 0.8, 0.5, -0.8), turned_arc(0, -0.8, 0.5, -0.5, 0)}});
+                   {turned_segment(0, 0, 0.6, 0), turned_segment(0.6, 0, 0.9, 1.1),
+                    turned_segment(0.9, 1.1, 0, 1.1)}});
+  cases.push_back({"capsule",
+                   CapsuleShape{0.5, 0.8},
+                   {turned_arc(0, 0.8, 0.5, 0, 0.5), turned_segment(0.5, 0.8, 0.5, -0.8),
+                    turned_arc(0, -0.8, 0.5, -0.5, 0)}});
   cases.push_back({"torus", TorusShape{1, 0.3}, {turned_arc(1, 0, 0.3, 0, 2)}});
   cases.push_back({"bowl",
                    BowlShape{1, 0.2},
-                   {turned_arc(0, 0, 1, -0.5, 0), turned_arc(0, 0, 0.8, -0.5, 0), turned_segment(0.8, 0, 1, 0)}});
+                   {turned_arc(0, 0, 1, -0.5, 0), turned_arc(0, 0, 0.8, -0.5, 0),
+                    turned_segment(0.8, 0, 1, 0)}});
   for (auto [e1, e2] : {std::pair{1.0, 1.0},
                         {0.1, 0.1},
                         {0.1, 1.0},
@@ -199,7 +211,8 @@ struct Posed {
   }
 };
 
-/// The least distance from x to the sheets: a grid of samples, the best dozen of which are improved by compass search.
+/// The least distance from x to the sheets: a grid of samples, the best dozen of which are improved
+/// by compass search.
 class BruteForce {
  public:
   BruteForce(const std::vector<Sheet>& sheets, const Posed& pose, int steps = 64) : steps_(steps) {
@@ -215,11 +228,14 @@ class BruteForce {
   }
   [[nodiscard]] double distance(const Point& x, std::size_t improved = 12) const {
     std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t k = 0; k < samples_.size(); ++k) order.push_back({(samples_[k].point - x).squaredNorm(), k});
+    for (std::size_t k = 0; k < samples_.size(); ++k)
+      order.push_back({(samples_[k].point - x).squaredNorm(), k});
     improved = std::min(improved, order.size());
-    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(improved), order.end());
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(improved),
+                      order.end());
     double best = std::sqrt(order.front().first);
-    for (std::size_t k = 0; k < improved; ++k) best = std::min(best, improve(x, samples_[order[k].second]));
+    for (std::size_t k = 0; k < improved; ++k)
+      best = std::min(best, improve(x, samples_[order[k].second]));
     return best;
   }
 
@@ -235,7 +251,8 @@ class BruteForce {
       bool better = false;
       for (int k = 0; k < 8; ++k) {
         const double a = std::numbers::pi / 4 * k;
-        const double tu = std::clamp(u + h * std::cos(a), 0.0, 1.0), tv = std::clamp(v + h * std::sin(a), 0.0, 1.0);
+        const double tu = std::clamp(u + h * std::cos(a), 0.0, 1.0),
+                     tv = std::clamp(v + h * std::sin(a), 0.0, 1.0);
         const double d = (sheets_[s.sheet](tu, tv) - x).norm();
         if (d < best) {
           best = d;
@@ -255,8 +272,8 @@ class BruteForce {
   std::vector<Sample> samples_;
 };
 
-/// Three numbers, drawn one after the other, the last coordinate first: compilers differ in the order in which they
-/// evaluate arguments.
+/// Three numbers, drawn one after the other, the last coordinate first: compilers differ in the
+/// order in which they evaluate arguments.
 template <class Distribution>
 Point drawn(Distribution& numbers, std::mt19937_64& random) {
   const double z = numbers(random), y = numbers(random), x = numbers(random);

@@ -23,13 +23,15 @@ double extent(const Posed& pose) {
   return std::max({pose.placement.scale[0], pose.placement.scale[1], pose.placement.scale[2]});
 }
 
-/// (|x|^(2/e) + |y|^(2/e))^(e/2); what is 1e-11 of the other counts as zero, because at a cusp its rounding would show.
+/// (|x|^(2/e) + |y|^(2/e))^(e/2); what is 1e-11 of the other counts as zero, because at a cusp its
+/// rounding would show.
 double norm_of(double x, double y, double e) {
   const double a = std::max(std::abs(x), std::abs(y)), b = std::min(std::abs(x), std::abs(y));
   return b < 1e-11 * a ? a : a * std::pow(1 + std::pow(b / a, 2 / e), e / 2);
 }
 
-/// A point of the superquadric near a point of the own frame: exactly on it by its implicit equation.
+/// A point of the superquadric near a point of the own frame: exactly on it by its implicit
+/// equation.
 std::optional<Point> on_superquadric(const Shape& shape, const Point& y) {
   if (const auto* s = std::get_if<SuperellipsoidShape>(&shape)) {
     const double in_plane = norm_of(y.x() / s->semi_axes[0], y.y() / s->semi_axes[1], s->e2);
@@ -37,7 +39,8 @@ std::optional<Point> on_superquadric(const Shape& shape, const Point& y) {
   }
   if (const auto* s = std::get_if<SupertoroidShape>(&shape)) {
     const double rho = norm_of(y.x(), y.y(), s->e2);
-    const double a = (rho - s->major) / s->semi_axes[0], b = y.z() / s->semi_axes[1], r = norm_of(a, b, s->e1);
+    const double a = (rho - s->major) / s->semi_axes[0], b = y.z() / s->semi_axes[1],
+                 r = norm_of(a, b, s->e1);
     const double new_rho = s->major + s->semi_axes[0] * a / r;
     return Point(y.x() * new_rho / rho, y.y() * new_rho / rho, y.z() / r);
   }
@@ -54,7 +57,8 @@ TEST(ShapeSearch, OfRoundSuperquadricsIsThatOfAnEllipsoidAndATorus) {
   for (const auto& [given, plain] : pairs) {
     for (int k = 0; k < 20; ++k) {
       const Posed pose{random_placement(random, k % 2 == 1)};
-      const auto a = PlacedShape::create(given, pose.placement), b = PlacedShape::create(plain, pose.placement);
+      const auto a = PlacedShape::create(given, pose.placement),
+                 b = PlacedShape::create(plain, pose.placement);
       ASSERT_TRUE(a && b);
       EXPECT_NEAR(a->size(), b->size(), 1e-12 * b->size());
       const Point x = random_point(random, pose);
@@ -81,12 +85,16 @@ TEST(ShapeSearch, DistanceIsThatOfBruteForce) {
           uncertified += found.converged ? 0 : 1;
           const double expected = brute.distance(x), tolerance = 1e-10 * size;
           EXPECT_LE(std::abs(found.distance), expected + tolerance) << c.name;
-          EXPECT_NEAR((x - found.point).norm(), std::abs(found.distance), 1e-13 * (size + x.norm())) << c.name;
-          // The nearest point is one of the surface. (Compass search stalls on squarish and pinched superquadrics, so
-          // there the equation tells.)
-          const Eigen::Array3d scale(pose.placement.scale[0], pose.placement.scale[1], pose.placement.scale[2]);
+          EXPECT_NEAR((x - found.point).norm(), std::abs(found.distance), 1e-13 * (size + x.norm()))
+              << c.name;
+          // The nearest point is one of the surface. (Compass search stalls on squarish and pinched
+          // superquadrics, so there the equation tells.)
+          const Eigen::Array3d scale(pose.placement.scale[0], pose.placement.scale[1],
+                                     pose.placement.scale[2]);
           const Point local =
-              ((pose.placement.rotation.conjugate() * (found.point - pose.placement.position)).array() / scale)
+              ((pose.placement.rotation.conjugate() * (found.point - pose.placement.position))
+                   .array() /
+               scale)
                   .matrix();
           if (const auto on = on_superquadric(c.shape, local)) {
             EXPECT_LE((pose.out(*on) - found.point).norm(), tolerance) << c.name;
@@ -114,18 +122,22 @@ TEST(ShapeSearch, NormalIsTheGradientAndHessianItsDerivative) {
         const Point x = random_point(random, pose);
         const Nearest at = placed->nearest(x);
         ASSERT_NEAR(at.normal.norm(), 1, 1e-12) << c.name;
-        EXPECT_LE((at.normal * at.distance - (x - at.point)).norm(), 1e-12 * (size + x.norm())) << c.name;
-        EXPECT_LE((at.hessian * at.normal).norm() * size, 1e-6 * (1 + at.hessian.norm() * size)) << c.name;
+        EXPECT_LE((at.normal * at.distance - (x - at.point)).norm(), 1e-12 * (size + x.norm()))
+            << c.name;
+        EXPECT_LE((at.hessian * at.normal).norm() * size, 1e-6 * (1 + at.hessian.norm() * size))
+            << c.name;
         Point slope;
         Eigen::Matrix3d bend;
         for (int axis = 0; axis < 3; ++axis) {
           const Nearest left = placed->nearest(x - h * Point::Unit(axis));
           const Nearest right = placed->nearest(x + h * Point::Unit(axis));
-          EXPECT_LE(std::abs(right.distance - left.distance), 2 * h * (1 + 1e-4)) << c.name;  // 1-Lipschitz
+          EXPECT_LE(std::abs(right.distance - left.distance), 2 * h * (1 + 1e-4))
+              << c.name;  // 1-Lipschitz
           slope[axis] = (right.distance - left.distance) / (2 * h);
           bend.col(axis) = (right.normal - left.normal) / (2 * h);
         }
-        // Where a kink or a strongly bent place is between the differences they say nothing: few points in all.
+        // Where a kink or a strongly bent place is between the differences they say nothing: few
+        // points in all.
         ++compared;
         if (at.hessian.norm() * h > 1e-4) continue;
         wrong_gradient += (slope - at.normal).norm() > 1e-5;
@@ -170,7 +182,8 @@ TEST(ShapeSearch, FarAwayNearbyOnTheAxesAndAtTheMiddle) {
       const BruteForce brute(c.sheets, pose);
       std::vector<Point> points = {Point::Zero()};
       for (int axis = 0; axis < 3; ++axis) {
-        for (double at : {-2.0, -0.1, 0.05, 0.5, 3.0, 1000.0}) points.push_back(at * Point::Unit(axis));
+        for (double at : {-2.0, -0.1, 0.05, 0.5, 3.0, 1000.0})
+          points.push_back(at * Point::Unit(axis));
         Point plane = testing::drawn(normal, random);
         plane[axis] = 0;
         points.push_back(plane);
@@ -179,8 +192,10 @@ TEST(ShapeSearch, FarAwayNearbyOnTheAxesAndAtTheMiddle) {
       points.push_back(1000 * testing::drawn(normal, random));
       for (const Point& x : points) {
         const Nearest found = placed->nearest(x);
-        EXPECT_LE(std::abs(found.distance), brute.distance(x) + 1e-10 + 1e-15 * x.norm()) << c.name << x.transpose();
-        EXPECT_NEAR((x - found.point).norm(), std::abs(found.distance), 1e-13 * (1 + x.norm())) << c.name;
+        EXPECT_LE(std::abs(found.distance), brute.distance(x) + 1e-10 + 1e-15 * x.norm())
+            << c.name << x.transpose();
+        EXPECT_NEAR((x - found.point).norm(), std::abs(found.distance), 1e-13 * (1 + x.norm()))
+            << c.name;
         EXPECT_TRUE(found.hessian.allFinite()) << c.name << x.transpose();
         EXPECT_TRUE(found.normal.isZero() || std::abs(found.normal.norm() - 1) < 1e-12) << c.name;
       }
@@ -201,12 +216,13 @@ TEST(ShapeSearch, FarAwayNearbyOnTheAxesAndAtTheMiddle) {
 
 TEST(SearchedShapes, AreOutsideWhereTheirDistanceIsPositive) {
   std::mt19937_64 random(7);
-  const std::vector<Shape> shapes = {SuperellipsoidShape{{1, 0.4, 0.7}, 0.3, 1.6}, SuperellipsoidShape{},
-                                     SupertoroidShape{}, SphereShape{1}};
+  const std::vector<Shape> shapes = {SuperellipsoidShape{{1, 0.4, 0.7}, 0.3, 1.6},
+                                     SuperellipsoidShape{}, SupertoroidShape{}, SphereShape{1}};
   for (const Shape& shape : shapes) {
     const bool known = !std::holds_alternative<SphereShape>(shape);
     for (const std::array<double, 3>& scale : {std::array<double, 3>{1, 1, 1}, {0.5, 2, 1.3}}) {
-      const Placement placement{Eigen::Quaterniond(0.7, 0.3, -0.5, 0.4).normalized(), Point(1, -2, 0.5), scale};
+      const Placement placement{Eigen::Quaterniond(0.7, 0.3, -0.5, 0.4).normalized(),
+                                Point(1, -2, 0.5), scale};
       const auto placed = PlacedShape::create(shape, placement);
       ASSERT_TRUE(placed);
       int outside = 0;

@@ -18,24 +18,28 @@ std::vector<Sheet> sheets_of(const std::shared_ptr<const Surface>& surface) {
     for (int sv : kv.spans()) {
       const double a = ku[su], b = ku[su + 1], c = kv[sv], d = kv[sv + 1];
       sheets.push_back([=](double u, double v) {
-        return *evaluate_point<2>(*surface, {std::min(b, a + u * (b - a)), std::min(d, c + v * (d - c))});
+        return *evaluate_point<2>(*surface,
+                                  {std::min(b, a + u * (b - a)), std::min(d, c + v * (d - c))});
       });
     }
   }
   return sheets;
 }
 
-std::shared_ptr<const Surface> bumpy(std::mt19937_64& random, KnotVector ku, KnotVector kv, bool rational) {
+std::shared_ptr<const Surface> bumpy(std::mt19937_64& random, KnotVector ku, KnotVector kv,
+                                     bool rational) {
   std::uniform_real_distribution<double> height(-0.25, 0.25), decade(-1, 1);
   Points points(ku.count() * kv.count(), 3);
   std::vector<double> weights;
   for (int i = 0; i < ku.count(); ++i) {
     for (int j = 0; j < kv.count(); ++j) {
-      points.row(i * kv.count() + j) << double(i) / (ku.count() - 1), double(j) / (kv.count() - 1), height(random);
+      points.row(i * kv.count() + j) << double(i) / (ku.count() - 1), double(j) / (kv.count() - 1),
+          height(random);
       if (rational) weights.push_back(std::pow(10, decade(random)));
     }
   }
-  return std::make_shared<const Surface>(make_surface(std::move(ku), std::move(kv), points, weights));
+  return std::make_shared<const Surface>(
+      make_surface(std::move(ku), std::move(kv), points, weights));
 }
 
 /// The unit sphere as a surface of revolution of degree (2, 2), poles and seam included.
@@ -72,7 +76,8 @@ TEST(ShapeSpline, DistanceIsThatOfBruteForce) {
     for (bool rational : {false, true}) {
       const auto& [u, p] = knots[k];
       const auto& [v, q] = knots[(k + 1) % knots.size()];
-      const auto surface = bumpy(random, testing::make_knots(p, u), testing::make_knots(q, v), rational);
+      const auto surface =
+          bumpy(random, testing::make_knots(p, u), testing::make_knots(q, v), rational);
       const Posed pose{random_placement(random, true)};
       const auto placed = PlacedShape::create(SplineShape{surface}, pose.placement);
       ASSERT_TRUE(placed) << placed.error().message();
@@ -85,7 +90,8 @@ TEST(ShapeSpline, DistanceIsThatOfBruteForce) {
         const Point x = pose.out(inside);
         const Nearest found = placed->nearest(x);
         uncertified += found.converged ? 0 : 1;
-        EXPECT_NEAR(std::abs(found.distance), brute.distance(x, 20), 1e-10 * size) << "knots " << k << rational;
+        EXPECT_NEAR(std::abs(found.distance), brute.distance(x, 20), 1e-10 * size)
+            << "knots " << k << rational;
         EXPECT_NEAR((x - found.point).norm(), std::abs(found.distance), 1e-12 * size);
         EXPECT_NEAR(found.normal.norm(), 1, 1e-12);
       }
@@ -113,7 +119,8 @@ TEST(ShapeSpline, SphereAsASurfaceIsTheSphere) {
     EXPECT_NEAR(a.distance, b.distance, 1e-12) << x.transpose();
     EXPECT_LE((a.point - b.point).norm(), 1e-10 / x.norm()) << x.transpose();
     EXPECT_LE((a.normal - b.normal).norm(), 1e-9 / std::min(1.0, x.norm())) << x.transpose();
-    EXPECT_LE((a.hessian - b.hessian).norm(), 1e-6 * b.hessian.norm() * b.hessian.norm() + 1e-6) << x.transpose();
+    EXPECT_LE((a.hessian - b.hessian).norm(), 1e-6 * b.hessian.norm() * b.hessian.norm() + 1e-6)
+        << x.transpose();
   }
 }
 
@@ -137,12 +144,15 @@ TEST(ShapeSpline, OutsideIsTheSideOfTheNormalAndBeyondTheBorder) {
   EXPECT_NEAR(beyond.distance, 0.5, 1e-15);
   EXPECT_LE((beyond.normal - Point(0.6, 0, -0.8)).norm(), 1e-14);
   EXPECT_NEAR(beyond.hessian.trace(), 2, 1e-12);  // a cylinder round the border: 1/0.5
-  EXPECT_NEAR(placed->nearest(Point(2, 2, -1)).hessian.trace(), 2 / std::sqrt(3.0), 1e-12);  // a ball round the corner
+  EXPECT_NEAR(placed->nearest(Point(2, 2, -1)).hessian.trace(), 2 / std::sqrt(3.0),
+              1e-12);  // a ball round the corner
 }
 
 TEST(ShapeSpline, ACreaseHasOneInsideOnBothOfItsSides) {
-  // A roof over y: outside above. Below the ridge, and above it, the ridge is nearest or its two slopes are.
-  const auto ku = testing::make_knots(1, {0, 0, 1, 1}), kv = testing::make_knots(1, {0, 0, 1, 2, 2});
+  // A roof over y: outside above. Below the ridge, and above it, the ridge is nearest or its two
+  // slopes are.
+  const auto ku = testing::make_knots(1, {0, 0, 1, 1}),
+             kv = testing::make_knots(1, {0, 0, 1, 2, 2});
   Points points(6, 3);
   points << 0, -1, 0, 0, 0, 1, 0, 1, 0, 1, -1, 0, 1, 0, 1, 1, 1, 0;
   const auto surface = std::make_shared<const Surface>(make_surface(ku, kv, points));
@@ -152,7 +162,8 @@ TEST(ShapeSpline, ACreaseHasOneInsideOnBothOfItsSides) {
   std::uniform_real_distribution<double> value(-0.5, 0.5);
   for (int k = 0; k < 300; ++k) {
     const Point x(0.5 + 0.9 * value(random), 0.5 * value(random), 1 + value(random));
-    const double depth = (x.z() - 1 + std::abs(x.y())) / std::sqrt(2.0);  // signed distance to the nearer slope's plane
+    const double depth = (x.z() - 1 + std::abs(x.y())) /
+                         std::sqrt(2.0);  // signed distance to the nearer slope's plane
     const Nearest found = placed->nearest(x);
     EXPECT_EQ(found.distance < 0, depth < 0) << x.transpose();
     if (depth < 0 && std::abs(x.y()) < 0.2) {

@@ -61,7 +61,8 @@ TEST(Shape, DistancesThatAreKnown) {
   EXPECT_EQ(placed(PlaneShape{}).nearest(Point(7, 8, -2)).distance, -2);
   EXPECT_NEAR(placed(ConeShape{3, 4}).nearest(Point(0, 0, 6)).distance, 2, 1e-15);
   EXPECT_NEAR(placed(ConeShape{3, 4}).nearest(Point(0.001, 0, 1)).distance, -1, 1e-15);
-  // A wedge of 90°, its foot 4 wide: over the ridge, on a flank's normal, at a corner, below, inside, beyond an end.
+  // A wedge of 90°, its foot 4 wide: over the ridge, on a flank's normal, at a corner, below,
+  // inside, beyond an end.
   const PlacedShape wedge = placed(WedgeShape{10, 90, 2, 0});
   EXPECT_NEAR(wedge.nearest(Point(1, 0, 5)).distance, 3, 1e-15);
   EXPECT_NEAR(wedge.nearest(Point(1, 2, 2)).distance, std::sqrt(2), 1e-15);
@@ -70,8 +71,10 @@ TEST(Shape, DistancesThatAreKnown) {
   EXPECT_NEAR(wedge.nearest(Point(1, 0.5, 1)).distance, -std::sqrt(0.125), 1e-15);
   EXPECT_EQ(wedge.nearest(Point(-4.9, 0, 1)).distance, 4.9 - 5);
   EXPECT_NEAR(wedge.nearest(Point(8, 0, 6)).distance, 5, 1e-15);
-  // Rounded to 1, its ridge still touches z = 2, and equal distances over it are circles about (0, 0, 1).
-  EXPECT_NEAR(placed(WedgeShape{10, 90, 2, 1}).nearest(Point(0, 0.3, 1.4)).distance, 0.5 - 1, 1e-15);
+  // Rounded to 1, its ridge still touches z = 2, and equal distances over it are circles about (0,
+  // 0, 1).
+  EXPECT_NEAR(placed(WedgeShape{10, 90, 2, 1}).nearest(Point(0, 0.3, 1.4)).distance, 0.5 - 1,
+              1e-15);
   EXPECT_NEAR(placed(WedgeShape{10, 90, 2, 1}).nearest(Point(0, 3, 5)).distance, 4, 1e-15);
   // The bowl: wall, hollow, below, and over the rim.
   const PlacedShape bowl = placed(BowlShape{5, 1});
@@ -88,8 +91,10 @@ TEST(Shape, UnequalScaleKeepsWhatItMust) {
   std::uniform_real_distribution<double> value(-4, 4);
   for (int k = 0; k < 300; ++k) {
     const Point x(value(random), value(random), value(random));
-    EXPECT_EQ(placed(SphereShape{2}, p).nearest(x).distance, placed(EllipsoidShape{{4, 6, 1}}).nearest(x).distance);
-    EXPECT_EQ(placed(BoxShape{{1, 1, 1}}, p).nearest(x).distance, placed(BoxShape{{2, 3, 0.5}}).nearest(x).distance);
+    EXPECT_EQ(placed(SphereShape{2}, p).nearest(x).distance,
+              placed(EllipsoidShape{{4, 6, 1}}).nearest(x).distance);
+    EXPECT_EQ(placed(BoxShape{{1, 1, 1}}, p).nearest(x).distance,
+              placed(BoxShape{{2, 3, 0.5}}).nearest(x).distance);
     EXPECT_EQ(placed(PlaneShape{}, p).nearest(x).distance, x.z());
     // Two ways to the same ellipsoid: the one-dimensional root and the search.
     const Nearest a = placed(EllipsoidShape{{4, 6, 1}}).nearest(x);
@@ -120,7 +125,8 @@ TEST(Shape, EllipsoidsThatAreNeedlesOrDiscs) {
   std::mt19937_64 random(32);
   std::normal_distribution<double> normal;
   for (double small : {1e-6, 1e-3, 0.999999}) {
-    for (const std::array<double, 3>& a : {std::array{1.0, 1.0, small}, {1.0, small, small}, {small, 0.5, 1.0}}) {
+    for (const std::array<double, 3>& a :
+         {std::array{1.0, 1.0, small}, {1.0, small, small}, {small, 0.5, 1.0}}) {
       const PlacedShape ellipsoid = placed(EllipsoidShape{a});
       const Eigen::Array3d axes(a[0], a[1], a[2]);
       for (int k = 0; k < 500; ++k) {
@@ -128,9 +134,11 @@ TEST(Shape, EllipsoidsThatAreNeedlesOrDiscs) {
         if (k % 3 == 1) x *= 1e-3;
         if (k % 3 == 2) x[k % 9 / 3] = 0;
         const Nearest found = ellipsoid.nearest(x);
-        // On the ellipsoid, and the way to it along its normal: with convexity that is the nearest point from outside.
+        // On the ellipsoid, and the way to it along its normal: with convexity that is the nearest
+        // point from outside.
         EXPECT_NEAR((found.point.array() / axes).matrix().norm(), 1, 1e-13);
-        EXPECT_LE(((x - found.point) - found.distance * found.normal).norm(), 1e-12 * (1 + x.norm()));
+        EXPECT_LE(((x - found.point) - found.distance * found.normal).norm(),
+                  1e-12 * (1 + x.norm()));
         const double inside = (x.array() / axes).matrix().norm();
         if (std::abs(inside - 1) > 1e-12) {
           EXPECT_EQ(found.distance < 0, inside < 1);
@@ -150,7 +158,8 @@ TEST(Shape, BatchIsTheSingleCallAndTheBoxHoldsTheShape) {
     const BoundingBox box = shape.bounding_box();
     Points x(20, 3);
     for (Eigen::Index k = 0; k < x.rows(); ++k) {
-      x.row(k) = p.position.transpose() + 2 * p.scale[0] * testing::drawn(normal, random).transpose();
+      x.row(k) =
+          p.position.transpose() + 2 * p.scale[0] * testing::drawn(normal, random).transpose();
     }
     const NearestPoints batch = shape.nearest_points(x);
     for (Eigen::Index k = 0; k < x.rows(); ++k) {

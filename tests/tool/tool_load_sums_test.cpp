@@ -19,7 +19,8 @@ ModelTool round_tool(const Point& centre, double radius, ToolMode mode = ToolMod
 }
 
 template <int D>
-PotentialState potential_at(const ToolLoad<D>& load, const Points& x, const std::vector<ModelTool>& tools,
+PotentialState potential_at(const ToolLoad<D>& load, const Points& x,
+                            const std::vector<ModelTool>& tools,
                             const DisplacementLimit* limit = nullptr) {
   PotentialState state;
   state.force = Points::Zero(x.rows(), 3);
@@ -31,14 +32,16 @@ PotentialState potential_at(const ToolLoad<D>& load, const Points& x, const std:
 template <int D>
 Points by_entries(const ToolLoad<D>& load, const PotentialState& state, const Points& v) {
   Points result = Points::Zero(v.rows(), 3);
-  load.each_hessian_block(state.contacts, 0, [&](std::span<const int> points, const Eigen::MatrixXd& block) {
-    for (Eigen::Index i = 0; i < block.rows(); ++i) {
-      for (Eigen::Index j = 0; j < block.cols(); ++j) {
-        const int row = points[static_cast<std::size_t>(i / 3)], column = points[static_cast<std::size_t>(j / 3)];
-        result(row, i % 3) += block(i, j) * v(column, j % 3);
-      }
-    }
-  });
+  load.each_hessian_block(state.contacts, 0,
+                          [&](std::span<const int> points, const Eigen::MatrixXd& block) {
+                            for (Eigen::Index i = 0; i < block.rows(); ++i) {
+                              for (Eigen::Index j = 0; j < block.cols(); ++j) {
+                                const int row = points[static_cast<std::size_t>(i / 3)],
+                                          column = points[static_cast<std::size_t>(j / 3)];
+                                result(row, i % 3) += block(i, j) * v(column, j % 3);
+                              }
+                            }
+                          });
   return result;
 }
 
@@ -54,14 +57,16 @@ void expect_sums(const Spline<D>& spline, const ModelTool& tool) {
   load->apply_hessian(state.contacts, 0, v, sum);
   EXPECT_LE((sum - expected).norm(), 1e-13 * expected.norm());
   // In any order.
-  for (std::size_t k = 0; k + 1 < state.contacts.size(); k += 3) std::swap(state.contacts[k], state.contacts.back());
+  for (std::size_t k = 0; k + 1 < state.contacts.size(); k += 3)
+    std::swap(state.contacts[k], state.contacts.back());
   sum.setZero();
   load->apply_hessian(state.contacts, 0, v, sum);
   EXPECT_LE((sum - expected).norm(), 1e-13 * expected.norm());
   // The force of contacts is that of their potential.
   constexpr double h = 1e-6;
-  const double slope =
-      (potential_at(*load, x + h * v, {tool}).potential - potential_at(*load, x - h * v, {tool}).potential) / (2 * h);
+  const double slope = (potential_at(*load, x + h * v, {tool}).potential -
+                        potential_at(*load, x - h * v, {tool}).potential) /
+                       (2 * h);
   EXPECT_NEAR(-state.force.cwiseProduct(v).sum(), slope, 1e-4 * std::abs(slope));
 }
 
@@ -69,29 +74,33 @@ TEST(ToolLoadSums, AreThoseOfEveryPointAlone) {
   expect_sums(testing::box<1>(3, 7), round_tool({0.5, 0, 0}, 0.3));
   expect_sums(testing::relief(testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 4), 1),
               round_tool({0.6, 0.4, 0.15}, 0.3, ToolMode::proximity));
-  expect_sums(testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(4, 2), 2, 0.1, 5),
-              round_tool({0.6, 0.4, 0.15}, 0.3));
+  expect_sums(
+      testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(4, 2), 2, 0.1, 5),
+      round_tool({0.6, 0.4, 0.15}, 0.3));
   expect_sums(testing::box<3>(3, 5), round_tool({0.4, 0.5, 0.6}, 0.2));
 }
 
 TEST(ToolLoadSums, MeasureTheLimitFromTheOriginal) {
-  const Surface s = testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 2, 0.1, 5);
+  const Surface s =
+      testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 2, 0.1, 5);
   const auto load = ToolLoad<2>::create(s, DomainScaling<2>{}, 1);
   ASSERT_TRUE(load);
   const Points x = s.control_points();
   const DisplacementLimit limit{0.01, 100, x.rowwise() + Eigen::RowVector3d(0, 0, 0.03)};
-  // Everything is 0.03 away: over the domain of area 9 the potential is k/2 0.02², and the force k 0.02.
+  // Everything is 0.03 away: over the domain of area 9 the potential is k/2 0.02², and the force k
+  // 0.02.
   const PotentialState state = potential_at(*load, x, {}, &limit);
   EXPECT_NEAR(state.potential, 9 * 0.5 * 100 * 0.02 * 0.02, 1e-12);
   EXPECT_NEAR((state.force.colwise().sum() - Eigen::RowVector3d(0, 0, 18)).norm(), 0, 1e-12);
 }
 
 TEST(ToolLoadSums, LeapOverWhatATubeCannotReach) {
-  const auto block = Lattice::create({Point(0, 0, -0.5), Point(1, 1, 0.5)}, 0.05, {3, 3, 3}, {6, 6, 6});
+  const auto block =
+      Lattice::create({Point(0, 0, -0.5), Point(1, 1, 0.5)}, 0.05, {3, 3, 3}, {6, 6, 6});
   ASSERT_TRUE(block);
   const Points& x = block->rest().control_points();
-  auto torus =
-      PlacedShape::create(TorusShape{0.4, 0.04}, {Eigen::Quaterniond::Identity(), Point(0.5, 0.5, 0), {1, 1, 1}});
+  auto torus = PlacedShape::create(TorusShape{0.4, 0.04},
+                                   {Eigen::Quaterniond::Identity(), Point(0.5, 0.5, 0), {1, 1, 1}});
   ASSERT_TRUE(torus);
   const ModelTool tool({"ring", std::move(*torus), ToolMode::collision, 10, 1}, Point::Zero(), 1);
   const auto load = ToolLoad<3>::create(block->rest(), DomainScaling<3>{}, 0.04);
@@ -99,23 +108,28 @@ TEST(ToolLoadSums, LeapOverWhatATubeCannotReach) {
   const PotentialState state = potential_at(*load, x, {tool});
   ASSERT_GT(state.contacts.size(), 10000U);
   EXPECT_LT(state.visited, load->points() / 10) << state.contacts.size();
-  // A tube at rest in the block is entered as deep as it is thick; the deepest samples are soon known.
+  // A tube at rest in the block is entered as deep as it is thick; the deepest samples are soon
+  // known.
   const Penetration entry = load->deepest_entry(x, 0, tool);
   EXPECT_NEAR(entry.depth, 0.04, 1e-4);
   EXPECT_LT(entry.visited, load->points() / 20);
 }
 
 TEST(ToolLoadSums, LeapOverNoContactOfACurvedShape) {
-  // All points of a wavy block, with and without a tool without bounds beside it, which makes leaps short.
-  const auto block = Lattice::create({Point(0, 0, -0.5), Point(1, 1, 0.5)}, 0.05, {3, 2, 4}, {5, 4, 6});
+  // All points of a wavy block, with and without a tool without bounds beside it, which makes leaps
+  // short.
+  const auto block =
+      Lattice::create({Point(0, 0, -0.5), Point(1, 1, 0.5)}, 0.05, {3, 2, 4}, {5, 4, 6});
   ASSERT_TRUE(block);
   const auto load = ToolLoad<3>::create(block->rest(), DomainScaling<3>{}, 0.08);
   ASSERT_TRUE(load);
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    const Points x = block->rest().control_points() + 0.1 * testing::random_points(block->rest().size(), seed);
+    const Points x =
+        block->rest().control_points() + 0.1 * testing::random_points(block->rest().size(), seed);
     const ModelTool tool = round_tool({0.5, 0.4, 0.1}, 0.2);
-    const DisplacementLimit everywhere{1e3, 1, x};                                 // never reached
-    DisplacementLimit visits{1e-3, 0, x.rowwise() + Eigen::RowVector3d(0, 0, 1)};  // reached everywhere, without force
+    const DisplacementLimit everywhere{1e3, 1, x};  // never reached
+    DisplacementLimit visits{
+        1e-3, 0, x.rowwise() + Eigen::RowVector3d(0, 0, 1)};  // reached everywhere, without force
     const PotentialState leaping = potential_at(*load, x, {tool}, &everywhere);
     const PotentialState visiting = potential_at(*load, x, {tool}, &visits);
     EXPECT_EQ(visiting.visited, load->points());
@@ -127,14 +141,16 @@ TEST(ToolLoadSums, LeapOverNoContactOfACurvedShape) {
   }
 }
 
-/// What is found where all points are visited, because a limit without force is exceeded at all of them.
+/// What is found where all points are visited, because a limit without force is exceeded at all of
+/// them.
 template <int D>
 void expect_every_contact_found(const Spline<D>& spline, const ModelTool& tool, double detail) {
   const auto load = ToolLoad<D>::create(spline, DomainScaling<D>{}, detail);
   ASSERT_TRUE(load);
   const Points x = spline.control_points();
   const DisplacementLimit visits{1e-3, 0, x.rowwise() + Eigen::RowVector3d(0, 0, 1)};
-  const PotentialState found = potential_at(*load, x, {tool}), all = potential_at(*load, x, {tool}, &visits);
+  const PotentialState found = potential_at(*load, x, {tool}),
+                       all = potential_at(*load, x, {tool}, &visits);
   ASSERT_EQ(all.visited, load->points());
   EXPECT_LT(found.visited, load->points());
   long long contacts = 0;
@@ -150,17 +166,21 @@ TEST(ToolLoadSums, FindEveryContactAmongRowsOfAnyLength) {
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.4, Point(1, 2, 3).normalized()));
   for (const int degree : {1, 3, 5}) {
     for (const int spans : {1, 7}) {
-      const KnotVector u = testing::uniform_clamped(degree, spans), v = testing::uniform_clamped(3, spans);
+      const KnotVector u = testing::uniform_clamped(degree, spans),
+                       v = testing::uniform_clamped(3, spans);
       for (const double spread : {1.0, 100.0}) {
-        for (const Surface& s : {testing::relief(u, v, 3, 0.05, spread), testing::relief(v, u, 4, 0.05, spread)}) {
+        for (const Surface& s :
+             {testing::relief(u, v, 3, 0.05, spread), testing::relief(v, u, 4, 0.05, spread)}) {
           SCOPED_TRACE(::testing::Message() << degree << " " << spans << " " << spread);
           const Point at = s.control_points().colwise().mean();
-          const auto box = PlacedShape::create(BoxShape{{0.1, 0.2, 0.15}, 0.01}, {turn, at, {1, 1, 1}});
+          const auto box =
+              PlacedShape::create(BoxShape{{0.1, 0.2, 0.15}, 0.01}, {turn, at, {1, 1, 1}});
           ASSERT_TRUE(box);
           for (const auto mode : {ToolMode::collision, ToolMode::proximity}) {
             expect_every_contact_found(s, round_tool(at, 0.1, mode), 0.03);
             expect_every_contact_found(s, round_tool(at + Point(0, 0, 0.1), 0.25, mode), 0.1);
-            expect_every_contact_found(s, ModelTool{{"box", *box, mode, 10, 0.05}, Point::Zero(), 1}, 0.1);
+            expect_every_contact_found(
+                s, ModelTool{{"box", *box, mode, 10, 0.05}, Point::Zero(), 1}, 0.1);
           }
         }
       }

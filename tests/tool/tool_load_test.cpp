@@ -32,10 +32,12 @@ Points apply_hessian(const ToolLoad<2>& load, const PotentialState& state, const
   return result;
 }
 
-/// A sphere so large that a sheet in z = 0 sees a plane: every point enters by the same depth along −z.
+/// A sphere so large that a sheet in z = 0 sees a plane: every point enters by the same depth along
+/// −z.
 Tool half_space(double depth) {
   constexpr double radius = 1e7;
-  return {"plane", testing::sphere_at(Point(0.5, 0.5, radius - depth), radius), ToolMode::collision, 3, 1};
+  return {"plane", testing::sphere_at(Point(0.5, 0.5, radius - depth), radius), ToolMode::collision,
+          3, 1};
 }
 
 TEST(ToolLoad, OfAUniformPressureIsTheIntegralOfEveryBasisFunction) {
@@ -51,7 +53,8 @@ TEST(ToolLoad, OfAUniformPressureIsTheIntegralOfEveryBasisFunction) {
     for (int i = 0; i < family.knots.count(); ++i) {
       for (int j = 0; j < v.count(); ++j) {
         const double area = (family.knots[i + 4] - family.knots[i]) / 4 * (v[j + 3] - v[j]) / 3;
-        EXPECT_NEAR(state.force(i * v.count() + j, 2), -3 * 0.01 * area, 1e-6 * area) << family.name;
+        EXPECT_NEAR(state.force(i * v.count() + j, 2), -3 * 0.01 * area, 1e-6 * area)
+            << family.name;
       }
     }
   }
@@ -60,7 +63,8 @@ TEST(ToolLoad, OfAUniformPressureIsTheIntegralOfEveryBasisFunction) {
 TEST(ToolLoad, ForceIsMinusTheGradientOfThePotential) {
   for (const Surface& s :
        {testing::relief(testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 4), 1),
-        testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 2, 0.1, 5)}) {
+        testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 2, 0.1,
+                        5)}) {
     for (ToolMode mode : {ToolMode::collision, ToolMode::proximity}) {
       const Tool tool = {"ball", testing::sphere_at(Point(0.6, 0.4, 0.3), 0.35), mode, 10, 0.3};
       const auto load = ToolLoad<2>::create(s, DomainScaling<2>{1, {0.7, 1.3}}, 0.3);
@@ -78,8 +82,10 @@ TEST(ToolLoad, ForceIsMinusTheGradientOfThePotential) {
 }
 
 TEST(ToolLoad, HessianIsSymmetricAndTheDerivativeOfTheForce) {
-  const Surface s = testing::relief(testing::uniform_clamped(2, 4), testing::uniform_clamped(3, 4), 3, 0.1, 4);
-  const Tool tool = {"ball", testing::sphere_at(Point(0.6, 0.4, 0.3), 0.35), ToolMode::proximity, 10, 0.3};
+  const Surface s =
+      testing::relief(testing::uniform_clamped(2, 4), testing::uniform_clamped(3, 4), 3, 0.1, 4);
+  const Tool tool = {"ball", testing::sphere_at(Point(0.6, 0.4, 0.3), 0.35), ToolMode::proximity,
+                     10, 0.3};
   const auto load = ToolLoad<2>::create(s, raw, 0.3);
   const auto state = evaluate(*load, s.control_points(), {&tool, 1});
   const Points a = testing::random_points(s.size(), 5), b = testing::random_points(s.size(), 6);
@@ -102,12 +108,16 @@ TEST(ToolLoad, UsesMorePointsForSmallerTools) {
 }
 
 ModelTool ball_of(double radius) {
-  return {{"ball", testing::sphere_at(Point(0.6, 0.4, 0.15), radius), ToolMode::collision, 10, 1}, Point::Zero(), 1};
+  return {{"ball", testing::sphere_at(Point(0.6, 0.4, 0.15), radius), ToolMode::collision, 10, 1},
+          Point::Zero(),
+          1};
 }
 
-/// Near a shape that lies above it, but touches nothing. It has no bounds: no row of points is left out because of it.
+/// Near a shape that lies above it, but touches nothing. It has no bounds: no row of points is left
+/// out because of it.
 ModelTool plane_at(double height) {
-  auto below = PlacedShape::create(PlaneShape{}, {Eigen::Quaterniond::Identity(), Point(0, 0, height), {1, 1, 1}});
+  auto below = PlacedShape::create(
+      PlaneShape{}, {Eigen::Quaterniond::Identity(), Point(0, 0, height), {1, 1, 1}});
   if (!below) ADD_FAILURE() << below.error().message();
   return {{"plane", std::move(*below), ToolMode::collision, 10, 1}, Point::Zero(), 1};
 }
@@ -135,17 +145,20 @@ void expect_the_same_beside_a_plane(const Spline<D>& spline, double height) {
 }
 
 TEST(ToolLoad, IsTheSameBitForBitWhereRowsOfPointsFarFromToolsAreLeftOut) {
-  expect_the_same_beside_a_plane(testing::relief(testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 4), 1),
-                                 -0.2);
   expect_the_same_beside_a_plane(
-      testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 2, 0.1, 5), -0.2);
-  const auto block = Lattice::create({Point(0, 0, -0.5), Point(1, 1, 0.5)}, 0.05, {3, 3, 3}, {4, 5, 4});
+      testing::relief(testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 4), 1), -0.2);
+  expect_the_same_beside_a_plane(
+      testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 2, 0.1, 5),
+      -0.2);
+  const auto block =
+      Lattice::create({Point(0, 0, -0.5), Point(1, 1, 0.5)}, 0.05, {3, 3, 3}, {4, 5, 4});
   ASSERT_TRUE(block);
   expect_the_same_beside_a_plane(block->rest(), -0.65);
 }
 
 TEST(ToolLoad, OfAToolInACornerOfAnElementAsksInThatCorner) {
-  const auto block = Lattice::create({Point(0, 0, -0.5), Point(1, 1, 0.5)}, 0.05, {3, 3, 3}, {4, 4, 4});
+  const auto block =
+      Lattice::create({Point(0, 0, -0.5), Point(1, 1, 0.5)}, 0.05, {3, 3, 3}, {4, 4, 4});
   ASSERT_TRUE(block);
   const auto load = ToolLoad<3>::create(block->rest(), DomainScaling<3>{}, 0.1);
   ASSERT_TRUE(load);
@@ -153,7 +166,8 @@ TEST(ToolLoad, OfAToolInACornerOfAnElementAsksInThatCorner) {
   EXPECT_FALSE(alone.contacts.empty());
   EXPECT_LT(alone.visited, load->points() / 50);
   // A shape without bounds that is touched nowhere is asked at few points more.
-  const PotentialState beside = evaluate(*load, block->rest().control_points(), {ball_of(0.1), plane_at(-0.65)});
+  const PotentialState beside =
+      evaluate(*load, block->rest().control_points(), {ball_of(0.1), plane_at(-0.65)});
   EXPECT_LT(beside.visited, load->points() / 5);
 }
 
@@ -166,9 +180,9 @@ TEST(ToolLoad, WithoutToolsIsZero) {
 
 /// A thin tool at a flat sheet of few spans: hundreds of Gauss points in each.
 Tool thin_tool(double friction) {
-  const auto shape =
-      PlacedShape::create(SuperellipsoidShape{{0.3, 0.02, 0.1}, 0.7, 1.4},
-                          {Eigen::Quaterniond(0.9, 0.1, 0.3, 0.2).normalized(), Point(0.5, 0.5, 0), {1, 1, 1}});
+  const auto shape = PlacedShape::create(
+      SuperellipsoidShape{{0.3, 0.02, 0.1}, 0.7, 1.4},
+      {Eigen::Quaterniond(0.9, 0.1, 0.3, 0.2).normalized(), Point(0.5, 0.5, 0), {1, 1, 1}});
   return {"thin", *shape, ToolMode::collision, 100, 1, false, friction};
 }
 
@@ -178,7 +192,8 @@ TEST(ToolLoad, AsksWithinAnElementWhetherToGoOn) {
   ASSERT_TRUE(load);
   const std::vector<ModelTool> tools = {ModelTool(thin_tool(0.5), Point::Zero(), 1)};
   const Points& x = sheet.control_points();
-  const auto elements = static_cast<long long>(sheet.knots(0).spans().size() * sheet.knots(1).spans().size());
+  const auto elements =
+      static_cast<long long>(sheet.knots(0).spans().size() * sheet.knots(1).spans().size());
   const auto grip = [&] { return load->anchors(x, 0, tools, 1e-4).anchors.size(); };
   const auto press = [&] {
     PotentialState state;
@@ -189,7 +204,8 @@ TEST(ToolLoad, AsksWithinAnElementWhetherToGoOn) {
   const auto enter = [&] {
     return load->deepest_entry(x, 0, tools.front()).depth > 0 ? std::size_t{1} : std::size_t{0};
   };
-  for (const std::function<std::size_t()>& ask : {std::function<std::size_t()>(grip), {press}, {enter}}) {
+  for (const std::function<std::size_t()>& ask :
+       {std::function<std::size_t()>(grip), {press}, {enter}}) {
     long long asked = 0;
     std::size_t whole = 0;
     {
@@ -206,7 +222,8 @@ TEST(ToolLoad, AsksWithinAnElementWhetherToGoOn) {
 }
 
 /// The forces of tools on a patch, each on its own grid.
-PotentialState on_grids(const ToolGrids<2>& grids, const Points& x, const std::vector<Tool>& tools) {
+PotentialState on_grids(const ToolGrids<2>& grids, const Points& x,
+                        const std::vector<Tool>& tools) {
   PotentialState state;
   state.force = Points::Zero(x.rows(), 3);
   std::vector<ModelTool> model;
@@ -220,14 +237,20 @@ PotentialState on_grids(const ToolGrids<2>& grids, const Points& x, const std::v
 TEST(ToolGrids, AskALargeToolNoMoreOftenBesideASmallOne) {
   const Surface sheet = testing::uniform_sheet(3, 6, 6);
   const Tool ball = {"ball", testing::sphere_at(Point(0.3, 0.3, 0.15), 0.2)},
-             pin = {"pin", testing::sphere_at(Point(0.8, 0.8, 0.001), 0.002), ToolMode::collision, 1e4, 0.5, false,
+             pin = {"pin",
+                    testing::sphere_at(Point(0.8, 0.8, 0.001), 0.002),
+                    ToolMode::collision,
+                    1e4,
+                    0.5,
+                    false,
                     0.4};
   const auto beside = ToolGrids<2>::create(sheet, raw, pin.detail());
   const auto alone = ToolLoad<2>::create(sheet, raw, ball.detail());
   ASSERT_TRUE(beside && alone);
   EXPECT_GT((*beside)[0].points(), 1000 * alone->points());
   const Points& x = sheet.control_points();
-  const PotentialState of_ball = evaluate(*alone, x, {&ball, 1}), of_both = on_grids(*beside, x, {ball, pin}),
+  const PotentialState of_ball = evaluate(*alone, x, {&ball, 1}),
+                       of_both = on_grids(*beside, x, {ball, pin}),
                        of_pin = on_grids(*beside, x, {pin});
   ASSERT_GT(of_ball.contacts.size(), 50U);
   ASSERT_GT(of_pin.contacts.size(), 10U);
@@ -249,7 +272,8 @@ TEST(ToolGrids, HaveOneForEveryToolAndOnlyOne) {
   ASSERT_TRUE(grids);
   for (double radius : {1e-4, 0.003, 0.0059, 0.006, 0.0061, 0.1, 1.0, 1e9}) {
     const ModelTool ball({"ball", testing::sphere_at(Point::Zero(), radius)}, Point::Zero(), 1);
-    EXPECT_EQ(std::ranges::count_if(*grids, [&](const auto& grid) { return grid.takes(ball); }), 1) << radius;
+    EXPECT_EQ(std::ranges::count_if(*grids, [&](const auto& grid) { return grid.takes(ball); }), 1)
+        << radius;
   }
   EXPECT_EQ(grids->coarsest().points(), 12 * 12);
   EXPECT_TRUE(grids->coarsest().takes(plane_at(0)));
@@ -257,12 +281,14 @@ TEST(ToolGrids, HaveOneForEveryToolAndOnlyOne) {
 
 TEST(ToolGrids, ResolveTheRangeOfAProximityToolAndNotItsThickness) {
   const Surface sheet = testing::uniform_sheet(3, 6, 6);
-  const auto thin = PlacedShape::create(EllipsoidShape{{0.3, 0.002, 0.2}},
-                                        {Eigen::Quaterniond::Identity(), Point(0.5, 0.5, 0), {1, 1, 1}});
+  const auto thin =
+      PlacedShape::create(EllipsoidShape{{0.3, 0.002, 0.2}},
+                          {Eigen::Quaterniond::Identity(), Point(0.5, 0.5, 0), {1, 1, 1}});
   ASSERT_TRUE(thin);
   const Tool tool = {"thin", *thin, ToolMode::proximity, 10, 0.2};
   EXPECT_EQ(tool.detail(), 0.2);
-  const auto coarse = ToolLoad<2>::create(sheet, raw, tool.detail()), fine = ToolLoad<2>::create(sheet, raw, 0.01);
+  const auto coarse = ToolLoad<2>::create(sheet, raw, tool.detail()),
+             fine = ToolLoad<2>::create(sheet, raw, 0.01);
   ASSERT_TRUE(coarse && fine);
   const Points& x = sheet.control_points();
   const PotentialState a = evaluate(*coarse, x, {&tool, 1}), b = evaluate(*fine, x, {&tool, 1});
@@ -272,7 +298,8 @@ TEST(ToolGrids, ResolveTheRangeOfAProximityToolAndNotItsThickness) {
 
 TEST(ToolLoad, SamplesALargeToolBesideASmallOneAsIfItWereAlone) {
   const Surface sheet = testing::uniform_sheet(3, 6, 6);
-  const auto alone = ToolLoad<2>::create(sheet, raw, 0.2), beside = ToolLoad<2>::create(sheet, raw, 0.01);
+  const auto alone = ToolLoad<2>::create(sheet, raw, 0.2),
+             beside = ToolLoad<2>::create(sheet, raw, 0.01);
   ASSERT_TRUE(alone && beside);
   const ModelTool ball({"ball", testing::sphere_at(Point(0.5, 0.5, 0.15), 0.2)}, Point::Zero(), 1);
   const Penetration a = alone->deepest_entry(sheet.control_points(), 0, ball),

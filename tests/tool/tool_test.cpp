@@ -10,7 +10,9 @@
 namespace knead {
 namespace {
 
-ToolAction action_of(const Tool& tool, const Point& x) { return ModelTool(tool, Point::Zero(), 1).action(x); }
+ToolAction action_of(const Tool& tool, const Point& x) {
+  return ModelTool(tool, Point::Zero(), 1).action(x);
+}
 
 Tool ball(ToolMode mode) { return {"ball", testing::sphere_at(Point(1, 2, 3), 0.5), mode, 7, 0.2}; }
 
@@ -40,14 +42,16 @@ TEST(Tool, ForceIsMinusTheGradientOfThePotential) {
   for (ToolMode mode : {ToolMode::collision, ToolMode::proximity}) {
     const Tool tool = ball(mode);
     for (int k = 0; k < 2000; ++k) {
-      const Point x = tool.shape.placement().position + Point(value(random), value(random), value(random));
+      const Point x =
+          tool.shape.placement().position + Point(value(random), value(random), value(random));
       const ToolAction at = action_of(tool, x);
       for (int c = 0; c < 3; ++c) {
         constexpr double h = 1e-5;
         Point left = x, right = x;
         left[c] -= h;
         right[c] += h;
-        const double slope = (action_of(tool, right).potential - action_of(tool, left).potential) / (2 * h);
+        const double slope =
+            (action_of(tool, right).potential - action_of(tool, left).potential) / (2 * h);
         // A central difference across the kink of ψ'' is off by up to k h / 4.
         EXPECT_NEAR(at.force[c], -slope, tool.stiffness * h);
       }
@@ -62,10 +66,12 @@ TEST(Tool, HessianIsTheDerivativeOfTheForce) {
     const Tool tool = ball(mode);
     int compared = 0;
     for (int k = 0; k < 2000; ++k) {
-      const Point x = tool.shape.placement().position + Point(value(random), value(random), value(random));
+      const Point x =
+          tool.shape.placement().position + Point(value(random), value(random), value(random));
       const double phi = (x - tool.shape.placement().position).norm() - 0.5;
       constexpr double h = 1e-5;
-      if (std::abs(phi) < h || std::abs(std::abs(phi) - tool.range) < h || phi < -0.45) continue;  // kinks, centre
+      if (std::abs(phi) < h || std::abs(std::abs(phi) - tool.range) < h || phi < -0.45)
+        continue;  // kinks, centre
       ++compared;
       const ToolAction at = action_of(tool, x);
       for (int c = 0; c < 3; ++c) {
@@ -121,11 +127,13 @@ TEST(ModelTool, SeesTheSameInOtherUnits) {
 TEST(ModelTool, NeverPassesOverABoxThatItActsOn) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> value(-1.5, 1.5), size(0, 0.6);
-  for (const Shape& shape : {Shape(SphereShape{0.5}), Shape(TorusShape{0.6, 0.2}),
-                             Shape(BoxShape{{0.5, 0.2, 0.3}, 0.1}), Shape(PlaneShape{}), Shape(BowlShape{0.6, 0.1})}) {
+  for (const Shape& shape :
+       {Shape(SphereShape{0.5}), Shape(TorusShape{0.6, 0.2}), Shape(BoxShape{{0.5, 0.2, 0.3}, 0.1}),
+        Shape(PlaneShape{}), Shape(BowlShape{0.6, 0.1})}) {
     for (ToolMode mode : {ToolMode::collision, ToolMode::proximity}) {
       Tool tool = ball(mode);
-      tool.shape = *PlacedShape::create(shape, {Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), Point(1, 2, 3), {1, 1, 1}});
+      tool.shape = *PlacedShape::create(
+          shape, {Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), Point(1, 2, 3), {1, 1, 1}});
       const ModelTool model(tool, Point(1, 2, 3), 1);
       int passed = 0, met = 0;
       for (int k = 0; k < 3000; ++k) {

@@ -20,7 +20,8 @@ void raise(const Error& error) {
 }
 
 Points points_of(const Doubles& numbers) {
-  return Eigen::Map<const Points>(numbers.span().data(), static_cast<Eigen::Index>(numbers.size() / 3), 3);
+  return Eigen::Map<const Points>(numbers.span().data(),
+                                  static_cast<Eigen::Index>(numbers.size() / 3), 3);
 }
 
 void bind_base(py::module_& module) {
@@ -29,7 +30,8 @@ void bind_base(py::module_& module) {
     py::ssize_t stride = view.itemsize;
     for (std::size_t k = strides.size(); k-- > 0; stride *= view.shape[k]) strides[k] = stride;
     return py::buffer_info(const_cast<void*>(view.data), view.itemsize, view.format,
-                           static_cast<py::ssize_t>(view.shape.size()), view.shape, strides, view.readonly);
+                           static_cast<py::ssize_t>(view.shape.size()), view.shape, strides,
+                           view.readonly);
   });
   module.def("set_error_maker", [](const py::object& maker) {
     Py_XDECREF(std::exchange(error_maker, py::object(maker).release().ptr()));

@@ -14,8 +14,8 @@
 #include "knead/base/error.hpp"
 #include "knead/spline/spline.hpp"
 
-// What the files of the module share: values in, values out. The package's Python has checked types and shapes, and
-// calls nothing here with others.
+// What the files of the module share: values in, values out. The package's Python has checked types
+// and shapes, and calls nothing here with others.
 namespace knead::python {
 
 namespace py = pybind11;
@@ -61,7 +61,8 @@ using Doubles = Numbers<double>;
 /// N × 3 coordinates.
 [[nodiscard]] Points points_of(const Doubles& numbers);
 
-/// Memory of the library as an array of Python: by the buffer protocol, without a copy. It lives as long as the array.
+/// Memory of the library as an array of Python: by the buffer protocol, without a copy. It lives as
+/// long as the array.
 struct View {
   std::shared_ptr<const void> owner;
   const void* data = nullptr;
@@ -73,12 +74,15 @@ struct View {
 
 /// What nobody else knows: it may be written to. Empty memory is a valid address all the same.
 template <class T>
-[[nodiscard]] View view_of(std::shared_ptr<const void> owner, const T* data, std::vector<py::ssize_t> shape,
-                           bool readonly = true) {
+[[nodiscard]] View view_of(std::shared_ptr<const void> owner, const T* data,
+                           std::vector<py::ssize_t> shape, bool readonly = true) {
   static constexpr T none{};
-  return {
-      std::move(owner), data != nullptr ? data : &none, py::format_descriptor<T>::format(), sizeof(T), std::move(shape),
-      readonly};
+  return {std::move(owner),
+          data != nullptr ? data : &none,
+          py::format_descriptor<T>::format(),
+          sizeof(T),
+          std::move(shape),
+          readonly};
 }
 /// Of a list or matrix that is given away.
 template <class List>

@@ -24,7 +24,8 @@ Expected<void> begin(Session& session) {
   return done;
 }
 
-std::shared_ptr<const Source> source_of(const py::bytes& bytes, const std::string& name, std::size_t max_unpacked) {
+std::shared_ptr<const Source> source_of(const py::bytes& bytes, const std::string& name,
+                                        std::size_t max_unpacked) {
   auto text = std::string(bytes);
   auto source = [&] {
     const py::gil_scoped_release others;
@@ -38,7 +39,8 @@ std::shared_ptr<const Source> source_of(const py::bytes& bytes, const std::strin
 PySession::PySession(std::shared_ptr<const Source> source, Session session)
     : source_(std::move(source)), session_(std::move(session)) {}
 
-std::unique_ptr<PySession> PySession::open(const py::bytes& bytes, const std::string& name, std::size_t max_unpacked) {
+std::unique_ptr<PySession> PySession::open(const py::bytes& bytes, const std::string& name,
+                                           std::size_t max_unpacked) {
   auto made = source_of(bytes, name, max_unpacked);
   auto held = std::make_unique<PySession>(made, Session(Document::from(made)));
   value_of(held->alone([&] { return begin(held->session_); }));
@@ -47,7 +49,8 @@ std::unique_ptr<PySession> PySession::open(const py::bytes& bytes, const std::st
 
 std::unique_ptr<PySession> PySession::fresh(const std::string& name, const std::string& unit) {
   if (!is_length_unit(unit)) {
-    raise({ErrorKind::usage, "\"" + unit + "\" is no unit of length", "unit", "use one of " + list_of_length_units()});
+    raise({ErrorKind::usage, "\"" + unit + "\" is no unit of length", "unit",
+           "use one of " + list_of_length_units()});
   }
   auto held = std::make_unique<PySession>(nullptr, Session(Document::fresh(name, unit)));
   value_of(begin(held->session_));
@@ -55,14 +58,16 @@ std::unique_ptr<PySession> PySession::fresh(const std::string& name, const std::
 }
 
 std::unique_ptr<PySession> PySession::copy() {
-  auto made = alone([&] { return restored(session_.snapshot(unlimited), session_.opening_commands()); });
+  auto made =
+      alone([&] { return restored(session_.snapshot(unlimited), session_.opening_commands()); });
   return std::make_unique<PySession>(source_, value_of(std::move(made)));
 }
 
 Expected<Session> PySession::restored(const std::string& snapshot, std::size_t opening) const {
   const Document& present = session_.document();
-  auto made =
-      Session::restore(source_ ? Document::from(source_) : Document::fresh(present.name(), present.unit()), snapshot);
+  auto made = Session::restore(
+      source_ ? Document::from(source_) : Document::fresh(present.name(), present.unit()),
+      snapshot);
   if (made) made->begin_history_after(opening);
   return made;
 }
@@ -76,8 +81,8 @@ py::tuple PySession::state() {
     // With its own surfaces a file is saved as the bytes that it has.
     auto bytes = source_ ? source_->save(surfaces) : Expected<std::string>();
     const Document& present = session_.document();
-    return std::tuple(std::move(bytes), session_.snapshot(unlimited), session_.opening_commands(), present.name(),
-                      present.unit());
+    return std::tuple(std::move(bytes), session_.snapshot(unlimited), session_.opening_commands(),
+                      present.name(), present.unit());
   });
   const py::object bytes = source_ ? py::object(py::bytes(value_of(std::move(file)))) : py::none();
   return py::make_tuple(bytes, py::bytes(snapshot), opening, name, unit);
@@ -85,8 +90,10 @@ py::tuple PySession::state() {
 
 std::unique_ptr<PySession> PySession::from_state(const py::tuple& state) {
   const auto name = state[3].cast<std::string>();
-  auto source = state[0].is_none() ? nullptr : source_of(state[0].cast<py::bytes>(), name, max_file_size);
-  auto document = source ? Document::from(source) : Document::fresh(name, state[4].cast<std::string>());
+  auto source =
+      state[0].is_none() ? nullptr : source_of(state[0].cast<py::bytes>(), name, max_file_size);
+  auto document =
+      source ? Document::from(source) : Document::fresh(name, state[4].cast<std::string>());
   auto held = std::make_unique<PySession>(std::move(source), Session(std::move(document)));
   const auto snapshot = state[1].cast<std::string>();
   const auto opening = state[2].cast<std::size_t>();
@@ -99,13 +106,15 @@ void PySession::execute(const std::string& json, py::object progress) {
   Work work(std::move(progress));
   auto done = alone([&] {
     return session_.execute(
-        command, [&](int step, int all) { return work.tell(step, all); }, [&] { return work.go_on(); });
+        command, [&](int step, int all) { return work.tell(step, all); },
+        [&] { return work.go_on(); });
   });
   work.finish();
   value_of(std::move(done));
 }
 
-void PySession::run(const std::string& text, const std::string& name, bool list, py::object progress) {
+void PySession::run(const std::string& text, const std::string& name, bool list,
+                    py::object progress) {
   std::size_t implied = 0;
   auto read = list ? parse_commands(text) : parse_script(text, name, &implied);
   if (!read) raise(list ? read.error() : error_of_script(read.error(), text, name));
@@ -114,7 +123,8 @@ void PySession::run(const std::string& text, const std::string& name, bool list,
   auto done = alone([&]() -> Expected<void> {
     const auto carry_out = [&](const Command& command) {
       return session_.execute(
-          command, [&](int step, int all) { return work.tell(step, all); }, [&] { return work.go_on(); });
+          command, [&](int step, int all) { return work.tell(step, all); },
+          [&] { return work.go_on(); });
     };
     // A command that fails has changed nothing; what went before it is taken back.
     auto before = session_.before(commands);
@@ -135,7 +145,8 @@ void PySession::run(const std::string& text, const std::string& name, bool list,
 py::list PySession::shapes() {
   const auto listed = alone([&] {
     std::vector<std::array<std::string, 4>> rows;
-    for (const SceneSurface& s : session_.state().surfaces) rows.push_back({"surface", s.id, s.name, s.unit});
+    for (const SceneSurface& s : session_.state().surfaces)
+      rows.push_back({"surface", s.id, s.name, s.unit});
     for (const SceneBody& body : session_.state().bodies) {
       const ShapeCommon& common = common_of(body);
       rows.push_back({kind_of(body), common.id, common.name, common.unit});
@@ -143,7 +154,8 @@ py::list PySession::shapes() {
     return rows;
   });
   py::list result;
-  for (const auto& [kind, id, name, unit] : listed) result.append(py::make_tuple(kind, id, name, unit));
+  for (const auto& [kind, id, name, unit] : listed)
+    result.append(py::make_tuple(kind, id, name, unit));
   return result;
 }
 
@@ -154,7 +166,8 @@ py::object PySession::shape(const std::string& id, bool opened) {
     }
     for (const SceneBody& body : session_.state().bodies) {
       if (common_of(body).id != id) continue;
-      if (const auto* curve = std::get_if<SceneCurve>(&body)) return Held<1>{opened ? curve->opened : curve->current};
+      if (const auto* curve = std::get_if<SceneCurve>(&body))
+        return Held<1>{opened ? curve->opened : curve->current};
       const auto& volume = std::get<SceneVolume>(body);
       return Held<3>{opened ? volume.opened : volume.current};
     }
@@ -190,7 +203,8 @@ std::string PySession::selected() {
   return alone([&]() -> std::string {
     const SessionState& state = session_.state();
     if (state.body) return common_of(state.bodies[static_cast<std::size_t>(*state.body)]).id;
-    return state.selected ? state.surfaces[static_cast<std::size_t>(*state.selected)].id : std::string();
+    return state.selected ? state.surfaces[static_cast<std::size_t>(*state.selected)].id
+                          : std::string();
   });
 }
 
@@ -212,8 +226,10 @@ FileBytes without_loss(Expected<std::string> bytes) {
 /// In the format of the document's own file, or as a new file of another one.
 FileBytes saved_as(const Session& session, const Format& format, const SaveOptions& how) {
   const Document& document = session.document();
-  if (document.source() != nullptr && format.name == document.source()->format()) return without_loss(session.save());
-  if (document.model() == nullptr || !holds_faces(format)) return without_loss(session.save_as(format, how));
+  if (document.source() != nullptr && format.name == document.source()->format())
+    return without_loss(session.save());
+  if (document.model() == nullptr || !holds_faces(format))
+    return without_loss(session.save_as(format, how));
   auto made = save_faces(session, format, how);
   if (!made) return std::unexpected(std::move(made.error()));
   return std::pair(std::move(made->bytes), sentences_of(made->left_out));
@@ -238,13 +254,15 @@ FileBytes meshed(const Session& session, const Format& format, double tolerance,
   auto model = save_model(**file, format, tolerance);
   if (!model) return std::unexpected(std::move(model.error()));
   auto lines = std::move(model->warnings);
-  for (std::string& line : sentences_of(left_out_of_mesh(**file, model->skipped))) lines.push_back(std::move(line));
+  for (std::string& line : sentences_of(left_out_of_mesh(**file, model->skipped)))
+    lines.push_back(std::move(line));
   return std::pair(std::move(model->bytes), std::move(lines));
 }
 
 }  // namespace
 
-py::tuple PySession::file(const std::string& name, double tolerance, int detail, const std::string& schema) {
+py::tuple PySession::file(const std::string& name, double tolerance, int detail,
+                          const std::string& schema) {
   auto made = alone([&]() -> FileBytes {
     if (name.empty()) return without_loss(session_.save());
     const auto triangles = format_of_name(name, FormatContent::triangles);
@@ -277,36 +295,42 @@ py::tuple PySession::analysis(int samples) {
     for (const ModeRecord& mode : records) list.push_back({mode.value, mode.residual});
     return list;
   };
-  auto made = alone([&]() -> Expected<std::tuple<std::vector<FieldGrid>, std::vector<HoldReaction>, Values, Values>> {
-    const SessionState& state = session_.state();
-    if (!state.selected) return input_error("no surface is selected", {}, "select one");
-    auto grids = result_grids(session_, samples);
-    if (!grids) return std::unexpected(grids.error());
-    std::vector<HoldReaction> reactions;
-    if (is_nonlinear(state.surfaces[static_cast<std::size_t>(*state.selected)].elasticity)) {
-      auto found = hold_reactions(state);
-      if (!found) return std::unexpected(found.error());
-      reactions = *std::move(found);
-    }
-    return std::tuple(*std::move(grids), std::move(reactions), values(state.modes), values(state.buckling));
-  });
+  auto made = alone(
+      [&]() -> Expected<
+                std::tuple<std::vector<FieldGrid>, std::vector<HoldReaction>, Values, Values>> {
+        const SessionState& state = session_.state();
+        if (!state.selected) return input_error("no surface is selected", {}, "select one");
+        auto grids = result_grids(session_, samples);
+        if (!grids) return std::unexpected(grids.error());
+        std::vector<HoldReaction> reactions;
+        if (is_nonlinear(state.surfaces[static_cast<std::size_t>(*state.selected)].elasticity)) {
+          auto found = hold_reactions(state);
+          if (!found) return std::unexpected(found.error());
+          reactions = *std::move(found);
+        }
+        return std::tuple(*std::move(grids), std::move(reactions), values(state.modes),
+                          values(state.buckling));
+      });
   auto [grids, reactions, vibrations, bucklings] = value_of(std::move(made));
   py::list forces, modes, buckling;
-  for (const HoldReaction& r : reactions) forces.append(py::make_tuple(r.hold, r.force.x(), r.force.y(), r.force.z()));
+  for (const HoldReaction& r : reactions)
+    forces.append(py::make_tuple(r.hold, r.force.x(), r.force.y(), r.force.z()));
   for (const auto& [value, residual] : vibrations) modes.append(py::make_tuple(value, residual));
   for (const auto& [value, residual] : bucklings) buckling.append(py::make_tuple(value, residual));
-  return py::make_tuple(Grids{std::make_shared<const std::vector<FieldGrid>>(std::move(grids))}, forces, modes,
-                        buckling);
+  return py::make_tuple(Grids{std::make_shared<const std::vector<FieldGrid>>(std::move(grids))},
+                        forces, modes, buckling);
 }
 
 py::tuple PySession::matrices(const std::string& id, bool normalised, double tolerance) {
-  const auto found =
-      alone([&]() -> Expected<std::tuple<std::shared_ptr<const Surface>, MaterialFieldOf<2>, int, Vector3>> {
+  const auto found = alone(
+      [&]() -> Expected<
+                std::tuple<std::shared_ptr<const Surface>, MaterialFieldOf<2>, int, Vector3>> {
         for (const SceneSurface& s : session_.state().surfaces) {
           if (s.id != id) continue;
           if (is_nonlinear(s.elasticity)) {
-            return usage_error("a shell has no constant matrices: what resists depends on its shape", id,
-                               "give it a linear material");
+            return usage_error(
+                "a shell has no constant matrices: what resists depends on its shape", id,
+                "give it a linear material");
           }
           return std::tuple(s.reference, s.material, s.hold_rows, session_.state().load.vector);
         }

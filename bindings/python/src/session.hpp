@@ -8,23 +8,27 @@
 
 namespace knead::python {
 
-/// A session for any number of threads, one at a time. Everything that takes time is done without the interpreter.
+/// A session for any number of threads, one at a time. Everything that takes time is done without
+/// the interpreter.
 class PySession {
  public:
   PySession(std::shared_ptr<const Source> source, Session session);
 
-  [[nodiscard]] static std::unique_ptr<PySession> open(const py::bytes& bytes, const std::string& name,
+  [[nodiscard]] static std::unique_ptr<PySession> open(const py::bytes& bytes,
+                                                       const std::string& name,
                                                        std::size_t max_unpacked);
-  [[nodiscard]] static std::unique_ptr<PySession> fresh(const std::string& name, const std::string& unit);
-  /// Everything, to be kept elsewhere: the file's bytes or None, the snapshot, the commands that cannot be undone, name
-  /// and unit.
+  [[nodiscard]] static std::unique_ptr<PySession> fresh(const std::string& name,
+                                                        const std::string& unit);
+  /// Everything, to be kept elsewhere: the file's bytes or None, the snapshot, the commands that
+  /// cannot be undone, name and unit.
   [[nodiscard]] py::tuple state();
   [[nodiscard]] static std::unique_ptr<PySession> from_state(const py::tuple& state);
   /// An independent one, of the same file.
   [[nodiscard]] std::unique_ptr<PySession> copy();
 
   void execute(const std::string& json, py::object progress);
-  /// A script, or a list of commands: all of them, or none where one fails. Where it is stopped, what was done stands.
+  /// A script, or a list of commands: all of them, or none where one fails. Where it is stopped,
+  /// what was done stands.
   void run(const std::string& text, const std::string& name, bool list, py::object progress);
 
   /// (kind, id, label, unit) of every shape.
@@ -38,7 +42,8 @@ class PySession {
   [[nodiscard]] std::string info();
   [[nodiscard]] std::string report();
   /// (bytes, what they leave out) of a file of that name; without a name the document's own file.
-  [[nodiscard]] py::tuple file(const std::string& name, double tolerance, int detail, const std::string& schema);
+  [[nodiscard]] py::tuple file(const std::string& name, double tolerance, int detail,
+                               const std::string& schema);
   /// (grids, reactions, modes, buckling).
   [[nodiscard]] py::tuple analysis(int samples);
   [[nodiscard]] py::tuple matrices(const std::string& id, bool normalised, double tolerance);

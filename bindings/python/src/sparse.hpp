@@ -10,7 +10,7 @@ namespace knead::python {
 
 /// (K, M, D, F, free): K, M and D on all control points, F on the free ones. With the
 /// interpreter, which others have meanwhile.
-[[nodiscard]] py::tuple matrices_of(const Surface& shape, const MaterialFieldOf<2>& material, const Point& load,
-                                    int hold, bool normalised, double tolerance);
+[[nodiscard]] py::tuple matrices_of(const Surface& shape, const MaterialFieldOf<2>& material,
+                                    const Point& load, int hold, bool normalised, double tolerance);
 
 }  // namespace knead::python

@@ -17,13 +17,14 @@ std::vector<Doubles> arrays_of(const py::sequence& arrays, bool writable) {
 }
 
 template <int D>
-Held<D> create(const std::array<int, D>& degree, const py::sequence& knots, const py::object& control_points,
-               const py::object& weights) {
+Held<D> create(const std::array<int, D>& degree, const py::sequence& knots,
+               const py::object& control_points, const py::object& weights) {
   const auto make = [&]<std::size_t... d>(std::index_sequence<d...>) {
     const auto lists = arrays_of(knots, false);
     const auto vector_of = [&](std::size_t direction) {
       auto made = KnotVector::create(degree[direction], lists[direction].vector());
-      if (!made) raise(made.error().within(D == 1 ? "knots" : "knots[" + std::to_string(direction) + "]"));
+      if (!made)
+        raise(made.error().within(D == 1 ? "knots" : "knots[" + std::to_string(direction) + "]"));
       return *std::move(made);
     };
     return std::array<KnotVector, D>{vector_of(d)...};
@@ -35,11 +36,11 @@ Held<D> create(const std::array<int, D>& degree, const py::sequence& knots, cons
       value_of(Spline<D>::create(std::move(vectors), std::move(points), std::move(list))))};
 }
 
-/// Into memory of the caller. \param grid the parameters of each direction are combined; else those of a point side by
-/// side
+/// Into memory of the caller. \param grid the parameters of each direction are combined; else those
+/// of a point side by side
 template <int D>
-void evaluate_into(const Held<D>& held, const py::sequence& parameters, int order, bool left, bool grid,
-                   const py::sequence& out) {
+void evaluate_into(const Held<D>& held, const py::sequence& parameters, int order, bool left,
+                   bool grid, const py::sequence& out) {
   const auto at = arrays_of(parameters, false), memory = arrays_of(out, true);
   const py::gil_scoped_release others;
   const Side side = left ? Side::left : Side::right;
@@ -82,7 +83,8 @@ Held<D> inserted(const Held<D>& held, const std::array<std::vector<double>, D>& 
 
 template <int D>
 Held<D> elevated(const Held<D>& held, int direction, int times) {
-  return {std::make_shared<const Spline<D>>(value_of(elevate_degree<D>(*held.spline, direction, times)))};
+  return {std::make_shared<const Spline<D>>(
+      value_of(elevate_degree<D>(*held.spline, direction, times)))};
 }
 
 template <int D>
@@ -94,7 +96,8 @@ py::tuple without_knots(const Held<D>& held, int direction, double tolerance) {
 }
 
 /// Per point: curvature, then the vectors of `CurveCurvature`.
-void curvatures(const Held<1>& held, const py::sequence& parameters, bool left, const py::object& out) {
+void curvatures(const Held<1>& held, const py::sequence& parameters, bool left,
+                const py::object& out) {
   const Doubles at(parameters[0]), to(out, true);
   double* p = to.span().data();
   for (std::size_t k = 0; k < at.size(); ++k) {
@@ -106,28 +109,33 @@ void curvatures(const Held<1>& held, const py::sequence& parameters, bool left, 
 }
 
 /// Per point: mean, Gaussian, the principal ones, then the vectors of `SurfaceCurvature`.
-void curvatures(const Held<2>& held, const py::sequence& parameters, bool left, const py::object& out) {
+void curvatures(const Held<2>& held, const py::sequence& parameters, bool left,
+                const py::object& out) {
   const Doubles u(parameters[0]), v(parameters[1]), to(out, true);
   double* p = to.span().data();
   for (std::size_t k = 0; k < u.size(); ++k) {
-    const auto c = curvature(*held.spline, {u.span()[k], v.span()[k]}, left ? Side::left : Side::right);
+    const auto c =
+        curvature(*held.spline, {u.span()[k], v.span()[k]}, left ? Side::left : Side::right);
     if (!c) raise(c.error().within("point " + std::to_string(k)));
     for (const double x : {c->mean, c->gaussian, c->principal[0], c->principal[1]}) *p++ = x;
-    for (const Point* w : {&c->normal, &c->directions[0], &c->directions[1]}) p = std::copy(w->begin(), w->end(), p);
+    for (const Point* w : {&c->normal, &c->directions[0], &c->directions[1]})
+      p = std::copy(w->begin(), w->end(), p);
   }
 }
 
-void normals(const Held<2>& held, const py::sequence& parameters, bool left, const py::object& out) {
+void normals(const Held<2>& held, const py::sequence& parameters, bool left,
+             const py::object& out) {
   const Doubles u(parameters[0]), v(parameters[1]), to(out, true);
   Parameters<2> at(static_cast<Eigen::Index>(u.size()), 2);
-  for (std::size_t k = 0; k < u.size(); ++k) at.row(static_cast<Eigen::Index>(k)) << u.span()[k], v.span()[k];
+  for (std::size_t k = 0; k < u.size(); ++k)
+    at.row(static_cast<Eigen::Index>(k)) << u.span()[k], v.span()[k];
   const Points made = value_of(unit_normals(*held.spline, at, left ? Side::left : Side::right));
   std::copy_n(made.data(), made.size(), to.span().data());
 }
 
 template <int D>
-void nearest(const ClosestPointSearch<D>& search, const py::object& points, const py::object& parameters,
-             const py::object& distances) {
+void nearest(const ClosestPointSearch<D>& search, const py::object& points,
+             const py::object& parameters, const py::object& distances) {
   const Doubles from(points), at(parameters, true), apart(distances, true);
   const py::gil_scoped_release others;
   const Points places = points_of(from);
@@ -141,15 +149,16 @@ void nearest(const ClosestPointSearch<D>& search, const py::object& points, cons
 template <int D>
 void bind(py::module_& module, const char* name) {
   py::class_<Held<D>> type(module, name);
-  type.def_static("create", [](const py::tuple& degree, const py::sequence& knots, const py::object& control_points,
-                               const py::object& weights) {
+  type.def_static("create", [](const py::tuple& degree, const py::sequence& knots,
+                               const py::object& control_points, const py::object& weights) {
     std::array<int, D> degrees{};
     for (std::size_t d = 0; d < D; ++d) degrees[d] = degree[d].template cast<int>();
     return create<D>(degrees, knots, control_points, weights);
   });
   type.def_property_readonly("degree", [](const Held<D>& held) {
     py::tuple degree(D);
-    for (int d = 0; d < D; ++d) degree[static_cast<std::size_t>(d)] = held.spline->knots(d).degree();
+    for (int d = 0; d < D; ++d)
+      degree[static_cast<std::size_t>(d)] = held.spline->knots(d).degree();
     return degree;
   });
   type.def("knots", [](const Held<D>& held, int direction) {
@@ -170,7 +179,9 @@ void bind(py::module_& module, const char* name) {
   type.def("same_object", [](const Held<D>& a, const Held<D>& b) { return a.spline == b.spline; });
   type.def("evaluate", &evaluate_into<D>);
   if constexpr (D == 1) {
-    type.def("point", [](const Held<D>& s, const py::object& out, double u) { evaluate_one<D>(s, out, {u}); });
+    type.def("point", [](const Held<D>& s, const py::object& out, double u) {
+      evaluate_one<D>(s, out, {u});
+    });
   } else if constexpr (D == 2) {
     type.def("point", [](const Held<D>& s, const py::object& out, double u, double v) {
       evaluate_one<D>(s, out, {u, v});
@@ -189,12 +200,13 @@ void bind(py::module_& module, const char* name) {
   type.def("without_knots", &without_knots<D>);
   if constexpr (D == 2) type.def("normals", &normals);
   if constexpr (D < 3) {
-    type.def("curvatures", [](const Held<D>& held, const py::sequence& at, bool left, const py::object& out) {
-      curvatures(held, at, left, out);
-    });
+    type.def("curvatures", [](const Held<D>& held, const py::sequence& at, bool left,
+                              const py::object& out) { curvatures(held, at, left, out); });
     const std::string search = std::string(name) + "Search";
     py::class_<ClosestPointSearch<D>>(module, search.c_str()).def("nearest", &nearest<D>);
-    type.def("search", [](const Held<D>& held) { return value_of(ClosestPointSearch<D>::create(*held.spline)); });
+    type.def("search", [](const Held<D>& held) {
+      return value_of(ClosestPointSearch<D>::create(*held.spline));
+    });
   }
 }
 

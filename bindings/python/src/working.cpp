@@ -8,9 +8,12 @@ OneAtATime::Taken::Taken(OneAtATime& of) : of_(of) {
   const std::thread::id owner = of_.owner_.load();
   if (owner != std::thread::id()) {
     const bool forked = of_.process_.load() != ::getpid();
-    if (forked) throw std::runtime_error("another thread was at work on this session when the process forked");
+    if (forked)
+      throw std::runtime_error(
+          "another thread was at work on this session when the process forked");
     if (owner == std::this_thread::get_id()) {
-      throw std::runtime_error("a callback must not use the session that calls it: do so after the call");
+      throw std::runtime_error(
+          "a callback must not use the session that calls it: do so after the call");
     }
   }
   others_.emplace();

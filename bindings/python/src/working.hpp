@@ -12,12 +12,14 @@
 
 namespace knead::python {
 
-/// What one thread at a time may use. The interpreter's lock is not held while another thread is waited for.
+/// What one thread at a time may use. The interpreter's lock is not held while another thread is
+/// waited for.
 class OneAtATime {
  public:
-  /// Takes it for this thread, and gives the interpreter to others for as long as this lives. Raises `RuntimeError`
-  /// where this thread has it already (a callback that calls the session which called it), and where another thread had
-  /// it as the process forked. Ctrl+C ends the waiting.
+  /// Takes it for this thread, and gives the interpreter to others for as long as this lives.
+  /// Raises `RuntimeError` where this thread has it already (a callback that calls the session
+  /// which called it), and where another thread had it as the process forked. Ctrl+C ends the
+  /// waiting.
   class Taken {
    public:
     explicit Taken(OneAtATime& of);
@@ -36,11 +38,12 @@ class OneAtATime {
   std::atomic<pid_t> process_ = 0;
 };
 
-/// Long work: it tells its progress and can be stopped, by Ctrl+C, by the callback, and by what that raises. Used while
-/// the interpreter is others'.
+/// Long work: it tells its progress and can be stopped, by Ctrl+C, by the callback, and by what
+/// that raises. Used while the interpreter is others'.
 class Work {
  public:
-  /// \param progress called with the numbers of steps done and to do; false stops. None: nobody is told
+  /// \param progress called with the numbers of steps done and to do; false stops. None: nobody is
+  /// told
   explicit Work(py::object progress);
 
   /// False: stop.

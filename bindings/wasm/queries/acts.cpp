@@ -17,7 +17,8 @@ struct ActQuery {
 
 void describe(ActQuery& q, Fields& fields) {
   fields.name("act", "Carries out commands as one act: all or none.");
-  fields.add("commands", q.commands, {.help = "one after the other", .presence = Presence::required});
+  fields.add("commands", q.commands,
+             {.help = "one after the other", .presence = Presence::required});
   fields.add("join", q.join, {.help = "it belongs to the entry of the history before it"});
   fields.add("keep", q.keep, {.help = "it is an entry even if it changes nothing"});
 }
@@ -26,9 +27,11 @@ Expected<Nothing> ask(Studio& studio, const ActQuery& q) {
   if (!studio.session) return nothing_open();
   Session& session = *studio.session;
   const auto& state = session.state();
-  const bool first = session.document().is_fresh() && state.surfaces.empty() && state.bodies.empty();
+  const bool first =
+      session.document().is_fresh() && state.surfaces.empty() && state.bodies.empty();
   session.stop_at_faces(true);
-  if (auto done = session.act(q.commands, {.join = q.join, .keep = q.keep}, studio.progress); !done) {
+  if (auto done = session.act(q.commands, {.join = q.join, .keep = q.keep}, studio.progress);
+      !done) {
     return std::unexpected(std::move(done.error()));
   }
   if (first) studio.origin = origin_near(session.state(), studio.origin);
@@ -46,10 +49,12 @@ struct BeginHistoryQuery {
 };
 
 void describe(BeginHistoryQuery& q, Fields& fields) {
-  fields.name("begin_history",
-              "What stands belongs to the document: undo ends there. The answer is how many commands "
-              "of the journal that are.");
-  fields.add("commands", q.commands, {.help = "what stood after so many commands of the journal instead of now"});
+  fields.name(
+      "begin_history",
+      "What stands belongs to the document: undo ends there. The answer is how many commands "
+      "of the journal that are.");
+  fields.add("commands", q.commands,
+             {.help = "what stood after so many commands of the journal instead of now"});
 }
 
 Expected<int> ask(Session& session, const BeginHistoryQuery& q) {
@@ -67,14 +72,17 @@ struct RehearseQuery {
 };
 
 void describe(RehearseQuery& q, Fields& fields) {
-  fields.name("rehearse",
-              "Carries out commands and leaves the session as it is; what was made for them is kept, so "
-              "that they take less time later.");
-  fields.add("commands", q.commands, {.help = "one after the other", .presence = Presence::required});
+  fields.name(
+      "rehearse",
+      "Carries out commands and leaves the session as it is; what was made for them is kept, so "
+      "that they take less time later.");
+  fields.add("commands", q.commands,
+             {.help = "one after the other", .presence = Presence::required});
 }
 
 Expected<Nothing> ask(Session& session, const RehearseQuery& q) {
-  if (auto done = session.rehearse(q.commands); !done) return std::unexpected(std::move(done.error()));
+  if (auto done = session.rehearse(q.commands); !done)
+    return std::unexpected(std::move(done.error()));
   return {};
 }
 
@@ -103,18 +111,19 @@ Expected<std::string> ask(Session& session, const StepsQuery& q) {
 }  // namespace
 
 std::vector<Query> act_queries() {
-  return {query<ActQuery>(),
-          query<Nothing, drop_unchanged>(
-              "drop_unchanged",
-              "The last entry of the history goes if it is steps and settings that have changed nothing."),
-          query<BeginHistoryQuery>(),
-          query<RehearseQuery>(),
-          query<Text, journal>("journal", "The list of all commands in effect as JSON, one per line."),
-          query<Text, script>("script", "A script that does what the journal did."),
-          query<std::vector<CommandVariant>, script_opening>("script_opening",
-                                                             "The commands that precede those of every script."),
-          query<SessionInfo, state>("state", "The session as panels show it."),
-          query<StepsQuery>()};
+  return {
+      query<ActQuery>(),
+      query<Nothing, drop_unchanged>("drop_unchanged",
+                                     "The last entry of the history goes if it is steps and "
+                                     "settings that have changed nothing."),
+      query<BeginHistoryQuery>(),
+      query<RehearseQuery>(),
+      query<Text, journal>("journal", "The list of all commands in effect as JSON, one per line."),
+      query<Text, script>("script", "A script that does what the journal did."),
+      query<std::vector<CommandVariant>, script_opening>(
+          "script_opening", "The commands that precede those of every script."),
+      query<SessionInfo, state>("state", "The session as panels show it."),
+      query<StepsQuery>()};
 }
 
 }  // namespace knead::studio

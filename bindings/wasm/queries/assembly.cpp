@@ -17,7 +17,8 @@ struct PartPlace {
 void describe(PartPlace& p, Fields& fields) {
   fields.name("part place", "One place where an assembly puts a part.");
   fields.add("path", p.path, {.help = "products from the model down: engine/valve/spring"});
-  fields.add("matrix", p.matrix, {.help = "from the part's coordinates to the model's: three rows of four"});
+  fields.add("matrix", p.matrix,
+             {.help = "from the part's coordinates to the model's: three rows of four"});
 }
 
 struct Part {
@@ -66,7 +67,8 @@ Expected<std::optional<Assembly>> assembly(Session& session) {
   }
   Assembly answer{assembly->unit, {}, assembly->warnings};
   for (const brep::Part& part : assembly->parts) {
-    Part& to = answer.parts.emplace_back(Part{part.name, part.unit, part.surfaces, part.faces, part.curves, {}});
+    Part& to = answer.parts.emplace_back(
+        Part{part.name, part.unit, part.surfaces, part.faces, part.curves, {}});
     std::unordered_set<std::string> known;
     for (const std::string& face : part.faces) {
       const auto on = below.find(face);

@@ -9,16 +9,18 @@ namespace {
 /// Curvature combs to draw, those teeth that are visible.
 struct Combs {
   std::vector<float> places, vectors;  ///< 3 per tooth; places relative to the requested origin
-  std::vector<std::uint8_t> joined;    ///< per tooth: 1 if it continues the comb of the tooth before it
-  double largest = 0;                  ///< curvature of any visible tooth, 1/length
-  Point at = Point::Zero();            ///< where that is, relative to the origin
+  std::vector<std::uint8_t>
+      joined;                ///< per tooth: 1 if it continues the comb of the tooth before it
+  double largest = 0;        ///< curvature of any visible tooth, 1/length
+  Point at = Point::Zero();  ///< where that is, relative to the origin
 };
 
 void describe(Combs& c, Fields& fields) {
   fields.name("combs", "Curvature combs of a surface, those teeth that are visible.");
   fields.add("places", c.places, {.help = "relative to the session's origin"});
   fields.add("vectors", c.vectors, {.help = "towards the centre of curvature, 1/length"});
-  fields.add("joined", c.joined, {.help = "per tooth: 1 if it continues the comb of the tooth before it"});
+  fields.add("joined", c.joined,
+             {.help = "per tooth: 1 if it continues the comb of the tooth before it"});
   fields.add("largest", c.largest, {.help = "curvature of any visible tooth, 1/length"});
   fields.add("at", c.at, {.help = "where that is, relative to the origin"});
 }
@@ -33,7 +35,8 @@ class CombDrawer {
   /// The next tooth is the first of a comb.
   void begin() { joined_ = false; }
   void add(const std::array<double, 2>& parameters, const Point& on, const Point& vector) {
-    if (visible_ != nullptr && !visible_->contains({fraction(0, parameters[0]), fraction(1, parameters[1])})) {
+    if (visible_ != nullptr &&
+        !visible_->contains({fraction(0, parameters[0]), fraction(1, parameters[1])})) {
       joined_ = false;
       return;
     }
@@ -69,9 +72,11 @@ struct CombsQuery {
 void describe(CombsQuery& q, Fields& fields) {
   fields.name("combs", "Curvature combs of a surface along parameter lines.");
   fields.add("surface", q.surface, {.help = "its number", .presence = Presence::required});
-  fields.add_pair("curves", q.along_u, q.along_v,
-                  {.help = "on how many u runs and on how many v does", .presence = Presence::required});
-  fields.add("teeth", q.teeth, {.help = "pieces of every knot span", .presence = Presence::required});
+  fields.add_pair(
+      "curves", q.along_u, q.along_v,
+      {.help = "on how many u runs and on how many v does", .presence = Presence::required});
+  fields.add("teeth", q.teeth,
+             {.help = "pieces of every knot span", .presence = Presence::required});
 }
 
 Expected<Combs> ask(Studio& studio, const CombsQuery& q) {
@@ -117,8 +122,8 @@ Expected<Combs> ask(Studio& studio, const SectionCombsQuery& q) {
   constexpr double dense = 1e-3;
   const Points& net = surface.control_points();
   const double extent = (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm();
-  const auto combs =
-      section_combs(surface, {{q.plane[0], q.plane[1], q.plane[2]}, q.plane[3]}, extent > 0 ? dense * extent : 1);
+  const auto combs = section_combs(surface, {{q.plane[0], q.plane[1], q.plane[2]}, q.plane[3]},
+                                   extent > 0 ? dense * extent : 1);
   if (!combs) return std::unexpected(combs.error());
   const auto visible = visible_part(studio, q.surface);
   CombDrawer drawer(surface, studio.origin, visible.get());

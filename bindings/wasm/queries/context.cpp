@@ -20,8 +20,10 @@ struct GreyFace {
 void describe(GreyFace& f, Fields& fields) {
   fields.name("grey face", "A face of the file that is no surface of the session.");
   fields.add("id", f.id);
-  fields.add("surface", f.surface, {.help = "the entity on which it lies; empty where there is none"});
-  fields.add("form", f.form, {.help = "PLANE and the like; TRIANGLES of faces that the file itself tessellates"});
+  fields.add("surface", f.surface,
+             {.help = "the entity on which it lies; empty where there is none"});
+  fields.add("form", f.form,
+             {.help = "PLANE and the like; TRIANGLES of faces that the file itself tessellates"});
   fields.add("triangles", f.triangles, {.help = "their number"});
 }
 
@@ -44,14 +46,16 @@ struct Context {
 };
 
 void describe(Context& c, Fields& fields) {
-  fields.name("context", "The surroundings of the surfaces: triangles of the other faces of the file.");
+  fields.name("context",
+              "The surroundings of the surfaces: triangles of the other faces of the file.");
   fields.add("positions", c.positions, {.help = "relative to the session's origin"});
   fields.add("normals", c.normals);
   fields.add("indices", c.indices, {.help = "3 per triangle, face after face"});
   fields.add("faces", c.faces, {.help = "in the order of the triangles"});
   fields.add("skipped", c.skipped);
   fields.add("left_out", c.left_out,
-             {.help = "what of the file is not drawn, one line for each kind and reason; skipped faces are among it"});
+             {.help = "what of the file is not drawn, one line for each kind and reason; skipped "
+                      "faces are among it"});
 }
 
 void add(Context& context, const FaceMesh& mesh, const Point& origin) {
@@ -81,18 +85,20 @@ Expected<std::optional<Context>> context(Studio& studio) {
   for (const FaceMesh& mesh : meshes.faces) {
     const auto on = below.find(mesh.id);
     const brep::OtherSurface none, &surface = on == below.end() ? none : *on->second;
-    answer.faces.push_back(
-        {mesh.id, surface.id, mesh.tessellated ? "TRIANGLES" : surface.form, static_cast<int>(mesh.triangles.size())});
+    answer.faces.push_back({mesh.id, surface.id, mesh.tessellated ? "TRIANGLES" : surface.form,
+                            static_cast<int>(mesh.triangles.size())});
     add(answer, mesh, studio.origin);
   }
-  for (const SkippedFace& face : meshes.skipped) answer.skipped.push_back({face.id, face.reason.what});
+  for (const SkippedFace& face : meshes.skipped)
+    answer.skipped.push_back({face.id, face.reason.what});
   for (const LeftOut& left : left_out_of_picture(*document.source(), meshes.skipped)) {
     answer.left_out.push_back(sentence(left));
   }
   return answer;
 }
 
-/// A billionth of the domain is less than a pixel of a picture from a hundred thousand times as near as all of it.
+/// A billionth of the domain is less than a pixel of a picture from a hundred thousand times as
+/// near as all of it.
 void add_fractions(std::vector<double>& numbers, double s, double t) {
   numbers.push_back(std::round(s * 1e9) / 1e9);
   numbers.push_back(std::round(t * 1e9) / 1e9);
@@ -103,7 +109,9 @@ struct Trims {
 };
 
 void describe(Trims& t, Fields& fields) {
-  fields.name("trims", "The loops of each face on a surface: the parts enclosed by an odd number of them are visible.");
+  fields.name("trims",
+              "The loops of each face on a surface: the parts enclosed by an odd number of them "
+              "are visible.");
   fields.add("faces", t.faces, {.help = "fractions s and t of the domain in turn"});
 }
 
@@ -144,8 +152,10 @@ struct FaceEdge {
 void describe(FaceEdge& e, Fields& fields) {
   fields.name("face edge", "An edge of a face.");
   fields.add("id", e.id);
-  fields.add("course", e.course,
-             {.help = "places along it, s and t in turn; on closed surfaces they may lie outside of 0 … 1"});
+  fields.add(
+      "course", e.course,
+      {.help =
+           "places along it, s and t in turn; on closed surfaces they may lie outside of 0 … 1"});
   fields.add("meets", e.meets);
   fields.add("seam", e.seam, {.help = "the same face is on both of its sides"});
 }
@@ -161,13 +171,14 @@ Expected<std::vector<FaceEdge>> face_edges(Session& session, int number) {
     region = std::make_shared<const VisibleRegion>(*std::move(found));
   }
   for (const TrimEdge& edge : region->edges) {
-    FaceEdge& to = answer.emplace_back(FaceEdge{.id = edge.id, .course = {}, .meets = {}, .seam = edge.seam});
+    FaceEdge& to =
+        answer.emplace_back(FaceEdge{.id = edge.id, .course = {}, .meets = {}, .seam = edge.seam});
     for (const Eigen::Vector2d& p : edge.course) add_fractions(to.course, p.x(), p.y());
     for (std::size_t k = 0; k < edge.neighbours.size(); ++k) {
       const std::string& on = edge.supports[k];  // "#30 PLANE"
       const auto space = on.find(' ');
-      to.meets.push_back(
-          {edge.neighbours[k], on.substr(0, space), space == std::string::npos ? "" : on.substr(space + 1)});
+      to.meets.push_back({edge.neighbours[k], on.substr(0, space),
+                          space == std::string::npos ? "" : on.substr(space + 1)});
     }
   }
   return answer;
@@ -176,12 +187,15 @@ Expected<std::vector<FaceEdge>> face_edges(Session& session, int number) {
 }  // namespace
 
 std::vector<Query> context_queries() {
-  return {query<std::optional<Context>, context>(
-              "context", "The faces of the file that are no surfaces of the session; null without a file of faces."),
-          query<std::optional<Trims>, trims>("trims",
-                                             "What the faces of the file show of a surface; null where that is all."),
-          query<std::vector<FaceEdge>, face_edges>(
-              "face_edges", "The edges of the faces of the file on a surface; none where they cannot be followed.")};
+  return {
+      query<std::optional<Context>, context>("context",
+                                             "The faces of the file that are no surfaces of the "
+                                             "session; null without a file of faces."),
+      query<std::optional<Trims>, trims>(
+          "trims", "What the faces of the file show of a surface; null where that is all."),
+      query<std::vector<FaceEdge>, face_edges>(
+          "face_edges",
+          "The edges of the faces of the file on a surface; none where they cannot be followed.")};
 }
 
 }  // namespace knead::studio

@@ -53,7 +53,9 @@ void describe(FreshQuery& q, Fields& fields) {
   fields.add("name", q.name, {.help = "of the document", .presence = Presence::required});
 }
 
-Expected<std::string> ask(Studio& studio, const FreshQuery& q) { return start(studio, Document::fresh(q.name)); }
+Expected<std::string> ask(Studio& studio, const FreshQuery& q) {
+  return start(studio, Document::fresh(q.name));
+}
 
 struct RestoreQuery {
   using Answer = Nothing;
@@ -62,9 +64,11 @@ struct RestoreQuery {
 };
 
 void describe(RestoreQuery& q, Fields& fields) {
-  fields.name("restore", "Goes on with the session of a snapshot, with undo and redo; nothing is computed.");
+  fields.name("restore",
+              "Goes on with the session of a snapshot, with undo and redo; nothing is computed.");
   fields.add("source", q.source, {.help = "the file that it began with; of no bytes: without one"});
-  fields.add("snapshot", q.snapshot, {.help = "of the query of that name", .presence = Presence::required});
+  fields.add("snapshot", q.snapshot,
+             {.help = "of the query of that name", .presence = Presence::required});
   fields.add("name", q.name, {.help = "of the document", .presence = Presence::required});
 }
 
@@ -101,7 +105,8 @@ Expected<std::string> ask(Session& session, const SnapshotQuery& q) {
   return session.snapshot(static_cast<std::size_t>(q.history_bytes));
 }
 
-/// The file, and how it leaves the edges of its faces; one answer, so that both are of the same moment.
+/// The file, and how it leaves the edges of its faces; one answer, so that both are of the same
+/// moment.
 struct SavedFile {
   Bytes file;
   std::vector<EdgesInfo> edges;
@@ -126,14 +131,18 @@ struct MeshQuery {
 };
 
 void describe(MeshQuery& q, Fields& fields) {
-  fields.name("mesh", "A file of triangles: the faces of the file as it would be saved, or else all surfaces, whole.");
-  fields.add("format", q.format, {.help = "the id of one for triangles", .presence = Presence::required});
+  fields.name("mesh",
+              "A file of triangles: the faces of the file as it would be saved, or else all "
+              "surfaces, whole.");
+  fields.add("format", q.format,
+             {.help = "the id of one for triangles", .presence = Presence::required});
   fields.add("detail", q.detail, {.help = "grid lines wanted per direction"});
 }
 
 Expected<std::string> ask(Session& session, const MeshQuery& q) {
   const Format* format = find_format(q.format);
-  if (format == nullptr || format->content != FormatContent::triangles) return usage_error("there is no such format");
+  if (format == nullptr || format->content != FormatContent::triangles)
+    return usage_error("there is no such format");
   if (session.document().model() == nullptr) {
     std::vector<NamedSurface> surfaces;
     SaveOptions options;

@@ -33,9 +33,9 @@ struct MaterialQuery {
 void describe(MaterialQuery& q, Fields& fields) {
   fields.name("material", "The material of a surface as it is now.");
   fields.add("surface", q.surface, {.help = "its number", .presence = Presence::required});
-  fields.add(
-      "counts", q.counts,
-      {.help = "samples in each direction, 2 to 1000, with the ends of the domain", .presence = Presence::required});
+  fields.add("counts", q.counts,
+             {.help = "samples in each direction, 2 to 1000, with the ends of the domain",
+              .presence = Presence::required});
 }
 
 Expected<MaterialSamples> ask(Session& session, const MaterialQuery& q) {
@@ -45,21 +45,24 @@ Expected<MaterialSamples> ask(Session& session, const MaterialQuery& q) {
   std::array<std::vector<double>, 2> at;
   for (std::size_t d = 0; d < 2; ++d) {
     if (q.counts[d] < 2 || q.counts[d] > 1000) {
-      return usage_error("a material has 2 to 1000 samples in each direction", "counts", "ask for as many");
+      return usage_error("a material has 2 to 1000 samples in each direction", "counts",
+                         "ask for as many");
     }
     const Interval domain = s.reference->knots()[d].domain();
-    for (int k = 0; k + 1 < q.counts[d]; ++k) at[d].push_back(domain.lower + domain.length() * k / (q.counts[d] - 1));
+    for (int k = 0; k + 1 < q.counts[d]; ++k)
+      at[d].push_back(domain.lower + domain.length() * k / (q.counts[d] - 1));
     at[d].push_back(domain.upper);
   }
   const auto sampled = [&](const Coefficient<2>& coefficient) -> Expected<std::vector<double>> {
-    if (const auto* field = std::get_if<SplineField<2>>(&coefficient)) return field->on_grid({at[0], at[1]});
+    if (const auto* field = std::get_if<SplineField<2>>(&coefficient))
+      return field->on_grid({at[0], at[1]});
     return std::vector<double>(at[0].size() * at[1].size(), std::get<double>(coefficient));
   };
   MaterialSamples samples;
   samples.counts = q.counts;
   for (std::size_t k = 0; k < 3; ++k) {
-    for (auto [values, coefficient] :
-         {std::pair{&samples.alpha[k], &s.material.alpha[k]}, std::pair{&samples.beta[k], &s.material.beta[k]}}) {
+    for (auto [values, coefficient] : {std::pair{&samples.alpha[k], &s.material.alpha[k]},
+                                       std::pair{&samples.beta[k], &s.material.beta[k]}}) {
       auto found = sampled(*coefficient);
       if (!found) return std::unexpected(found.error());
       values->data = *std::move(found);

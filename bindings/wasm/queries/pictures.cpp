@@ -6,12 +6,14 @@
 namespace knead {
 
 static std::span<const Choice> choices(DisplayPalette) {
-  static constexpr Choice list[] = {{"diverging", DisplayPalette::diverging}, {"rising", DisplayPalette::rising}};
+  static constexpr Choice list[] = {{"diverging", DisplayPalette::diverging},
+                                    {"rising", DisplayPalette::rising}};
   return list;
 }
 
 static void describe(DisplayRange& r, Fields& fields) {
-  fields.name("display range", "Where colours end by themselves, and the least and greatest of all visible values.");
+  fields.name("display range",
+              "Where colours end by themselves, and the least and greatest of all visible values.");
   fields.add("lower", r.lower);
   fields.add("upper", r.upper);
   fields.add("least", r.least);
@@ -26,13 +28,14 @@ static void describe(PictureWindow& w, Fields& fields) {
   fields.name("picture window", "What is looked at from nearby: a part of a surface.");
   fields.add("lower", w.lower, {.help = "fractions of the domain", .presence = Presence::required});
   fields.add("upper", w.upper, {.presence = Presence::required});
-  fields.add(
-      "tolerance", w.tolerance,
-      {.help = "how far chords may be from the surface there, in units of the file", .presence = Presence::required});
+  fields.add("tolerance", w.tolerance,
+             {.help = "how far chords may be from the surface there, in units of the file",
+              .presence = Presence::required});
 }
 
 static void describe(Picture& p, Fields& fields) {
-  fields.name("picture", "A surface to draw, as a grid of points: (k, l) is number k counts[1] + l.");
+  fields.name("picture",
+              "A surface to draw, as a grid of points: (k, l) is number k counts[1] + l.");
   fields.add("surface", p.surface, {.help = "its number"});
   fields.add("window", p.window);
   fields.add("counts", p.counts);
@@ -43,12 +46,13 @@ static void describe(Picture& p, Fields& fields) {
   fields.add("t", p.t);
   fields.add("lines_u", p.lines_u, {.help = "grid lines that are knot lines"});
   fields.add("lines_v", p.lines_v);
-  fields.add("coarse_u", p.coarse_u, {.help = "grid lines that are there without a window; empty: all"});
+  fields.add("coarse_u", p.coarse_u,
+             {.help = "grid lines that are there without a window; empty: all"});
   fields.add("coarse_v", p.coarse_v);
   fields.add("net", p.net, {.help = "control points"});
-  fields.add(
-      "held", p.held,
-      {.help = "per control point: 0 free, 1 does not move, 2 bound to others (pinned surface points, kept curves)"});
+  fields.add("held", p.held,
+             {.help = "per control point: 0 free, 1 does not move, 2 bound to others (pinned "
+                      "surface points, kept curves)"});
 }
 
 static void describe(ToolPicture& p, Fields& fields) {
@@ -83,13 +87,15 @@ void describe(PictureQuery& q, Fields& fields) {
 
 Expected<const Picture*> ask(Studio& studio, const PictureQuery& q) {
   if (!studio.session) return nothing_open();
-  if (const auto surface = surface_of(*studio.session, q.surface); !surface) return std::unexpected(surface.error());
+  if (const auto surface = surface_of(*studio.session, q.surface); !surface)
+    return std::unexpected(surface.error());
   auto display = asked_display(q.display, q.settings);
   if (!display) return std::unexpected(display.error());
   const bool sees = display->display != nullptr && display->display->sees_model;
   const auto seen = sees ? studio.shown.around(studio.session->document()) : nullptr;
-  const PictureOptions options{studio.origin, q.detail, *std::move(display), q.opened, visible_part(studio, q.surface),
-                               q.window,      seen};
+  const PictureOptions options{
+      studio.origin, q.detail, *std::move(display), q.opened, visible_part(studio, q.surface),
+      q.window,      seen};
   if (auto done = studio.pictures.make(studio.session->state(), q.surface, options); !done) {
     return std::unexpected(std::move(done.error()));
   }
@@ -98,7 +104,9 @@ Expected<const Picture*> ask(Studio& studio, const PictureQuery& q) {
 
 Expected<std::optional<DisplayRange>> range(Studio& studio) { return studio.pictures.range(); }
 
-Expected<Vector3> origin(Studio& studio) { return Vector3{studio.origin[0], studio.origin[1], studio.origin[2]}; }
+Expected<Vector3> origin(Studio& studio) {
+  return Vector3{studio.origin[0], studio.origin[1], studio.origin[2]};
+}
 
 struct SettingInfo {
   std::string name, title, unit;
@@ -131,12 +139,15 @@ void describe(DisplayInfo& d, Fields& fields) {
   fields.add("signed", d.is_signed, {.help = "values may be negative"});
   fields.add("palette", d.palette);
   fields.add("help", d.help);
-  fields.add("limits", d.limits, {.help = "the values at the ends of the palette; null: those of the range"});
-  fields.add("tolerance", d.tolerance,
-             {.help = "the setting up to whose magnitude values have the neutral colour; empty for none"});
+  fields.add("limits", d.limits,
+             {.help = "the values at the ends of the palette; null: those of the range"});
+  fields.add(
+      "tolerance", d.tolerance,
+      {.help = "the setting up to whose magnitude values have the neutral colour; empty for none"});
   fields.add("compares", d.compares, {.help = "with the shape as it was opened"});
-  fields.add("sees_model", d.sees_model,
-             {.help = "looks at the whole model from every point, which takes longer than a frame may"});
+  fields.add(
+      "sees_model", d.sees_model,
+      {.help = "looks at the whole model from every point, which takes longer than a frame may"});
   fields.add("settings", d.settings);
 }
 
@@ -155,8 +166,8 @@ Expected<std::vector<DisplayInfo>> displays(Studio&) {
     to.palette = d.palette;
     to.limits = d.limits;
     for (const DisplaySetting& s : d.settings) {
-      to.settings.push_back(
-          {std::string(s.name), std::string(s.title), std::string(s.unit), s.value, std::string(s.help)});
+      to.settings.push_back({std::string(s.name), std::string(s.title), std::string(s.unit),
+                             s.value, std::string(s.help)});
     }
   }
   return answer;
@@ -174,19 +185,23 @@ void describe(ToolPictureQuery& q, Fields& fields) {
 
 Expected<ToolPicture> ask(Session& session, const ToolPictureQuery& q) {
   const auto& tools = session.state().tools;
-  if (q.tool < 0 || q.tool >= static_cast<int>(tools.size())) return usage_error("there is no such tool");
+  if (q.tool < 0 || q.tool >= static_cast<int>(tools.size()))
+    return usage_error("there is no such tool");
   return tool_picture(tools[static_cast<std::size_t>(q.tool)].shape.shape());
 }
 
 }  // namespace
 
 std::vector<Query> picture_queries() {
-  return {query<PictureQuery>(),
-          query<std::optional<DisplayRange>, range>(
-              "range", "Where the colours end of the pictures made since that of the first surface; null without any."),
-          query<Vector3, origin>("origin", "What positions of pictures are relative to, in units of the file."),
-          query<std::vector<DisplayInfo>, displays>("displays", "All that can colour surfaces."),
-          query<ToolPictureQuery>()};
+  return {
+      query<PictureQuery>(),
+      query<std::optional<DisplayRange>, range>("range",
+                                                "Where the colours end of the pictures made since "
+                                                "that of the first surface; null without any."),
+      query<Vector3, origin>("origin",
+                             "What positions of pictures are relative to, in units of the file."),
+      query<std::vector<DisplayInfo>, displays>("displays", "All that can colour surfaces."),
+      query<ToolPictureQuery>()};
 }
 
 }  // namespace knead::studio

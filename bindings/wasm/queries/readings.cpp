@@ -25,11 +25,13 @@ struct ReadingQuery {
 void describe(ReadingQuery& q, Fields& fields) {
   fields.name("reading", "What is measured at a point of a surface.");
   fields.add("surface", q.surface, {.help = "its number", .presence = Presence::required});
-  fields.add("at", q.at, {.help = "s and t", .unit = Unit::fraction, .presence = Presence::required});
+  fields.add("at", q.at,
+             {.help = "s and t", .unit = Unit::fraction, .presence = Presence::required});
 }
 
 Expected<std::string> ask(Session& session, const ReadingQuery& q) {
-  if (const auto surface = surface_of(session, q.surface); !surface) return std::unexpected(surface.error());
+  if (const auto surface = surface_of(session, q.surface); !surface)
+    return std::unexpected(surface.error());
   return reading_json(session, q.surface, q.at);
 }
 
@@ -42,7 +44,8 @@ struct FaceReadingQuery {
 void describe(FaceReadingQuery& q, Fields& fields) {
   fields.name("face_reading", "The same on a face that lies on no surface of the session.");
   fields.add("face", q.face, {.help = "its id", .presence = Presence::required});
-  fields.add("near", q.near, {.help = "it is measured at the nearest point", .presence = Presence::required});
+  fields.add("near", q.near,
+             {.help = "it is measured at the nearest point", .presence = Presence::required});
 }
 
 Expected<std::string> ask(Session& session, const FaceReadingQuery& q) {
@@ -52,12 +55,12 @@ Expected<std::string> ask(Session& session, const FaceReadingQuery& q) {
 }  // namespace
 
 std::vector<Query> reading_queries() {
-  return {query<std::vector<CheckedEdgeInfo>, checked_edges>("checked_edges",
-                                                             "How the faces on a surface meet their neighbours."),
-          query<std::optional<double>, room>(
-              "room",
-              "How far the visible middle of a surface is from the nearest edge of a face, in units of the "
-              "file; null where no edges are known."),
+  return {query<std::vector<CheckedEdgeInfo>, checked_edges>(
+              "checked_edges", "How the faces on a surface meet their neighbours."),
+          query<std::optional<double>, room>("room",
+                                             "How far the visible middle of a surface is from the "
+                                             "nearest edge of a face, in units of the "
+                                             "file; null where no edges are known."),
           query<ReadingQuery>(), query<FaceReadingQuery>()};
 }
 

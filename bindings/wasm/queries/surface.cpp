@@ -23,13 +23,16 @@ Expected<SurfaceNumbers> surface(Session& session, int number) {
   const auto of = surface_of(session, number);
   if (!of) return std::unexpected(of.error());
   const Surface& s = *(*of)->current;
-  const auto numbers = [](std::span<const double> list) { return Doubles{{list.begin(), list.end()}}; };
-  return SurfaceNumbers{{s.knots(0).degree(), s.knots(1).degree()},
-                        s.net(),
-                        numbers(s.knots(0).knots()),
-                        numbers(s.knots(1).knots()),
-                        numbers(s.weights()),
-                        numbers({s.control_points().data(), static_cast<std::size_t>(s.control_points().size())})};
+  const auto numbers = [](std::span<const double> list) {
+    return Doubles{{list.begin(), list.end()}};
+  };
+  return SurfaceNumbers{
+      {s.knots(0).degree(), s.knots(1).degree()},
+      s.net(),
+      numbers(s.knots(0).knots()),
+      numbers(s.knots(1).knots()),
+      numbers(s.weights()),
+      numbers({s.control_points().data(), static_cast<std::size_t>(s.control_points().size())})};
 }
 
 Expected<Doubles> control_points(Session& session, int number) {
@@ -42,9 +45,11 @@ Expected<Doubles> control_points(Session& session, int number) {
 }  // namespace
 
 std::vector<Query> surface_queries() {
-  return {query<SurfaceNumbers, surface>("surface",
-                                         "All numbers of a surface as it is now; each reads back as the same bits."),
-          query<Doubles, control_points>("control_points", "The control points of a surface, three numbers each.")};
+  return {
+      query<SurfaceNumbers, surface>(
+          "surface", "All numbers of a surface as it is now; each reads back as the same bits."),
+      query<Doubles, control_points>("control_points",
+                                     "The control points of a surface, three numbers each.")};
 }
 
 }  // namespace knead::studio

@@ -31,7 +31,8 @@ struct NamedValue {
 
 /// What a program reads of an error or a note. The text of both is for people, and may change.
 ///
-/// `values` are those that the code has in `knead/base/error_code.hpp`, lengths in units of the file.
+/// `values` are those that the code has in `knead/base/error_code.hpp`, lengths in units of the
+/// file.
 struct Diagnostic {
   ErrorCode code = {};
   std::vector<NamedValue> values = {};
@@ -39,10 +40,12 @@ struct Diagnostic {
 
 /// A failure as a value: what is wrong, where, and what would be right.
 ///
-/// `what` is a clause without a full stop ("the knots decrease"). `where` names the place inside the input: an entity
-/// ("#123 B_SPLINE_SURFACE_WITH_KNOTS"), an index ("knot 7"), a JSON path ("commands[2].radius"); it may be empty.
-/// `remedy` says what to do ("sort the knots"); it may be empty. `file` and `line` (1-based, 0 = unknown) locate the
-/// input when there is one. `diagnostic` says the same to programs; null if nothing but the text is known.
+/// `what` is a clause without a full stop ("the knots decrease"). `where` names the place inside
+/// the input: an entity
+/// ("#123 B_SPLINE_SURFACE_WITH_KNOTS"), an index ("knot 7"), a JSON path ("commands[2].radius");
+/// it may be empty. `remedy` says what to do ("sort the knots"); it may be empty. `file` and `line`
+/// (1-based, 0 = unknown) locate the input when there is one. `diagnostic` says the same to
+/// programs; null if nothing but the text is known.
 struct Error {
   ErrorKind kind = ErrorKind::input;
   std::string what;
@@ -54,8 +57,8 @@ struct Error {
 
   // Out of line, as every `Expected<T>` has them.
   Error();
-  Error(ErrorKind of, std::string is, std::string at = {}, std::string helps = {}, std::string in = {},
-        int in_line = 0);
+  Error(ErrorKind of, std::string is, std::string at = {}, std::string helps = {},
+        std::string in = {}, int in_line = 0);
   Error(const Error& other);
   Error(Error&& other) noexcept;
   Error& operator=(const Error& other);
@@ -79,14 +82,16 @@ using Expected = std::expected<T, Error>;
 /// Shorthand for returning an `Error` of kind `input` from a function that returns `Expected<T>`.
 [[nodiscard]] std::unexpected<Error> input_error(std::string_view what, std::string_view where = {},
                                                  std::string_view remedy = {});
-[[nodiscard]] std::unexpected<Error> input_error(std::string_view what, std::string_view where, std::string_view remedy,
-                                                 Diagnostic diagnostic);
+[[nodiscard]] std::unexpected<Error> input_error(std::string_view what, std::string_view where,
+                                                 std::string_view remedy, Diagnostic diagnostic);
 
 /// Shorthand for returning an `Error` of kind `numerical`.
-[[nodiscard]] std::unexpected<Error> numerical_error(std::string_view what, std::string_view where = {},
+[[nodiscard]] std::unexpected<Error> numerical_error(std::string_view what,
+                                                     std::string_view where = {},
                                                      std::string_view remedy = {});
 [[nodiscard]] std::unexpected<Error> numerical_error(std::string_view what, std::string_view where,
-                                                     std::string_view remedy, Diagnostic diagnostic);
+                                                     std::string_view remedy,
+                                                     Diagnostic diagnostic);
 
 /// Shorthand for returning an `Error` of kind `usage`.
 [[nodiscard]] std::unexpected<Error> usage_error(std::string_view what, std::string_view where = {},

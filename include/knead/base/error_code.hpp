@@ -10,14 +10,15 @@ namespace knead {
 enum class ErrorCode : unsigned short {
   none,  ///< nothing but the text is known
 
-  nothing_held,            ///< nothing holds the shape, so that it has no position of balance
-  nothing_free,            ///< pins, frozen regions and held lines leave nothing free: tool
-  nothing_free_in_rows,    ///< held rows of control points do: tool, surface, rows
-  nothing_free_at_edges,   ///< held edges of faces do: tool, surface, permission
-  nothing_free_at_brush,   ///< all that a brush would move is held or masked
-  point_frozen,            ///< a control point that would be moved: point
-  region_frozen,           ///< a region that would be moved: surface, distance
-  pins_by_number,          ///< pinned control points, whose numbers a change of the net would change: surface
+  nothing_held,           ///< nothing holds the shape, so that it has no position of balance
+  nothing_free,           ///< pins, frozen regions and held lines leave nothing free: tool
+  nothing_free_in_rows,   ///< held rows of control points do: tool, surface, rows
+  nothing_free_at_edges,  ///< held edges of faces do: tool, surface, permission
+  nothing_free_at_brush,  ///< all that a brush would move is held or masked
+  point_frozen,           ///< a control point that would be moved: point
+  region_frozen,          ///< a region that would be moved: surface, distance
+  pins_by_number,  ///< pinned control points, whose numbers a change of the net would change:
+                   ///< surface
   constraint_contradicts,  ///< what else is held
 
   step_folds,              ///< the surface: surface
@@ -28,9 +29,10 @@ enum class ErrorCode : unsigned short {
   brush_too_small,         ///< it reaches no control point
   net_too_large,           ///< that a tool needs: tool, surface
 
-  edge_face_not_spline,    ///< an edge cannot follow, as a face lies on another form: edge, face, surface, form,
-                           ///< surfaces, others
-  edge_face_not_selected,  ///< an edge cannot follow, as a face would have to be selected: edge, surface, surfaces
+  edge_face_not_spline,    ///< an edge cannot follow, as a face lies on another form: edge, face,
+                           ///< surface, form, surfaces, others
+  edge_face_not_selected,  ///< an edge cannot follow, as a face would have to be selected: edge,
+                           ///< surface, surfaces
   edge_would_open,         ///< a held one: edge, surface, distance, edges
   edge_would_turn,         ///< the tangent planes along a held one: edge, surface, angle, edges
   edge_would_part,         ///< one that follows: edge
@@ -38,9 +40,10 @@ enum class ErrorCode : unsigned short {
   seam_would_open,         ///< between surfaces that are coupled: first, second, distance
   edges_unknown,           ///< of the faces on a surface: surface
 
-  beyond_limit,              ///< a surface would be farther from where it was opened: distance, limit
-  limit_keeps_basis,         ///< weights and knots stay while a limit is set
-  limit_needs_opened_basis,  ///< weights or knots were edited, so that a limit cannot be set: surface
+  beyond_limit,       ///< a surface would be farther from where it was opened: distance, limit
+  limit_keeps_basis,  ///< weights and knots stay while a limit is set
+  limit_needs_opened_basis,  ///< weights or knots were edited, so that a limit cannot be set:
+                             ///< surface
 
   scaling_is_raw,     ///< strokes that leave their groove need the normalised one
   shell_needed,       ///< for what only a shell can do
@@ -55,7 +58,8 @@ enum class ErrorCode : unsigned short {
 
   seam_creased,     ///< note: first, second, angle, x, y, z, reason
   surface_loose,    ///< note: nothing holds what is pressed: surfaces
-  stopped_at_face,  ///< note: before a surface came through another face: surface, other, x, y, z, depth
+  stopped_at_face,  ///< note: before a surface came through another face: surface, other, x, y, z,
+                    ///< depth
   through_face,     ///< note: likewise, and it went on
 
   out_of_range,  ///< a number of a field

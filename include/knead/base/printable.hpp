@@ -6,10 +6,12 @@
 
 namespace knead {
 
-/// Text from a file or a script, fit for one line of a terminal: control characters (C0, DEL and C1, so line breaks and
-/// escape sequences) and bytes that are not UTF-8 become "\n", "\t", "\r" or "\xNN"; all else is unchanged.
+/// Text from a file or a script, fit for one line of a terminal: control characters (C0, DEL and
+/// C1, so line breaks and escape sequences) and bytes that are not UTF-8 become "\n", "\t", "\r" or
+/// "\xNN"; all else is unchanged.
 ///
-/// \param most bytes at most, of which long texts keep the first three quarters and the last quarter, cut between
+/// \param most bytes at most, of which long texts keep the first three quarters and the last
+/// quarter, cut between
 ///        characters, with "…" in between; at least 16
 ///
 /// Cost: O(most), after one look at the length.

@@ -14,8 +14,9 @@
 #include "knead/brep/face_mesh.hpp"
 #include "knead/spline/spline.hpp"
 
-/// The boundary representation of a file: what readers of every format fill, and what everything about faces and
-/// their edges is told by. The entities are those of ISO 10303-42 (topology and geometry), under the file's own ids.
+/// The boundary representation of a file: what readers of every format fill, and what everything
+/// about faces and their edges is told by. The entities are those of ISO 10303-42 (topology and
+/// geometry), under the file's own ids.
 namespace knead::brep {
 
 /// Position in a list of the model.
@@ -24,9 +25,12 @@ inline constexpr Index none = 0xFFFFFFFF;
 
 /// Why an entity cannot be used; null where it can. Others of the file are still usable.
 using Fault = std::shared_ptr<const Error>;
-[[nodiscard]] inline Fault fault(Error error) { return std::make_shared<const Error>(std::move(error)); }
+[[nodiscard]] inline Fault fault(Error error) {
+  return std::make_shared<const Error>(std::move(error));
+}
 
-/// Axes of a placement, orthonormal: x is the reference direction orthogonalised to the axis z, and y = z × x.
+/// Axes of a placement, orthonormal: x is the reference direction orthogonalised to the axis z, and
+/// y = z × x.
 struct Frame {
   Point origin = Point::Zero();
   Point x = Point::UnitX(), y = Point::UnitY(), z = Point::UnitZ();
@@ -37,14 +41,15 @@ struct Frame {
 
 struct Line {
   Point origin = Point::Zero(), direction = Point::UnitX();  ///< the direction is a unit vector
-  double magnitude = 1;                                      ///< length of one unit of the file's parameter
+  double magnitude = 1;  ///< length of one unit of the file's parameter
 };
 
 /// C + a cos t + b sin t, C + a cosh t + b sinh t, or C + a t² + 2 b t.
 struct Conic {
   enum class Form { ellipse, hyperbola, parabola };
   Form form = Form::ellipse;
-  Point centre = Point::Zero(), a = Point::Zero(), b = Point::Zero();  ///< semi-axes; of a parabola focal length × axis
+  Point centre = Point::Zero(), a = Point::Zero(),
+        b = Point::Zero();  ///< semi-axes; of a parabola focal length × axis
 };
 
 /// A curve in space, unbounded where its form is.
@@ -76,7 +81,8 @@ struct EdgeUse {
   bool forward = true;
 };
 
-/// A bound of a face, with the face on its left as seen from the tip of the face's normal, unless `forward` is false.
+/// A bound of a face, with the face on its left as seen from the tip of the face's normal, unless
+/// `forward` is false.
 struct Bound {
   enum class Kind {
     edges,    ///< one after the other
@@ -100,13 +106,14 @@ struct Record {
 };
 
 struct Face : Record {
-  Index support = none;  ///< the surface on which it lies; none: it has only the geometry of its loops
+  Index support =
+      none;  ///< the surface on which it lies; none: it has only the geometry of its loops
   bool same_sense = true;
   bool turned = false;  ///< inside out: a solid uses its shell turned, as round a hollow
   std::vector<Bound> bounds = {};
 
-  /// 1 where its normal, turned where it is, is that of its surface; else -1. Its bounds run about the normal of
-  /// `same_sense`.
+  /// 1 where its normal, turned where it is, is that of its surface; else -1. Its bounds run about
+  /// the normal of `same_sense`.
   [[nodiscard]] int sense() const { return same_sense != turned ? 1 : -1; }
 };
 
@@ -121,7 +128,8 @@ struct ElementarySurface {
   Kind kind = Kind::plane;
   Frame frame;
   double radius = 0;
-  double second = 0;   ///< of a cone its half angle, in one of the model's `angle_units`; of a torus its minor radius
+  double second = 0;  ///< of a cone its half angle, in one of the model's `angle_units`; of a torus
+                      ///< its minor radius
   bool inner = false;  ///< the part of a torus that crosses its axis, within itself
 };
 
@@ -144,20 +152,23 @@ struct Support : Record {
 struct SplineSurface {
   std::string id;    ///< "#123"
   std::string name;  ///< its label; empty if it has none
-  std::string unit;  ///< length unit of its coordinates as in `LengthUnit::name`; "unknown" if it cannot be determined
+  std::string unit;  ///< length unit of its coordinates as in `LengthUnit::name`; "unknown" if it
+                     ///< cannot be determined
 
-  /// u is the outer direction of the control points (slow), v the inner one (fast). Numbers are the correctly rounded
-  /// doubles of the file's decimals, in the file's units and in the frame of the surface's own representation.
+  /// u is the outer direction of the control points (slow), v the inner one (fast). Numbers are the
+  /// correctly rounded doubles of the file's decimals, in the file's units and in the frame of the
+  /// surface's own representation.
   Surface surface;
 
   /// `closed_directions`; the file's own flags are often wrong and are ignored.
   std::array<bool, 2> closed = {false, false};
 
-  /// Some face on this surface covers only part of it: an edge of its bounds leaves the four boundary isocurves of the
-  /// surface, or its edges together miss part of a boundary isocurve that is neither a seam nor a single point. Decided
-  /// by points sampled on the edges, to twice the uncertainty the file states (edge and surface may each be off
-  /// by it), but no less than 1e-5 and no more than 1e-4 of the net's bounding-box diagonal. Where the type of an
-  /// edge's curve is unknown (docs/step.md) the face counts as trimmed. A surface that no face uses is untrimmed,
+  /// Some face on this surface covers only part of it: an edge of its bounds leaves the four
+  /// boundary isocurves of the surface, or its edges together miss part of a boundary isocurve that
+  /// is neither a seam nor a single point. Decided by points sampled on the edges, to twice the
+  /// uncertainty the file states (edge and surface may each be off by it), but no less than 1e-5
+  /// and no more than 1e-4 of the net's bounding-box diagonal. Where the type of an edge's curve is
+  /// unknown (docs/step.md) the face counts as trimmed. A surface that no face uses is untrimmed,
   /// unless something else cuts it.
   bool trimmed = false;
 
@@ -202,10 +213,12 @@ struct Model {
   [[nodiscard]] const SplineSurface* spline_under(const Face& face) const;
   /// "#12 PLANE", on which a face lies, or "no surface".
   [[nodiscard]] std::string label_under(const Face& face) const;
-  /// The distinct names of `units`, joined by ", " (nearly always one name); "unknown" where there is none.
+  /// The distinct names of `units`, joined by ", " (nearly always one name); "unknown" where there
+  /// is none.
   [[nodiscard]] std::string length_unit() const;
   /// An input error at an entity.
-  [[nodiscard]] std::unexpected<Error> error(const Record& at, std::string what, std::string remedy = {}) const;
+  [[nodiscard]] std::unexpected<Error> error(const Record& at, std::string what,
+                                             std::string remedy = {}) const;
 
   /// To be called when `surfaces` is complete.
   void index_surfaces();
@@ -217,13 +230,14 @@ struct Model {
 /// The edges around a face, once for every time a loop runs along them.
 [[nodiscard]] std::vector<Index> edges_around(const Face& face);
 
-/// Geometrically closed in u, in v: S(a, ·) and S(b, ·) are the same curve. The two boundary isocurves are split at
-/// their ends into control points (and weights) by the basis at the first and last parameter; they are the same curve
-/// where these agree to 1e-9 of the net's bounding-box diagonal. A direction along which the whole net is collapsed is
-/// not closed.
+/// Geometrically closed in u, in v: S(a, ·) and S(b, ·) are the same curve. The two boundary
+/// isocurves are split at their ends into control points (and weights) by the basis at the first
+/// and last parameter; they are the same curve where these agree to 1e-9 of the net's bounding-box
+/// diagonal. A direction along which the whole net is collapsed is not closed.
 [[nodiscard]] std::array<bool, 2> closed_directions(const Surface& surface);
 
-/// Adds a part with what is in none of the others, where its coordinates say, unless there is nothing.
+/// Adds a part with what is in none of the others, where its coordinates say, unless there is
+/// nothing.
 void add_rest(const Model& model, Assembly& assembly);
 
 /// A model without an assembly: one part with everything in it, where its coordinates say.

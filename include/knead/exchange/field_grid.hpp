@@ -24,9 +24,9 @@ struct FieldGrid {
   std::vector<GridField> fields;
 };
 
-/// The grids as an unstructured grid of quadrilaterals in the XML format of VTK (.vtu, ASCII, version 0.1), which
-/// ParaView opens. A field that some grids lack is 0 there, and what is not finite is written as 0: the format has no
-/// word for it. Numbers have 9 significant digits.
+/// The grids as an unstructured grid of quadrilaterals in the XML format of VTK (.vtu, ASCII,
+/// version 0.1), which ParaView opens. A field that some grids lack is 0 there, and what is not
+/// finite is written as 0: the format has no word for it. Numbers have 9 significant digits.
 [[nodiscard]] std::string vtu_text(std::span<const FieldGrid> grids);
 
 }  // namespace knead

@@ -19,7 +19,8 @@ struct FileSurface {
   std::string id, name;
   std::array<int, 2> degree = {0, 0}, net = {0, 0};
   bool rational = false;
-  std::optional<std::array<double, 2>> weights = {};  ///< the least and the largest; none of a polynomial one
+  /// The least and the largest; none of a polynomial one.
+  std::optional<std::array<double, 2>> weights = {};
   std::array<bool, 2> clamped = {}, closed = {};
   std::array<std::vector<double>, 2> knots = {};
   std::array<int, 2> max_interior_multiplicity = {0, 0};
@@ -66,7 +67,8 @@ struct FileInstance {
 
 struct FilePlace {
   std::string path;
-  std::array<std::array<double, 4>, 3> matrix = {};  ///< rows; from the part's coordinates to the model's
+  /// Rows; from the part's coordinates to the model's.
+  std::array<std::array<double, 4>, 3> matrix = {};
 };
 
 struct FilePart {
@@ -133,8 +135,8 @@ struct FileInfoOptions {
   std::function<void(std::size_t, std::size_t)> progress = {};
 };
 
-/// Cost: a bounding box of every surface and `left_out_of_list`; conversions: `brep::exact_splines`; faces:
-/// `VisibleRegions` and `left_out_of_faces`.
+/// Cost: a bounding box of every surface and `left_out_of_list`; conversions:
+/// `brep::exact_splines`; faces: `VisibleRegions` and `left_out_of_faces`.
 [[nodiscard]] FileInfo file_info(const Source& source, const FileInfoOptions& options = {});
 
 /// It as JSON, over several lines (docs/command-line.md).

@@ -10,20 +10,23 @@
 
 namespace knead {
 
-/// A matrix as Matrix Market's text (NIST, exchange formats, "coordinate real"): entries by columns, counted from 1, 17
-/// significant digits, so that reading gives back the same bits. `symmetric`: the lower triangle alone, and said so;
-/// whether the matrix is symmetric is not checked. Cost: linear in the entries.
-[[nodiscard]] std::string matrix_market(const Eigen::SparseMatrix<double>& matrix, bool symmetric = false);
+/// A matrix as Matrix Market's text (NIST, exchange formats, "coordinate real"): entries by
+/// columns, counted from 1, 17 significant digits, so that reading gives back the same bits.
+/// `symmetric`: the lower triangle alone, and said so; whether the matrix is symmetric is not
+/// checked. Cost: linear in the entries.
+[[nodiscard]] std::string matrix_market(const Eigen::SparseMatrix<double>& matrix,
+                                        bool symmetric = false);
 
 /// A dense matrix, row by row, as a NumPy array (.npy, format 1.0, '<f8', C order): the same bits.
 [[nodiscard]] std::string npy(
-    const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>& matrix);
+    const Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>&
+        matrix);
 /// Whole numbers as a NumPy array of one dimension ('<i8').
 [[nodiscard]] std::string npy(std::span<const std::int64_t> numbers);
 
-/// A matrix as `scipy.sparse.load_npz` reads it: a ZIP archive of the arrays format ("csc"), shape, data, indices and
-/// indptr, stored without compression. The same matrix gives the same bytes. Errors (input): an archive of 4 GB or
-/// more, which this form cannot hold.
+/// A matrix as `scipy.sparse.load_npz` reads it: a ZIP archive of the arrays format ("csc"), shape,
+/// data, indices and indptr, stored without compression. The same matrix gives the same bytes.
+/// Errors (input): an archive of 4 GB or more, which this form cannot hold.
 [[nodiscard]] Expected<std::string> npz(const Eigen::SparseMatrix<double>& matrix);
 
 }  // namespace knead

@@ -10,8 +10,9 @@ namespace knead {
 
 struct AnyCommand;
 
-/// A user action as a value: {"do": name, field: value, …}, every field in its own type. `parse_command`
-/// makes one (command_json.hpp), `Session::execute` applies it. Immutable; copies share the fields.
+/// A user action as a value: {"do": name, field: value, …}, every field in its own type.
+/// `parse_command` makes one (command_json.hpp), `Session::execute` applies it. Immutable; copies
+/// share the fields.
 class Command {
  public:
   /// Of one of the kinds listed in src/session/commands.hpp.
@@ -56,8 +57,8 @@ struct Fix {
   std::vector<Command> commands;
 };
 
-/// What can be done, the most likely first; empty where nothing is known that would help. After it what was refused may
-/// be asked for again.
+/// What can be done, the most likely first; empty where nothing is known that would help. After it
+/// what was refused may be asked for again.
 [[nodiscard]] std::vector<Fix> fixes_for(const Diagnostic& diagnostic);
 
 }  // namespace knead

@@ -11,22 +11,25 @@ namespace knead {
 struct Dissection;
 struct GridPlaces;
 
-/// A = L Lᵀ of a sparse symmetric positive definite matrix, with a fill-reducing ordering; factor once, solve many.
+/// A = L Lᵀ of a sparse symmetric positive definite matrix, with a fill-reducing ordering; factor
+/// once, solve many.
 class SparseCholesky {
  public:
   /// Uses the lower triangle of A. Error (numerical): A is not positive definite or not finite.
   [[nodiscard]] static Expected<SparseCholesky> factor(const SparseMatrix& a);
-  /// The same where A is needed no longer: it is emptied before L is made, which takes several times its memory.
+  /// The same where A is needed no longer: it is emptied before L is made, which takes several
+  /// times its memory.
   [[nodiscard]] static Expected<SparseCholesky> factor(SparseMatrix&& a);
 
   /// The same by nested dissection, where it is known on which grids the unknowns lie: of
-  /// large grids L has fewer entries, and threads share its making and its use, with the same bits for any number.
-  /// Error (usage): the places are not those of A's unknowns.
+  /// large grids L has fewer entries, and threads share its making and its use, with the same bits
+  /// for any number. Error (usage): the places are not those of A's unknowns.
   [[nodiscard]] static Expected<SparseCholesky> factor(SparseMatrix&& a, const GridPlaces& places);
 
-  /// The factor of a matrix that is in the order of its factor; its lower triangle is used. The nodes must be what
-  /// `dissect` gives for a matrix with these entries, or none.
-  [[nodiscard]] static Expected<SparseCholesky> factor_in_order(const SparseMatrix& lower, Dissection dissection);
+  /// The factor of a matrix that is in the order of its factor; its lower triangle is used. The
+  /// nodes must be what `dissect` gives for a matrix with these entries, or none.
+  [[nodiscard]] static Expected<SparseCholesky> factor_in_order(const SparseMatrix& lower,
+                                                                Dissection dissection);
 
   /// X with A X = B, three columns at once. Cost: O(nonzeros of L). const and thread-safe.
   [[nodiscard]] Points solve(const Points& b) const;
@@ -40,8 +43,9 @@ class SparseCholesky {
   };
   /// Cost: O(rows of those panels).
   [[nodiscard]] Part part(std::span<const int> unknowns) const;
-  /// A X = B for B given at the unknowns of the part, in their order, and X needed only there. Cost: O(nonzeros of the
-  /// part), on a tensor net a fraction of the whole that shrinks with its size. Same bits as `solve`.
+  /// A X = B for B given at the unknowns of the part, in their order, and X needed only there.
+  /// Cost: O(nonzeros of the part), on a tensor net a fraction of the whole that shrinks with its
+  /// size. Same bits as `solve`.
   [[nodiscard]] Points solve_within(const Part& part, const Points& b) const;
   [[nodiscard]] Eigen::VectorXd solve_within(const Part& part, const Eigen::VectorXd& b) const;
 
@@ -52,19 +56,22 @@ class SparseCholesky {
   };
   [[nodiscard]] Half forward(const Points& b) const;
   [[nodiscard]] Half forward(const Eigen::VectorXd& b) const;
-  /// The second half where X is needed only at the unknowns of the part: half the cost of `solve_within`.
+  /// The second half where X is needed only at the unknowns of the part: half the cost of
+  /// `solve_within`.
   void backward_within(const Part& part, const Half& z, Points& x) const;
   void backward_within(const Part& part, const Half& z, Eigen::VectorXd& x) const;
-  /// All of X with A X = share · L z + E B, where E B is B at the unknowns of the part: half the work of `solve`, and
-  /// half of `solve_within`.
+  /// All of X with A X = share · L z + E B, where E B is B at the unknowns of the part: half the
+  /// work of `solve`, and half of `solve_within`.
   void backward(const Half& z, double share, const Part& part, const Points& b, Points& x) const;
-  void backward(const Half& z, double share, const Part& part, const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
+  void backward(const Half& z, double share, const Part& part, const Eigen::VectorXd& b,
+                Eigen::VectorXd& x) const;
 
   [[nodiscard]] int size() const { return size_; }
 
  private:
   struct Factor;
-  SparseCholesky(std::shared_ptr<const Factor> factor, int size) : factor_(std::move(factor)), size_(size) {}
+  SparseCholesky(std::shared_ptr<const Factor> factor, int size)
+      : factor_(std::move(factor)), size_(size) {}
   std::shared_ptr<const Factor> factor_;
   int size_;
 };

@@ -30,41 +30,47 @@ struct Tool {
   ToolMode mode = ToolMode::collision;
   double stiffness = 1e4;  ///< k: force per length and parameter area
   double range = 0.5;      ///< proximity: no force at this distance and beyond; unused by collision
-  bool rigid = false;      ///< collision: raise k until nothing penetrates by more than `rigid_gap` of the tool's size
-  double friction = 0;     ///< collision: Coulomb's coefficient
-  double plasticity = 0;   ///< share of the displacement that remains when the tool is removed, 0 to 1
+  bool rigid = false;   ///< collision: raise k until nothing penetrates by more than `rigid_gap` of
+                        ///< the tool's size
+  double friction = 0;  ///< collision: Coulomb's coefficient
+  /// Share of the displacement that remains when the tool is removed, 0 to 1.
+  double plasticity = 0;
   ToolDirection direction = ToolDirection::pull;
   ToolTouch touches = ToolTouch::all;
 
   [[nodiscard]] bool collides() const { return mode != ToolMode::proximity; }
-  /// The length over which its force changes, which points of integration must resolve: the smallest feature of what a
-  /// shape collides with, in units of the file (infinite: a plane); but the range of a proximity tool, however thin
-  /// that is: within it the force is at most stiffness times half the thickness.
+  /// The length over which its force changes, which points of integration must resolve: the
+  /// smallest feature of what a shape collides with, in units of the file (infinite: a plane); but
+  /// the range of a proximity tool, however thin that is: within it the force is at most stiffness
+  /// times half the thickness.
   [[nodiscard]] double detail() const { return collides() ? shape.size() : range; }
 };
 
-/// Above this, the rounding of positions alone causes forces larger than those of the material: the penetration is then
-/// less than 1e-9 of the surface's size anyway.
+/// Above this, the rounding of positions alone causes forces larger than those of the material: the
+/// penetration is then less than 1e-9 of the surface's size anyway.
 inline constexpr double max_tool_stiffness = 1e10;
 
 /// How far anything may penetrate a rigid tool, in sizes of the tool.
 inline constexpr double rigid_gap = 1e-4;
 
-/// Checks stiffness from 0 to the maximum, range > 0 where it is used, friction >= 0, plasticity from 0 to 1,
-/// all finite; the error names the field.
+/// Checks stiffness from 0 to the maximum, range > 0 where it is used, friction >= 0, plasticity
+/// from 0 to 1, all finite; the error names the field.
 [[nodiscard]] Expected<Tool> validated(const Tool& tool);
 
-/// The mirror image of a tool in the plane through `point` with this normal (of length 1); none where the tool is its
-/// own image, to 1e-9 of its size. Errors: those of the shape.
-[[nodiscard]] Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, const Point& normal);
+/// The mirror image of a tool in the plane through `point` with this normal (of length 1); none
+/// where the tool is its own image, to 1e-9 of its size. Errors: those of the shape.
+[[nodiscard]] Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point,
+                                                     const Point& normal);
 
-/// What a tool does to one point x: a potential ψ(x), the force −∇ψ of its springs, and the Hessian ∂²ψ, which may be
-/// indefinite: a surface pressed against a ball is pushed sideways off its top.
+/// What a tool does to one point x: a potential ψ(x), the force −∇ψ of its springs, and the Hessian
+/// ∂²ψ, which may be indefinite: a surface pressed against a ball is pushed sideways off its top.
 ///
 /// With φ the signed distance of x to the tool (negative inside), n its gradient and H its Hessian:
 /// collision  ψ = k/2 min(φ, 0)², force −k φ n inside;
-/// proximity  ψ = −k r²/6 (1 − φ²/r²)³ within the range r, force −k φ (1 − φ²/r²)² n, which is k φ near the tool and
-///            falls to zero with two derivatives at the end of the range; to push, the signs are flipped;
+/// proximity  ψ = −k r²/6 (1 − φ²/r²)³ within the range r, force −k φ (1 − φ²/r²)² n, which is k φ
+/// near the tool and
+///            falls to zero with two derivatives at the end of the range; to push, the signs are
+///            flipped;
 /// Hessian    ψ'' n nᵀ + ψ' H.
 /// Where the nearest direction is not unique, as at the centre of a sphere, the force is zero.
 struct ToolAction {
@@ -97,8 +103,8 @@ class ModelTool {
   /// Signed distance to the tool itself.
   [[nodiscard]] double distance(const Point& x) const;
   [[nodiscard]] ToolAction action(const Point& x) const;
-  /// A bit for every side of the tool's box that x lies beyond: no part of the tool lies between points that share a
-  /// bit.
+  /// A bit for every side of the tool's box that x lies beyond: no part of the tool lies between
+  /// points that share a bit.
   [[nodiscard]] unsigned char sides(const double* x) const {
     unsigned result = 0;
     for (int c = 0; c < 3; ++c) {
@@ -107,12 +113,14 @@ class ModelTool {
     }
     return static_cast<unsigned char>(result);
   }
-  /// The box outside which the tool acts on nothing, and a ball likewise, of infinite radius unless it is a sphere.
+  /// The box outside which the tool acts on nothing, and a ball likewise, of infinite radius unless
+  /// it is a sphere.
   [[nodiscard]] const Point& lower() const { return lower_; }
   [[nodiscard]] const Point& upper() const { return upper_; }
   [[nodiscard]] const Point& centre() const { return centre_; }
   [[nodiscard]] double radius() const { return radius_; }
-  /// Whether the signed distance jumps where a collision tool is open (see `SplineShape`). Else it is 1-Lipschitz.
+  /// Whether the signed distance jumps where a collision tool is open (see `SplineShape`). Else it
+  /// is 1-Lipschitz.
   [[nodiscard]] bool jumps() const {
     return tool_.collides() && std::holds_alternative<SplineShape>(tool_.shape.shape());
   }

@@ -1,7 +1,8 @@
-// Vectors of KNEAD_LANES numbers: included by one translation unit per instruction set, which defines that and
-// KNEAD_ISA, or with KNEAD_COUNTING, KNEAD_LANES 1 and a number `Counted` that counts. Everything is in a
-// namespace of that instruction set, and nothing from the standard library is instantiated here: an inline function
-// that the linker shares between translation units could otherwise carry AVX code into the portable ones.
+// Vectors of KNEAD_LANES numbers: included by one translation unit per instruction set, which
+// defines that and KNEAD_ISA, or with KNEAD_COUNTING, KNEAD_LANES 1 and a number `Counted` that
+// counts. Everything is in a namespace of that instruction set, and nothing from the standard
+// library is instantiated here: an inline function that the linker shares between translation units
+// could otherwise carry AVX code into the portable ones.
 #pragma once
 
 #if KNEAD_LANES > 1 && (defined(__x86_64__) || defined(__i386__))
@@ -114,7 +115,9 @@ KNEAD_INLINE Lanes square_root(Lanes v) {
 }
 
 /// v where condition > 0, else 0.
-KNEAD_INLINE Lanes where_positive(Lanes v, Lanes condition) { return condition > splat(0) ? v : splat(0); }
+KNEAD_INLINE Lanes where_positive(Lanes v, Lanes condition) {
+  return condition > splat(0) ? v : splat(0);
+}
 
 template <int I>
 using Index = std::integral_constant<int, I>;

@@ -9,9 +9,12 @@ namespace knead::brep {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr double on_axis = 1e-12;  // of angles, and of a radius: what is nearer to the axis is on it
+// Of angles, and of a radius: what is nearer to the axis is on it.
+constexpr double on_axis = 1e-12;
 
-int quarter_turns(double angle) { return std::max(1, static_cast<int>(std::ceil(angle / (full_turn / 4) - on_axis))); }
+int quarter_turns(double angle) {
+  return std::max(1, static_cast<int>(std::ceil(angle / (full_turn / 4) - on_axis)));
+}
 
 /// The end of part k.
 double part_end(const Interval& range, int pieces, int k) {
@@ -29,7 +32,8 @@ Expected<KnotVector> double_knots(const Interval& range, int pieces) {
 
 bool whole_turn(double angle) { return angle >= full_turn * (1 - on_axis); }
 
-Expected<Curve> conic_spline(const Interval& range, int pieces, bool closed, const std::function<Point(double)>& at,
+Expected<Curve> conic_spline(const Interval& range, int pieces, bool closed,
+                             const std::function<Point(double)>& at,
                              const std::function<ConicCorner(double, double)>& corner) {
   auto knots = double_knots(range, pieces);
   if (!knots) return std::unexpected(knots.error());
@@ -48,7 +52,8 @@ Expected<Curve> conic_spline(const Interval& range, int pieces, bool closed, con
   return Curve::create({*std::move(knots)}, std::move(points), std::move(weights));
 }
 
-Expected<Curve> ellipse_spline(const Point& centre, const Point& a, const Point& b, const Interval& range) {
+Expected<Curve> ellipse_spline(const Point& centre, const Point& a, const Point& b,
+                               const Interval& range) {
   return conic_spline(
       range, quarter_turns(range.length()), whole_turn(range.length()),
       [&](double t) -> Point { return centre + std::cos(t) * a + std::sin(t) * b; },
@@ -58,7 +63,8 @@ Expected<Curve> ellipse_spline(const Point& centre, const Point& a, const Point&
       });
 }
 
-Expected<Surface> swept_about(const Curve& profile, const Point& origin, const Point& axis, const Interval& angles) {
+Expected<Surface> swept_about(const Curve& profile, const Point& origin, const Point& axis,
+                              const Interval& angles) {
   const int pieces = quarter_turns(angles.length());
   auto round = double_knots(angles, pieces);
   if (!round) return std::unexpected(round.error());
@@ -66,7 +72,8 @@ Expected<Surface> swept_about(const Curve& profile, const Point& origin, const P
   const int n = profile.size();
   Points points(static_cast<Eigen::Index>(2 * pieces + 1) * n, 3);
   std::vector<double> weights;
-  const double size = (profile.control_points().rowwise() - origin.transpose()).rowwise().norm().maxCoeff();
+  const double size =
+      (profile.control_points().rowwise() - origin.transpose()).rowwise().norm().maxCoeff();
   for (int i = 0; i <= 2 * pieces; ++i) {
     const double from = part_end(angles, pieces, i / 2), to = part_end(angles, pieces, (i + 1) / 2);
     const double angle = closed && i == 2 * pieces ? angles.lower : (from + to) / 2;
@@ -75,12 +82,16 @@ Expected<Surface> swept_about(const Curve& profile, const Point& origin, const P
       const Point d = profile.control_points().row(j).transpose() - origin;
       Point across = d - d.dot(axis) * axis;
       if (across.norm() <= on_axis * size) across.setZero();
-      const Point turned = (std::cos(angle) * across + std::sin(angle) * axis.cross(across)) / weight;
-      points.row(static_cast<Eigen::Index>(i) * n + j) = (origin + d.dot(axis) * axis + turned).transpose();
-      weights.push_back(weight * (profile.rational() ? profile.weights()[static_cast<std::size_t>(j)] : 1));
+      const Point turned =
+          (std::cos(angle) * across + std::sin(angle) * axis.cross(across)) / weight;
+      points.row(static_cast<Eigen::Index>(i) * n + j) =
+          (origin + d.dot(axis) * axis + turned).transpose();
+      weights.push_back(weight *
+                        (profile.rational() ? profile.weights()[static_cast<std::size_t>(j)] : 1));
     }
   }
-  return Surface::create({*std::move(round), profile.knots(0)}, std::move(points), std::move(weights));
+  return Surface::create({*std::move(round), profile.knots(0)}, std::move(points),
+                         std::move(weights));
 }
 
 Expected<Surface> swept_along(const Curve& profile, const Point& direction, const Interval& along) {
@@ -92,9 +103,11 @@ Expected<Surface> swept_along(const Curve& profile, const Point& direction, cons
     const Point p = profile.control_points().row(i).transpose();
     points.row(2 * i) = (p + along.lower * direction).transpose();
     points.row(2 * i + 1) = (p + along.upper * direction).transpose();
-    if (profile.rational()) weights.insert(weights.end(), 2, profile.weights()[static_cast<std::size_t>(i)]);
+    if (profile.rational())
+      weights.insert(weights.end(), 2, profile.weights()[static_cast<std::size_t>(i)]);
   }
-  return Surface::create({profile.knots(0), *std::move(line)}, std::move(points), std::move(weights));
+  return Surface::create({profile.knots(0), *std::move(line)}, std::move(points),
+                         std::move(weights));
 }
 
 }  // namespace knead::brep

@@ -7,7 +7,8 @@
 namespace knead::brep {
 
 Expected<SurfaceCurvature> FaceSurface::curvature(const Eigen::Vector2d& uv) const {
-  constexpr double half_angle = 0.125;  // of a patch in directions that are closed; in others a length, or a parameter
+  // Of a patch in directions that are closed; in others a length, or a parameter.
+  constexpr double half_angle = 0.125;
   const double half_length = reach_ > 0 ? half_angle * reach_ : 1;
   const auto domain = whole();
   std::array<Interval, 2> range;
@@ -26,7 +27,8 @@ Expected<SurfaceCurvature> FaceSurface::curvature(const Eigen::Vector2d& uv) con
   }
   const auto part = patch(range[0], range[1]);
   if (!part) return std::unexpected(part.error());
-  // Arcs about the point have it in their middle; on swept curves parameters may run at another speed.
+  // Arcs about the point have it in their middle; on swept curves parameters may run at another
+  // speed.
   std::array<double, 2> place = {uv[0], uv[1]};
   if (profile_) {
     const auto search = ClosestPointSearch<2>::create(*part);

@@ -18,8 +18,8 @@ Expected<Curve> segment(const Interval& range, const Point& from, const Point& t
 
 }  // namespace
 
-// The corner of a part is where the tangents at its ends meet: for a parabola the value of its blossom, for a hyperbola
-// as for an ellipse with cosh and sinh.
+// The corner of a part is where the tangents at its ends meet: for a parabola the value of its
+// blossom, for a hyperbola as for an ellipse with cosh and sinh.
 Expected<Curve> EdgeCurve::spline(const Interval& range) const {
   if (const auto* table = std::get_if<CurveTable>(&form_)) return table->curve();
   if (std::holds_alternative<Line>(form_)) return segment(range, at(range.lower), at(range.upper));
@@ -31,9 +31,12 @@ Expected<Curve> EdgeCurve::spline(const Interval& range) const {
   return conic_spline(
       range, pieces, false, [&](double t) { return at(t); },
       [&](double from, double to) {
-        if (parabola) return ConicCorner{conic.centre + from * to * conic.a + (from + to) * conic.b, 1};
+        if (parabola)
+          return ConicCorner{conic.centre + from * to * conic.a + (from + to) * conic.b, 1};
         const double middle = (from + to) / 2, weight = std::cosh((to - from) / 2);
-        return ConicCorner{conic.centre + (std::cosh(middle) * conic.a + std::sinh(middle) * conic.b) / weight, weight};
+        return ConicCorner{
+            conic.centre + (std::cosh(middle) * conic.a + std::sinh(middle) * conic.b) / weight,
+            weight};
       });
 }
 
@@ -60,10 +63,12 @@ Expected<Surface> FaceSurface::patch(const Interval& u, const Interval& v) const
   switch (kind_) {
     case Kind::plane:
       profile = segment(u, at({u.lower, 0}), at({u.upper, 0}));
-      return profile ? swept_along(*profile, y, v) : Expected<Surface>(std::unexpected(profile.error()));
+      return profile ? swept_along(*profile, y, v)
+                     : Expected<Surface>(std::unexpected(profile.error()));
     case Kind::extrusion:
       profile = profile_->spline(u);
-      return profile ? swept_along(*profile, z, v) : Expected<Surface>(std::unexpected(profile.error()));
+      return profile ? swept_along(*profile, z, v)
+                     : Expected<Surface>(std::unexpected(profile.error()));
     case Kind::cylinder:
     case Kind::cone:
       profile = segment(v, at({0, v.lower}), at({0, v.upper}));
@@ -75,11 +80,13 @@ Expected<Surface> FaceSurface::patch(const Interval& u, const Interval& v) const
       profile = ellipse_spline(origin + radius_ * x, minor_ * x, minor_ * z, v);
       break;
     case Kind::revolution:
-      if (one_side_ && profile_->whole()) return input_error("the spline that it turns crosses its axis");
+      if (one_side_ && profile_->whole())
+        return input_error("the spline that it turns crosses its axis");
       profile = profile_->spline(v);
       break;
   }
-  return profile ? swept_about(*profile, origin, z, u) : Expected<Surface>(std::unexpected(profile.error()));
+  return profile ? swept_about(*profile, origin, z, u)
+                 : Expected<Surface>(std::unexpected(profile.error()));
 }
 
 }  // namespace knead::brep

@@ -6,8 +6,10 @@
 
 namespace knead::brep {
 
-/// Replaces the half angle of a cone by its tangent, in the unit that brings the cone closest to the points on it.
-bool FaceSurface::find_half_angle(std::span<const Point> on_it, std::span<const double> angle_units) {
+/// Replaces the half angle of a cone by its tangent, in the unit that brings the cone closest to
+/// the points on it.
+bool FaceSurface::find_half_angle(std::span<const Point> on_it,
+                                  std::span<const double> angle_units) {
   const double angle = minor_;
   double best = std::numeric_limits<double>::infinity();
   for (const double unit : angle_units) {
@@ -26,8 +28,9 @@ bool FaceSurface::find_half_angle(std::span<const Point> on_it, std::span<const 
   return std::isfinite(best);
 }
 
-/// Which sheet is meant of a cone, whose nappes meet in its apex, and of a torus that crosses its axis: the one closer
-/// to the points on it. Only DEGENERATE_TOROIDAL_SURFACE says so itself, which few writers use.
+/// Which sheet is meant of a cone, whose nappes meet in its apex, and of a torus that crosses its
+/// axis: the one closer to the points on it. Only DEGENERATE_TOROIDAL_SURFACE says so itself, which
+/// few writers use.
 void FaceSurface::find_sheet(std::span<const Point> on_it) {
   if (kind_ != Kind::cone && !(kind_ == Kind::torus && minor_ > radius_)) return;
   std::array<double, 2> off = {0, 0};
@@ -36,8 +39,8 @@ void FaceSurface::find_sheet(std::span<const Point> on_it) {
     const double z = d.dot(frame_.z), rho = (d - z * frame_.z).norm();
     for (const std::size_t inner : {0, 1}) {
       const double side = inner == 1 ? -1 : 1;
-      const double away =
-          kind_ == Kind::cone ? rho - side * (radius_ + z * minor_) : std::hypot(rho - side * radius_, z) - minor_;
+      const double away = kind_ == Kind::cone ? rho - side * (radius_ + z * minor_)
+                                              : std::hypot(rho - side * radius_, z) - minor_;
       off[inner] = std::max(off[inner], std::abs(away));
     }
   }

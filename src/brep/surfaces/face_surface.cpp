@@ -14,9 +14,11 @@ constexpr double turn = 2 * std::numbers::pi;
 
 }  // namespace
 
-Expected<FaceSurface> FaceSurface::create(const Model& model, const Support& support, std::span<const Point> on_it) {
+Expected<FaceSurface> FaceSurface::create(const Model& model, const Support& support,
+                                          std::span<const Point> on_it) {
   if (support.wrong) return std::unexpected(*support.wrong);
-  if (std::holds_alternative<ElementarySurface>(support.form)) return elementary(model, support, on_it);
+  if (std::holds_alternative<ElementarySurface>(support.form))
+    return elementary(model, support, on_it);
   if (std::holds_alternative<SweptSurface>(support.form)) return swept(model, support, on_it);
   return model.error(support, "faces on surfaces of this form are not drawn");
 }
@@ -27,7 +29,8 @@ Expected<FaceSurface> FaceSurface::under(const Model& model, const Face& face, E
   return under(model, face, *loops);
 }
 
-Expected<FaceSurface> FaceSurface::under(const Model& model, const Face& face, std::span<const Loop> loops) {
+Expected<FaceSurface> FaceSurface::under(const Model& model, const Face& face,
+                                         std::span<const Loop> loops) {
   std::vector<Point> on_it;
   for (const Loop& loop : loops) on_it.insert(on_it.end(), loop.begin(), loop.end());
   if (face.support != none) return create(model, model.supports[face.support], on_it);
@@ -55,11 +58,13 @@ Expected<FaceSurface> FaceSurface::elementary(const Model& model, const Support&
   return surface;
 }
 
-Expected<FaceSurface> FaceSurface::swept(const Model& model, const Support& support, std::span<const Point> on_it) {
+Expected<FaceSurface> FaceSurface::swept(const Model& model, const Support& support,
+                                         std::span<const Point> on_it) {
   const auto& own = std::get<SweptSurface>(support.form);
   FaceSurface surface(own.revolution ? Kind::revolution : Kind::extrusion, own.frame);
   if (own.revolution) surface.periods_[0] = turn;
-  if (auto done = surface.tabulate(model, support, on_it); !done) return std::unexpected(std::move(done.error()));
+  if (auto done = surface.tabulate(model, support, on_it); !done)
+    return std::unexpected(std::move(done.error()));
   surface.set_poles();
   surface.set_reach(on_it);
   return surface;
@@ -99,7 +104,8 @@ void FaceSurface::set_poles() {
       periods_[1] = turn;
     } else {
       const double v = std::acos(-radius_ / minor_);
-      poles_ = inner_ ? std::array<std::optional<double>, 2>{v, turn - v} : std::array<std::optional<double>, 2>{-v, v};
+      poles_ = inner_ ? std::array<std::optional<double>, 2>{v, turn - v}
+                      : std::array<std::optional<double>, 2>{-v, v};
     }
   }
   if (kind_ == Kind::revolution) {
@@ -139,7 +145,8 @@ Point FaceSurface::at(const Eigen::Vector2d& uv) const {
 Point FaceSurface::normal(const Eigen::Vector2d& uv) const {
   const double u = uv.x(), v = uv.y();
   const Point& z = frame_.z;
-  // On an inner sheet the distance from the axis, R + v tan α or R + r cos v, is negative, and turns ∂u × ∂v around.
+  // On an inner sheet the distance from the axis, R + v tan α or R + r cos v, is negative, and
+  // turns ∂u × ∂v around.
   const double side = inner_ != mirrored_ ? -1 : 1;
   switch (kind_) {
     case Kind::plane:
@@ -229,14 +236,19 @@ std::array<bool, 2> FaceSurface::straight() const {
 }
 
 void FaceSurface::set_steps(ChordLimit chord) {
-  const auto step = [chord](double radius) { return turn / std::ceil(turn / chord_angle(chord.of(radius))); };
+  const auto step = [chord](double radius) {
+    return turn / std::ceil(turn / chord_angle(chord.of(radius)));
+  };
   angle_steps_ = {step(reach_), step(kind_ == Kind::torus ? std::abs(minor_) : reach_)};
   if (profile_) steps_ = profile_->subdivided(range_.lower, range_.upper, chord);
   if (waist_ > 0) {
-    // Rulings that are not parallel: a cell of a by b deviates from its surface by up to a b / 4 at the waist.
-    const double pieces = std::clamp(std::ceil(2 * range_.length() / (waist_ * angle_steps_[0])), 1.0, 1000.0);
+    // Rulings that are not parallel: a cell of a by b deviates from its surface by up to a b / 4 at
+    // the waist.
+    const double pieces =
+        std::clamp(std::ceil(2 * range_.length() / (waist_ * angle_steps_[0])), 1.0, 1000.0);
     steps_.clear();
-    for (double k = 0; k <= pieces; ++k) steps_.push_back(range_.lower + range_.length() * k / pieces);
+    for (double k = 0; k <= pieces; ++k)
+      steps_.push_back(range_.lower + range_.length() * k / pieces);
   }
 }
 

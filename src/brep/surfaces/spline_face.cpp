@@ -15,15 +15,17 @@ constexpr double unnoticed = 0.02;   // of the limit: where chords are closer, t
 constexpr double least_round = 3;    // steps around a closed direction
 constexpr double degenerate = 1e-9;  // |S_u × S_v| over |S_u|² + |S_v|²
 
-/// `to` at x, where `from` is ascending: piecewise linear; beyond the ends as often again if closed, else straight on.
-double mapped(const std::vector<double>& from, const std::vector<double>& to, double x, bool closed) {
+/// `to` at x, where `from` is ascending: piecewise linear; beyond the ends as often again if
+/// closed, else straight on.
+double mapped(const std::vector<double>& from, const std::vector<double>& to, double x,
+              bool closed) {
   const double length = from.back() - from.front(), whole = to.back() - to.front();
   double turns = 0;
   if (closed) turns = std::floor((x - from.front()) / length);
   x -= turns * length;
   const auto k = static_cast<std::size_t>(
-      std::clamp<std::ptrdiff_t>(std::upper_bound(from.begin(), from.end(), x) - from.begin() - 1, 0,
-                                 static_cast<std::ptrdiff_t>(from.size()) - 2));
+      std::clamp<std::ptrdiff_t>(std::upper_bound(from.begin(), from.end(), x) - from.begin() - 1,
+                                 0, static_cast<std::ptrdiff_t>(from.size()) - 2));
   return to[k] + (to[k + 1] - to[k]) * (x - from[k]) / (from[k + 1] - from[k]) + turns * whole;
 }
 
@@ -43,7 +45,8 @@ Expected<SplineFace> SplineFace::create(const Surface& surface) {
     const Interval domain = knots.domain();
     const auto k = static_cast<std::size_t>(d);
     result.chords_[k] = *std::move(chords);
-    for (const int s : knots.spans()) result.ends_[k].push_back((knots[s] - domain.lower) / domain.length());
+    for (const int s : knots.spans())
+      result.ends_[k].push_back((knots[s] - domain.lower) / domain.length());
     result.ends_[k].push_back(1);
     result.steps_[k] = result.ends_[k];
   }
@@ -56,7 +59,8 @@ std::array<double, 2> SplineFace::parameters(const Eigen::Vector2d& fractions) c
     const Interval domain = surface_->knots(d).domain();
     double x = fractions[d];
     if (feet_.space().periods[static_cast<std::size_t>(d)] > 0) x -= std::floor(x);
-    result[static_cast<std::size_t>(d)] = std::clamp(domain.lower + x * domain.length(), domain.lower, domain.upper);
+    result[static_cast<std::size_t>(d)] =
+        std::clamp(domain.lower + x * domain.length(), domain.lower, domain.upper);
   }
   return result;
 }
@@ -83,10 +87,12 @@ Foot SplineFace::foot(const Point& p, const std::optional<Eigen::Vector2d>& near
   return feet_.nearest(p, near, on_surface * size_).foot;
 }
 
-/// How far the twist takes the middle of a cell of one by one step off its triangles, about the largest.
+/// How far the twist takes the middle of a cell of one by one step off its triangles, about the
+/// largest.
 double SplineFace::twist() const {
   constexpr std::size_t most = 64;
-  std::array<std::vector<double>, 2> places, lengths;  // middles of spans, and what one step there is in parameters
+  std::array<std::vector<double>, 2> places,
+      lengths;  // middles of spans, and what one step there is in parameters
   for (std::size_t d = 0; d < 2; ++d) {
     const Interval domain = surface_->knots(static_cast<int>(d)).domain();
     const std::size_t count = ends_[d].size() - 1, stride = (count - 1) / most + 1;
@@ -112,12 +118,14 @@ double SplineFace::twist() const {
 }
 
 void SplineFace::set_steps(ChordLimit chord) {
-  const double limit = std::min(chord.share * size_ / 2, chord.length) / 2, angle = chord_angle(chord.share);
+  const double limit = std::min(chord.share * size_ / 2, chord.length) / 2,
+               angle = chord_angle(chord.share);
   for (std::size_t d = 0; d < 2; ++d) {
     double total = 0;
     std::vector<double> widths;
     for (const SpanChord& span : chords_[d]) {
-      const double turning = std::min(span.turn / angle, std::sqrt(span.distance / (unnoticed * limit)));
+      const double turning =
+          std::min(span.turn / angle, std::sqrt(span.distance / (unnoticed * limit)));
       widths.push_back(std::max(std::sqrt(span.distance / limit), turning));
       total += widths.back();
     }
@@ -137,12 +145,14 @@ void SplineFace::set_steps(ChordLimit chord) {
 
 Eigen::Vector2d SplineFace::chart(const Eigen::Vector2d& uv) const {
   const auto& periods = feet_.space().periods;
-  return {mapped(ends_[0], steps_[0], uv[0], periods[0] > 0), mapped(ends_[1], steps_[1], uv[1], periods[1] > 0)};
+  return {mapped(ends_[0], steps_[0], uv[0], periods[0] > 0),
+          mapped(ends_[1], steps_[1], uv[1], periods[1] > 0)};
 }
 
 Eigen::Vector2d SplineFace::from_chart(const Eigen::Vector2d& steps) const {
   const auto& periods = feet_.space().periods;
-  return {mapped(steps_[0], ends_[0], steps[0], periods[0] > 0), mapped(steps_[1], ends_[1], steps[1], periods[1] > 0)};
+  return {mapped(steps_[0], ends_[0], steps[0], periods[0] > 0),
+          mapped(steps_[1], ends_[1], steps[1], periods[1] > 0)};
 }
 
 }  // namespace knead::brep

@@ -10,17 +10,20 @@ namespace knead::brep {
 
 /// A B-spline surface that faces lie on. Parameters are fractions of its domain.
 ///
-/// Its chart follows the spans: one of them is as many steps wide as chords need to be within half the limit in either
-/// direction, and to turn no more than those of a circle within the limit's share, unless that moves less than a
-/// fiftieth of the limit; the other half is for the twist between both directions. Flat spans share a step.
+/// Its chart follows the spans: one of them is as many steps wide as chords need to be within half
+/// the limit in either direction, and to turn no more than those of a circle within the limit's
+/// share, unless that moves less than a fiftieth of the limit; the other half is for the twist
+/// between both directions. Flat spans share a step.
 class SplineFace final : public ChartedSurface {
  public:
-  /// `surface` must outlive it. Errors: as for `ClosestPointSearch`; a denominator that is not positive.
+  /// `surface` must outlive it. Errors: as for `ClosestPointSearch`; a denominator that is not
+  /// positive.
   [[nodiscard]] static Expected<SplineFace> create(const Surface& surface);
 
   [[nodiscard]] Point at(const Eigen::Vector2d& uv) const override;
   [[nodiscard]] Point normal(const Eigen::Vector2d& uv) const override;
-  [[nodiscard]] Foot foot(const Point& p, const std::optional<Eigen::Vector2d>& near) const override;
+  [[nodiscard]] Foot foot(const Point& p,
+                          const std::optional<Eigen::Vector2d>& near) const override;
   [[nodiscard]] ParameterSpace space() const override { return feet_.space(); }
   /// The limit's share is that of half the diagonal of the net.
   void set_steps(ChordLimit chord) override;
@@ -37,7 +40,8 @@ class SplineFace final : public ChartedSurface {
   SurfaceFoot feet_;
   double size_ = 0;
   std::array<std::vector<SpanChord>, 2> chords_;
-  std::array<std::vector<double>, 2> ends_, steps_;  // of spans: their fractions, and the steps up to there
+  std::array<std::vector<double>, 2> ends_,
+      steps_;  // of spans: their fractions, and the steps up to there
 };
 
 }  // namespace knead::brep

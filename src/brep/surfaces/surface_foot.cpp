@@ -9,7 +9,8 @@
 namespace knead::brep {
 namespace {
 
-constexpr double single_point = 1e-6;  // of the net's diagonal: an edge of the domain no longer than this is a pole
+// Of the net's diagonal: an edge of the domain no longer than this is a pole.
+constexpr double single_point = 1e-6;
 constexpr double at_pole = 1e-5;       // fractions
 constexpr double least_narrow = 1e-8;  // of the net's diagonal
 
@@ -18,7 +19,8 @@ double width_of(const Surface& surface) {
   const Eigen::Index n0 = surface.knots(0).count(), n1 = surface.knots(1).count();
   std::array<double, 2> widths = {};
   const Points& points = surface.control_points();
-  const auto widest = [&](double& width, Eigen::Index first, Eigen::Index count, Eigen::Index stride) {
+  const auto widest = [&](double& width, Eigen::Index first, Eigen::Index count,
+                          Eigen::Index stride) {
     width = std::max(width, net_diagonal(points(Eigen::seqN(first, count, stride), Eigen::all)));
   };
   for (Eigen::Index j = 0; j < n1; ++j) widest(widths[0], j, n0, n1);
@@ -67,7 +69,8 @@ SurfaceFoot::Result SurfaceFoot::result_of(const ClosestPoint<2>& closest) const
   Result result{{}, closest.distance};
   for (int d = 0; d < 2; ++d) {
     const Interval& domain = domain_[static_cast<std::size_t>(d)];
-    result.foot.parameters[d] = (closest.parameters[static_cast<std::size_t>(d)] - domain.lower) / domain.length();
+    result.foot.parameters[d] =
+        (closest.parameters[static_cast<std::size_t>(d)] - domain.lower) / domain.length();
   }
   for (int d = 0; d < 2; ++d) {
     for (const auto& end : space_.poles[static_cast<std::size_t>(d)]) {
@@ -86,7 +89,8 @@ SurfaceFoot::Result SurfaceFoot::nearest(const Point& p, const std::optional<Eig
     for (std::size_t d = 0; d < 2; ++d) {
       start[d] = domain_[d].lower + (*hint)[static_cast<Eigen::Index>(d)] * domain_[d].length();
     }
-    const Result found = result_of(search_.nearest_from(p, start, {space_.periods[0] > 0, space_.periods[1] > 0}));
+    const Result found =
+        result_of(search_.nearest_from(p, start, {space_.periods[0] > 0, space_.periods[1] > 0}));
     if (found.distance <= std::min(tolerance, narrow_)) return found;
   }
   return result_of(search_.nearest(p));
@@ -97,19 +101,22 @@ SurfaceFoot::Path SurfaceFoot::along(std::span<const Point> points, double toler
   std::vector<Foot> found;
   for (const Point& p : points) {
     std::optional<Eigen::Vector2d> hint;
-    if (!found.empty() && !found.back().free[0] && !found.back().free[1]) hint = found.back().parameters;
+    if (!found.empty() && !found.back().free[0] && !found.back().free[1])
+      hint = found.back().parameters;
     const Result at = nearest(p, hint, tolerance);
     result.distance = std::max(result.distance, at.distance);
     found.push_back(at.foot);
   }
   for (std::size_t k = 1; k < found.size(); ++k) settle(found[k], found[k - 1]);
   for (std::size_t k = found.size(); k-- > 1;) settle(found[k - 1], found[k]);
-  for (std::size_t k = 1; k < found.size(); ++k) unwrap(found[k].parameters, found[k - 1].parameters, space_);
+  for (std::size_t k = 1; k < found.size(); ++k)
+    unwrap(found[k].parameters, found[k - 1].parameters, space_);
   for (const Foot& foot : found) result.feet.push_back(foot.parameters);
   return result;
 }
 
-Eigen::Vector2d SurfaceFoot::beside(const Point& p, const Eigen::Vector2d& before, double tolerance) const {
+Eigen::Vector2d SurfaceFoot::beside(const Point& p, const Eigen::Vector2d& before,
+                                    double tolerance) const {
   Foot foot = nearest(p, before, tolerance).foot;
   settle(foot, {before});
   unwrap(foot.parameters, before, space_);

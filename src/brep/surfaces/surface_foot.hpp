@@ -16,24 +16,28 @@ class SurfaceFoot {
   /// Errors: as for `ClosestPointSearch`.
   [[nodiscard]] static Expected<SurfaceFoot> create(const Surface& surface);
 
-  /// The fractions of the point of the surface nearest to p, and its distance. `hint`: fractions from which to descend
-  /// first; the whole surface is searched if that ends farther away than `tolerance`, or than a tenth of the width of
-  /// the surface: the foot on the other side of a sliver is as near as that.
+  /// The fractions of the point of the surface nearest to p, and its distance. `hint`: fractions
+  /// from which to descend first; the whole surface is searched if that ends farther away than
+  /// `tolerance`, or than a tenth of the width of the surface: the foot on the other side of a
+  /// sliver is as near as that.
   struct Result {
     Foot foot;
     double distance = 0;
   };
-  [[nodiscard]] Result nearest(const Point& p, const std::optional<Eigen::Vector2d>& hint, double tolerance) const;
+  [[nodiscard]] Result nearest(const Point& p, const std::optional<Eigen::Vector2d>& hint,
+                               double tolerance) const;
 
-  /// The fractions of the nearest points to those of a curve on the surface, one after the other: without jumps over a
-  /// seam, and beside poles with what is undetermined there taken from the neighbours. `tolerance`: as for `nearest`.
+  /// The fractions of the nearest points to those of a curve on the surface, one after the other:
+  /// without jumps over a seam, and beside poles with what is undetermined there taken from the
+  /// neighbours. `tolerance`: as for `nearest`.
   struct Path {
     std::vector<Eigen::Vector2d> feet;
     double distance = 0;  ///< the largest
   };
   [[nodiscard]] Path along(std::span<const Point> points, double tolerance) const;
   /// The same for one more point, next to fractions on the path.
-  [[nodiscard]] Eigen::Vector2d beside(const Point& p, const Eigen::Vector2d& before, double tolerance) const;
+  [[nodiscard]] Eigen::Vector2d beside(const Point& p, const Eigen::Vector2d& before,
+                                       double tolerance) const;
 
   /// Closed directions have period 1; edges of the domain that collapse to one point are poles.
   [[nodiscard]] const ParameterSpace& space() const { return space_; }

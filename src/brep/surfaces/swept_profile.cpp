@@ -14,7 +14,8 @@ constexpr double sample_chord = 1e-3;
 
 }  // namespace
 
-/// For a revolution: distance from the axis and height; for an extrusion: the position across its direction.
+/// For a revolution: distance from the axis and height; for an extrusion: the position across its
+/// direction.
 Eigen::Vector2d FaceSurface::section(const Point& p) const {
   const Point d = p - frame_.origin;
   const double x = d.dot(frame_.x), y = d.dot(frame_.y);
@@ -23,7 +24,8 @@ Eigen::Vector2d FaceSurface::section(const Point& p) const {
   return {one_side_ && d.dot(side_) < 0 ? -rho : rho, d.dot(frame_.z)};
 }
 
-Expected<void> FaceSurface::tabulate(const Model& model, const Support& support, std::span<const Point> on_it) {
+Expected<void> FaceSurface::tabulate(const Model& model, const Support& support,
+                                     std::span<const Point> on_it) {
   const auto& swept = std::get<SweptSurface>(support.form);
   if (swept.wrong) return std::unexpected(*swept.wrong);
   auto curve = EdgeCurve::create(*swept.curve);
@@ -39,9 +41,10 @@ Expected<void> FaceSurface::tabulate(const Model& model, const Support& support,
   return {};
 }
 
-/// The needed part of the profile. If it is unbounded, as far as the face can reach: a point on the face is as far from
-/// the axis, or along it, as the point of the curve that sweeps it.
-Expected<void> FaceSurface::find_range(const Model& model, const Support& support, std::span<const Point> on_it) {
+/// The needed part of the profile. If it is unbounded, as far as the face can reach: a point on the
+/// face is as far from the axis, or along it, as the point of the curve that sweeps it.
+Expected<void> FaceSurface::find_range(const Model& model, const Support& support,
+                                       std::span<const Point> on_it) {
   const bool revolution = kind_ == Kind::revolution;
   if (const auto domain = profile_->domain()) {
     range_ = *domain;
@@ -51,12 +54,15 @@ Expected<void> FaceSurface::find_range(const Model& model, const Support& suppor
     const Point start = profile_->at(0);
     const double first = section(start).norm();
     for (const Point& p : on_it) {
-      const double reach = revolution ? section(p).norm() + first : (section(p) - section(start)).norm();
+      const double reach =
+          revolution ? section(p).norm() + first : (section(p) - section(start)).norm();
       double t = 1;
       for (const double sign : {-1.0, 1.0}) {  // in both directions from t = 0 up to that distance
         t = sign * std::max(reach, 1e-9);
         if (!profile_->straight()) {
-          for (t = sign; (section(profile_->at(t)) - section(start)).norm() < reach && std::abs(t) < 700; t *= 2) {
+          for (t = sign;
+               (section(profile_->at(t)) - section(start)).norm() < reach && std::abs(t) < 700;
+               t *= 2) {
           }
         } else if (!revolution) {
           // Only distances across the direction of the extrusion count.
@@ -73,7 +79,8 @@ Expected<void> FaceSurface::find_range(const Model& model, const Support& suppor
   return {};
 }
 
-/// A circle whose centre is on the axis sweeps everything twice: the side of its largest extent suffices.
+/// A circle whose centre is on the axis sweeps everything twice: the side of its largest extent
+/// suffices.
 void FaceSurface::find_side() {
   double largest = 0;
   for (int k = 0; k <= 64; ++k) {
@@ -85,8 +92,10 @@ void FaceSurface::find_side() {
   }
 }
 
-/// For a line that meets the axis, keeps only the nappe of the cone with the face; for a skew one, finds the waist.
-Expected<void> FaceSurface::end_at_axis(const Model& model, const Support& support, std::span<const Point> on_it) {
+/// For a line that meets the axis, keeps only the nappe of the cone with the face; for a skew one,
+/// finds the waist.
+Expected<void> FaceSurface::end_at_axis(const Model& model, const Support& support,
+                                        std::span<const Point> on_it) {
   if (profile_->domain() != std::nullopt || !profile_->straight()) return {};
   const Point a = profile_->at(0) - frame_.origin;
   const Point direction = profile_->derivative(0);
@@ -102,19 +111,21 @@ Expected<void> FaceSurface::end_at_axis(const Model& model, const Support& suppo
     const double height_at_pole = section(profile_->at(t)).y();
     const bool upper = (middle > height_at_pole) == (direction.dot(frame_.z) > 0);
     (upper ? range_.lower : range_.upper) = t;
-    if (!(range_.length() > 0)) return model.error(support, "the face lies beyond where its curve meets the axis");
+    if (!(range_.length() > 0))
+      return model.error(support, "the face lies beyond where its curve meets the axis");
   }
   return {};
 }
 
 void FaceSurface::sample_profile() {
-  const std::vector<double> parameters = profile_->straight()
-                                             ? std::vector<double>{range_.lower, range_.upper}
-                                             : profile_->subdivided(range_.lower, range_.upper, {sample_chord});
+  const std::vector<double> parameters =
+      profile_->straight() ? std::vector<double>{range_.lower, range_.upper}
+                           : profile_->subdivided(range_.lower, range_.upper, {sample_chord});
   const auto pieces = static_cast<std::size_t>(profile_->straight() ? 64 : samples_per_piece);
   for (std::size_t k = 0; k + 1 < parameters.size(); ++k) {
     for (std::size_t i = 0; i < pieces; ++i) {
-      sample_parameters_.push_back(parameters[k] + (parameters[k + 1] - parameters[k]) * static_cast<double>(i) /
+      sample_parameters_.push_back(parameters[k] + (parameters[k + 1] - parameters[k]) *
+                                                       static_cast<double>(i) /
                                                        static_cast<double>(pieces));
     }
   }
@@ -165,7 +176,8 @@ double FaceSurface::nearest(const Eigen::Vector2d& q) const {
   for (std::size_t k = 0; k + 1 < samples_.size(); ++k) {
     const Eigen::Vector2d side = samples_[k + 1] - samples_[k];
     const double length = side.squaredNorm();
-    const double share = length > 0 ? std::clamp((q - samples_[k]).dot(side) / length, 0.0, 1.0) : 0;
+    const double share =
+        length > 0 ? std::clamp((q - samples_[k]).dot(side) / length, 0.0, 1.0) : 0;
     const double distance = (samples_[k] + share * side - q).squaredNorm();
     if (distance >= best) continue;
     best = distance;
@@ -181,7 +193,8 @@ double FaceSurface::nearest(const Eigen::Vector2d& q) const {
     const Eigen::Vector2d slope = (section(profile_->at(b)) - section(profile_->at(a))) / (b - a);
     const double divisor = slope.squaredNorm();
     if (!(divisor > 0)) break;
-    const double next = std::clamp(t + (q - section(profile_->at(t))).dot(slope) / divisor, lower, upper);
+    const double next =
+        std::clamp(t + (q - section(profile_->at(t))).dot(slope) / divisor, lower, upper);
     if (std::abs(next - t) <= 1e-12 * range_.length()) return next;
     t = next;
   }

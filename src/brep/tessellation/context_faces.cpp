@@ -10,7 +10,8 @@ using namespace brep;
 
 Expected<FaceMeshes> context_faces(const brep::Model& model, double chord) {
   if (!(chord >= 1e-6 && chord <= 0.2)) {
-    return std::unexpected(Error{ErrorKind::usage, "the tolerance of chords is out of range", {}, "use 1e-6 to 0.2"});
+    return std::unexpected(
+        Error{ErrorKind::usage, "the tolerance of chords is out of range", {}, "use 1e-6 to 0.2"});
   }
   FaceTessellator tessellator(model, {chord});
   FaceMeshes result;
@@ -36,7 +37,8 @@ Expected<FaceMeshes> context_faces(const brep::Model& model, double chord) {
 }
 
 std::vector<int> face_senses(const brep::Model& model) {
-  std::vector<std::array<bool, 2>> found(model.surfaces.size());  // faces against each surface, along it
+  std::vector<std::array<bool, 2>> found(
+      model.surfaces.size());  // faces against each surface, along it
   for (const Face& face : model.faces) {
     if (face.support == none || model.supports[face.support].spline == none) continue;
     found[model.supports[face.support].spline][face.sense() > 0 ? 1 : 0] = true;

@@ -51,19 +51,21 @@ class Clipper {
  private:
   const Vector2d& at(std::uint32_t k) const { return points_[k]; }
 
-  static bool in_triangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& p) {
+  static bool in_triangle(const Vector2d& a, const Vector2d& b, const Vector2d& c,
+                          const Vector2d& p) {
     return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
   }
 
-  bool is_ear(const Ring& ring, const std::vector<std::uint32_t>& next, const std::vector<std::uint32_t>& before,
-              std::uint32_t k, bool flat) const {
+  bool is_ear(const Ring& ring, const std::vector<std::uint32_t>& next,
+              const std::vector<std::uint32_t>& before, std::uint32_t k, bool flat) const {
     const Vector2d &a = at(ring[before[k]]), &b = at(ring[k]), &c = at(ring[next[k]]);
     const int turn = orientation(a, b, c);
     if (turn <= 0) return turn == 0 && flat;
     const Vector2d lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
     for (auto i = next[next[k]]; i != before[k]; i = next[i]) {
       const Vector2d& p = at(ring[i]);
-      if (p.x() < lower.x() || p.x() > upper.x() || p.y() < lower.y() || p.y() > upper.y()) continue;
+      if (p.x() < lower.x() || p.x() > upper.x() || p.y() < lower.y() || p.y() > upper.y())
+        continue;
       if (p == a || p == b || p == c) continue;
       if (!in_triangle(a, b, c, p)) continue;
       // Only a reflex corner, which bulges into the ring, can be in the way.
@@ -77,7 +79,8 @@ class Clipper {
 
 }  // namespace
 
-std::optional<std::vector<Triangle>> clip_ears(std::span<const Vector2d> points, std::span<const std::uint32_t> sizes) {
+std::optional<std::vector<Triangle>> clip_ears(std::span<const Vector2d> points,
+                                               std::span<const std::uint32_t> sizes) {
   std::vector<Ring> rings;
   std::uint32_t at = 0;
   for (const auto size : sizes) {

@@ -11,7 +11,8 @@ namespace knead::brep {
 
 using Eigen::Vector2d;
 
-Chart::Chart(std::shared_ptr<const ChartedSurface> surface, std::span<const Foot> feet) : surface_(std::move(surface)) {
+Chart::Chart(std::shared_ptr<const ChartedSurface> surface, std::span<const Foot> feet)
+    : surface_(std::move(surface)) {
   const auto straight = surface_->straight();
   Vector2d lower = Vector2d::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   for (const Foot& foot : feet) {
@@ -70,12 +71,14 @@ Expected<ChartedFace> charted_face(const Model& model, const Face& face, EdgeSam
   auto foot = feet.begin();
   for (const Loop& loop : *loops) {
     auto& points = in_chart.emplace_back();
-    for (std::size_t k = 0; k < loop.size(); ++k, ++foot) points.push_back({chart.to(foot->parameters), foot->free});
+    for (std::size_t k = 0; k < loop.size(); ++k, ++foot)
+      points.push_back({chart.to(foot->parameters), foot->free});
   }
   auto parts = parameter_region(chart.space(), in_chart);
   if (!parts) {
     // A loop that goes up to a pole winds round it the way that its normal says.
-    if (auto other = surface->other_sense()) return charted_face(model, face, edges, std::move(other));
+    if (auto other = surface->other_sense())
+      return charted_face(model, face, edges, std::move(other));
     return model.error(face, parts.error().what);
   }
   return ChartedFace{*std::move(loops), std::move(chart), *std::move(parts)};

@@ -10,14 +10,16 @@
 
 namespace knead::brep {
 
-/// The plane in which a face is cut open: whole steps where the surface is curved; where it is straight the face is one
-/// step long.
+/// The plane in which a face is cut open: whole steps where the surface is curved; where it is
+/// straight the face is one step long.
 class Chart {
  public:
   Chart(std::shared_ptr<const ChartedSurface> surface, std::span<const Foot> feet);
 
   [[nodiscard]] const ChartedSurface& surface() const { return *surface_; }
-  [[nodiscard]] Eigen::Vector2d to(const Eigen::Vector2d& uv) const { return surface_->chart(uv).cwiseProduct(scale_); }
+  [[nodiscard]] Eigen::Vector2d to(const Eigen::Vector2d& uv) const {
+    return surface_->chart(uv).cwiseProduct(scale_);
+  }
   [[nodiscard]] Eigen::Vector2d from(const Eigen::Vector2d& c) const {
     return surface_->from_chart(c.cwiseQuotient(scale_));
   }
@@ -37,7 +39,8 @@ struct ChartedFace {
 
 /// Errors (input): an edge that cannot be read, edges off the surface, bounds that bound nothing.
 /// \param surface the one that the face lies on, with its steps set
-[[nodiscard]] Expected<ChartedFace> charted_face(const Model& model, const Face& face, EdgeSampler& edges,
+[[nodiscard]] Expected<ChartedFace> charted_face(const Model& model, const Face& face,
+                                                 EdgeSampler& edges,
                                                  std::shared_ptr<const ChartedSurface> surface);
 
 }  // namespace knead::brep

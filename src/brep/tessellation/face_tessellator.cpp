@@ -18,13 +18,15 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double clearance = 0.35;     // of interior points from the outline, in steps
-constexpr double most_inside = 1e6;    // points
-constexpr double most_pieces = 1000;   // of a chord
-constexpr int most_rounds = 6;         // of adding points where triangles are too far from the surface
+constexpr double clearance = 0.35;    // of interior points from the outline, in steps
+constexpr double most_inside = 1e6;   // points
+constexpr double most_pieces = 1000;  // of a chord
+constexpr int most_rounds = 6;  // of adding points where triangles are too far from the surface
 constexpr int most_edge_halvings = 8;  // of the chords round a face
-constexpr std::size_t most_edge_chords = 4000, most_tried_chords = 100'000;  // then: their cost is quadratic
-constexpr double same_place = 1e-7;  // of the extent of the face: points that are added beside its edges
+constexpr std::size_t most_edge_chords = 4000,
+                      most_tried_chords = 100'000;  // then: their cost is quadratic
+// Of the extent of the face: points that are added beside its edges.
+constexpr double same_place = 1e-7;
 
 double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   const Vector2d side = b - a;
@@ -34,7 +36,8 @@ double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d&
 }
 
 // At the midpoint of every whole step across a straight direction.
-std::optional<std::vector<Vector2d>> points_between(std::span<const std::vector<Vector2d>> loops, int straight) {
+std::optional<std::vector<Vector2d>> points_between(std::span<const std::vector<Vector2d>> loops,
+                                                    int straight) {
   std::vector<Vector2d> result;
   const int across = 1 - straight;
   double lower = std::numeric_limits<double>::infinity(), upper = -lower;
@@ -51,7 +54,8 @@ std::optional<std::vector<Vector2d>> points_between(std::span<const std::vector<
       for (std::size_t k = 0; k < loop.size(); ++k) {
         const Vector2d &a = loop[k], &b = loop[(k + 1) % loop.size()];
         if ((a[across] > x) == (b[across] > x)) continue;
-        crossings.push_back(a[straight] + (b[straight] - a[straight]) * (x - a[across]) / (b[across] - a[across]));
+        crossings.push_back(a[straight] + (b[straight] - a[straight]) * (x - a[across]) /
+                                              (b[across] - a[across]));
       }
     }
     std::sort(crossings.begin(), crossings.end());
@@ -66,7 +70,8 @@ std::optional<std::vector<Vector2d>> points_between(std::span<const std::vector<
 }
 
 // Whether some triangle spans more steps than chords of one step allow.
-bool too_wide(std::span<const std::vector<Vector2d>> loops, std::span<const Triangle> triangles, int across) {
+bool too_wide(std::span<const std::vector<Vector2d>> loops, std::span<const Triangle> triangles,
+              int across) {
   std::vector<double> places;
   for (const auto& loop : loops) {
     for (const Vector2d& p : loop) places.push_back(p[across]);
@@ -80,7 +85,8 @@ bool too_wide(std::span<const std::vector<Vector2d>> loops, std::span<const Tria
 // Whole steps within the loops, row by row, every other row backwards.
 std::optional<std::vector<Vector2d>> points_inside(std::span<const std::vector<Vector2d>> loops) {
   std::vector<std::pair<Vector2d, Vector2d>> sides;
-  double lower = std::numeric_limits<double>::infinity(), upper = -lower, left = lower, right = -lower;
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower, left = lower,
+         right = -lower;
   for (const auto& loop : loops) {
     for (std::size_t k = 0; k < loop.size(); ++k) {
       sides.emplace_back(loop[k], loop[(k + 1) % loop.size()]);
@@ -96,8 +102,10 @@ std::optional<std::vector<Vector2d>> points_inside(std::span<const std::vector<V
     std::vector<double> crossings;
     std::vector<std::pair<Vector2d, Vector2d>> near;
     for (const auto& [a, b] : sides) {
-      if ((a.y() > y) != (b.y() > y)) crossings.push_back(a.x() + (b.x() - a.x()) * (y - a.y()) / (b.y() - a.y()));
-      if (std::min(a.y(), b.y()) < y + clearance && std::max(a.y(), b.y()) > y - clearance) near.emplace_back(a, b);
+      if ((a.y() > y) != (b.y() > y))
+        crossings.push_back(a.x() + (b.x() - a.x()) * (y - a.y()) / (b.y() - a.y()));
+      if (std::min(a.y(), b.y()) < y + clearance && std::max(a.y(), b.y()) > y - clearance)
+        near.emplace_back(a, b);
     }
     std::sort(crossings.begin(), crossings.end());
     const auto begin = result.size();
@@ -109,20 +117,23 @@ std::optional<std::vector<Vector2d>> points_inside(std::span<const std::vector<V
         if (free) result.emplace_back(x, y);
       }
     }
-    if (std::lround(y) % 2 != 0) std::reverse(result.begin() + static_cast<std::ptrdiff_t>(begin), result.end());
+    if (std::lround(y) % 2 != 0)
+      std::reverse(result.begin() + static_cast<std::ptrdiff_t>(begin), result.end());
   }
   return result;
 }
 
-// Points added on both sides of a cut, and those at a pole, take the place of the first one there: they were evaluated
-// at other parameters, and differ by rounding.
-void weld(std::vector<Point>& points, std::uint32_t first, const std::vector<std::uint32_t>& added) {
+// Points added on both sides of a cut, and those at a pole, take the place of the first one there:
+// they were evaluated at other parameters, and differ by rounding.
+void weld(std::vector<Point>& points, std::uint32_t first,
+          const std::vector<std::uint32_t>& added) {
   Eigen::AlignedBox3d box;
   for (auto k = first; k < points.size(); ++k) box.extend(points[k]);
   const double near = same_place * box.diagonal().norm();
   for (const auto k : added) {
     const auto begin = points.begin() + first;
-    const auto same = std::find_if(begin, points.end(), [&](const Point& p) { return (p - points[k]).norm() <= near; });
+    const auto same = std::find_if(begin, points.end(),
+                                   [&](const Point& p) { return (p - points[k]).norm() <= near; });
     points[k] = *same;
   }
 }
@@ -139,11 +150,12 @@ Expected<void> FaceTessellator::legible(const Face& face) {
   return surface ? Expected<void>() : std::unexpected(surface.error());
 }
 
-Expected<std::unique_ptr<ChartedSurface>> FaceTessellator::surface_of(const Face& face,
-                                                                      const std::vector<Loop>& loops) {
+Expected<std::unique_ptr<ChartedSurface>> FaceTessellator::surface_of(
+    const Face& face, const std::vector<Loop>& loops) {
   if (const SplineSurface* own = model_.spline_under(face)) {
     const double size = net_diagonal(own->surface.control_points());
-    if (auto checked = check_extent(model_, face, loops, size); !checked) return std::unexpected(checked.error());
+    if (auto checked = check_extent(model_, face, loops, size); !checked)
+      return std::unexpected(checked.error());
     auto spline = SplineFace::create(own->surface);
     if (!spline) return model_.error(face, spline.error().what);
     return std::make_unique<SplineFace>(*std::move(spline));
@@ -202,13 +214,14 @@ Expected<std::size_t> FaceTessellator::halve_edges(std::span<const Index> edges)
       pieces.push_back((**points)[k] == (**points)[k + 1] ? 1 : 2);
       count += static_cast<std::size_t>(pieces.back());
     }
-    if (auto done = edges_.divide(edge, pieces); !done) return std::unexpected(std::move(done.error()));
+    if (auto done = edges_.divide(edge, pieces); !done)
+      return std::unexpected(std::move(done.error()));
   }
   return count;
 }
 
-/// Halves the chords round a face that cannot be made triangles until it can. False where that does not help: its edges
-/// are as they were. `spent` counts the chords that were tried.
+/// Halves the chords round a face that cannot be made triangles until it can. False where that does
+/// not help: its edges are as they were. `spent` counts the chords that were tried.
 bool FaceTessellator::refine_edges(const FaceOnSurface& on, std::size_t& spent) {
   std::vector<Index> edges = edges_around(*on.face);
   std::ranges::sort(edges);
@@ -273,21 +286,26 @@ constexpr const char* too_many = "it would need more than a million points at th
 
 }  // namespace
 
-/// The centres of triangles that are farther from the surface than the limit, along its normal, at their own centre or
-/// at that of a side inside. `bounds`: the points of the outline.
-std::vector<Vector2d> FaceTessellator::off(const Chart& chart, std::span<const std::vector<Vector2d>> outline,
-                                           std::span<const Point> bounds, const Filling& filling) const {
+/// The centres of triangles that are farther from the surface than the limit, along its normal, at
+/// their own centre or at that of a side inside. `bounds`: the points of the outline.
+std::vector<Vector2d> FaceTessellator::off(const Chart& chart,
+                                           std::span<const std::vector<Vector2d>> outline,
+                                           std::span<const Point> bounds,
+                                           const Filling& filling) const {
   const ChartedSurface& surface = chart.surface();
   std::vector<Vector2d> flat;
   std::vector<std::size_t> next;  // along the outline
   for (const auto& loop : outline) {
-    for (std::size_t k = 0; k < loop.size(); ++k) next.push_back(flat.size() + (k + 1) % loop.size());
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      next.push_back(flat.size() + (k + 1) % loop.size());
     flat.insert(flat.end(), loop.begin(), loop.end());
   }
   const auto count = flat.size();
   std::vector<Point> inner;
   for (const Vector2d& p : filling.inside) inner.push_back(surface.at(chart.from(p)));
-  const auto place = [&](std::uint32_t k) { return k < count ? flat[k] : filling.inside[k - count]; };
+  const auto place = [&](std::uint32_t k) {
+    return k < count ? flat[k] : filling.inside[k - count];
+  };
   const auto point = [&](std::uint32_t k) { return k < count ? bounds[k] : inner[k - count]; };
   const auto far = [&](const Vector2d& at, const Point& p) {
     const Vector2d uv = chart.from(at);
@@ -312,7 +330,8 @@ std::vector<Vector2d> FaceTessellator::off(const Chart& chart, std::span<const s
 
 /// Or why not.
 std::expected<FaceTessellator::Filling, const char*> FaceTessellator::fill(
-    const Chart& chart, std::span<const std::vector<Vector2d>> outline, std::span<const Point> bounds) const {
+    const Chart& chart, std::span<const std::vector<Vector2d>> outline,
+    std::span<const Point> bounds) const {
   const ChartedSurface& surface = chart.surface();
   const auto straight = surface.straight();
   Filling result;
@@ -324,8 +343,10 @@ std::expected<FaceTessellator::Filling, const char*> FaceTessellator::fill(
     return nullptr;
   };
   // Where the surface is straight in one direction, points on the outline usually suffice.
-  const char* fault = complete(straight[0] || straight[1] ? std::vector<Vector2d>() : points_inside(outline));
-  if (fault == nullptr && straight[0] != straight[1] && too_wide(outline, result.triangles, straight[0] ? 1 : 0)) {
+  const char* fault =
+      complete(straight[0] || straight[1] ? std::vector<Vector2d>() : points_inside(outline));
+  if (fault == nullptr && straight[0] != straight[1] &&
+      too_wide(outline, result.triangles, straight[0] ? 1 : 0)) {
     fault = complete(points_between(outline, straight[0] ? 0 : 1));
   }
   const bool measured = std::isfinite(chord_.length) && !surface.plane();
@@ -341,8 +362,8 @@ std::expected<FaceTessellator::Filling, const char*> FaceTessellator::fill(
 }
 
 /// None, or why not.
-const char* FaceTessellator::add(const RegionPart& part, const std::vector<Loop>& loops, const Chart& chart, int sense,
-                                 FaceMesh& mesh) const {
+const char* FaceTessellator::add(const RegionPart& part, const std::vector<Loop>& loops,
+                                 const Chart& chart, int sense, FaceMesh& mesh) const {
   const ChartedSurface& surface = chart.surface();
   std::vector<std::vector<Vector2d>> outline;
   const auto first = static_cast<std::uint32_t>(mesh.points.size());
@@ -356,7 +377,8 @@ const char* FaceTessellator::add(const RegionPart& part, const std::vector<Loop>
     for (const RegionPoint& p : polygon) {
       if (p.loop < 0) added.push_back(static_cast<std::uint32_t>(mesh.points.size()));
       flat.push_back(p.at);
-      append(p.at, p.loop < 0 ? surface.at(chart.from(p.at)) : loops[std::size_t(p.loop)][std::size_t(p.index)]);
+      append(p.at, p.loop < 0 ? surface.at(chart.from(p.at))
+                              : loops[std::size_t(p.loop)][std::size_t(p.index)]);
     }
   };
   outline_of(part.outer);

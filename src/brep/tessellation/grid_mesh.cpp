@@ -8,7 +8,8 @@
 namespace knead::brep {
 namespace {
 
-constexpr double sliver = 1e-12;    // |cross product| over the longest side squared: less is degenerate
+// |cross product| over the longest side squared: less is degenerate.
+constexpr double sliver = 1e-12;
 constexpr double vanishing = 1e-9;  // |S_u × S_v| over |S_u|² + |S_v|²
 
 bool is_triangle(const Points& points, const std::array<std::uint32_t, 3>& t) {
@@ -37,7 +38,8 @@ Expected<GridMesh> grid_mesh(const Surface& surface, const std::array<GridLines,
   for (std::uint32_t k = 0; k + 1 < rows; ++k) {
     for (std::uint32_t l = 0; l + 1 < columns; ++l) {
       const std::uint32_t a = k * columns + l, b = a + columns;
-      for (const std::array<std::uint32_t, 3>& t : {std::array{a, b, b + 1}, std::array{a, b + 1, a + 1}}) {
+      for (const std::array<std::uint32_t, 3>& t :
+           {std::array{a, b, b + 1}, std::array{a, b + 1, a + 1}}) {
         if (is_triangle(mesh.points, t)) mesh.triangles.push_back(t);
       }
     }
@@ -54,7 +56,8 @@ Expected<GridMesh> grid_mesh(const Surface& surface, const std::array<GridLines,
   }
   for (const auto& t : mesh.triangles) {
     for (const std::uint32_t corner : t) {
-      if (vanishes[corner]) mesh.normals.row(corner) += facet(mesh.points, t).normalized().transpose();
+      if (vanishes[corner])
+        mesh.normals.row(corner) += facet(mesh.points, t).normalized().transpose();
     }
   }
   for (Eigen::Index k = 0; k < mesh.points.rows(); ++k) {

@@ -24,7 +24,8 @@ namespace {
 constexpr double default_tolerance = 1.0 / 2000;  // of the diagonal of the model's box
 constexpr double least_tolerance_share = 1e-7;
 constexpr double half_radian = 0.031;  // of radii: chords turn by 0.5 radians
-constexpr double safety = 0.65;        // triangles are measured at their centres and those of their sides alone
+// Triangles are measured at their centres and those of their sides alone.
+constexpr double safety = 0.65;
 
 /// Where the faces of a file, and its B-spline surfaces without faces, stand in the model.
 class Standing {
@@ -37,11 +38,13 @@ class Standing {
     }
   }
 
-  /// The largest factor by which it is scaled; rotations are within the rounding of single precision.
+  /// The largest factor by which it is scaled; rotations are within the rounding of single
+  /// precision.
   [[nodiscard]] float scale(const std::string& id) const {
     double result = 0;
-    for_each(
-        id, [&](const Eigen::Affine3d& move) { result = std::max(result, move.linear().colwise().norm().maxCoeff()); });
+    for_each(id, [&](const Eigen::Affine3d& move) {
+      result = std::max(result, move.linear().colwise().norm().maxCoeff());
+    });
     return static_cast<float>(result > 0 ? result : 1);
   }
 
@@ -50,9 +53,11 @@ class Standing {
   }
 
   /// Extends by the corners of a box round it.
-  void extend(Eigen::AlignedBox3d& box, const std::string& id, const Eigen::AlignedBox3d& own) const {
+  void extend(Eigen::AlignedBox3d& box, const std::string& id,
+              const Eigen::AlignedBox3d& own) const {
     for_each(id, [&](const Eigen::Affine3d& move) {
-      for (int k = 0; k < 8; ++k) box.extend(move * own.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+      for (int k = 0; k < 8; ++k)
+        box.extend(move * own.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
     });
   }
 
@@ -80,10 +85,12 @@ class Standing {
   std::unordered_map<std::string, std::vector<const Part*>> parts_;  // by id
 };
 
-/// How far across the whole surface of a face is where that is closed, of which its edges may say nothing; else 0.
+/// How far across the whole surface of a face is where that is closed, of which its edges may say
+/// nothing; else 0.
 double closed_extent(const Model& model, const Face& face, std::span<const brep::Loop> loops) {
   if (const SplineSurface* spline = model.spline_under(face)) {
-    return spline->closed[0] || spline->closed[1] ? net_diagonal(spline->surface.control_points()) : 0;
+    return spline->closed[0] || spline->closed[1] ? net_diagonal(spline->surface.control_points())
+                                                  : 0;
   }
   if (face.support == none) return 0;
   using Kind = ElementarySurface::Kind;
@@ -103,8 +110,9 @@ Eigen::AlignedBox3d box_of(FaceTessellator& coarse, const Face& face) {
   return box;
 }
 
-/// Of the model's box: round the points of the edges of its faces or, without faces, its control points. Where the
-/// edges of a closed surface bound next to nothing, such as a vertex or a small hole, round the face.
+/// Of the model's box: round the points of the edges of its faces or, without faces, its control
+/// points. Where the edges of a closed surface bound next to nothing, such as a vertex or a small
+/// hole, round the face.
 double diagonal_of(const Model& model, const Standing& standing) {
   constexpr double bulging = 10;  // as wide as its edges
   Eigen::AlignedBox3d box;
@@ -129,7 +137,9 @@ double diagonal_of(const Model& model, const Standing& standing) {
   if (box.isEmpty()) {
     for (const SplineSurface& s : model.surfaces) {
       const Points& points = s.surface.control_points();
-      standing.extend(box, s.id, {points.colwise().minCoeff().transpose(), points.colwise().maxCoeff().transpose()});
+      standing.extend(
+          box, s.id,
+          {points.colwise().minCoeff().transpose(), points.colwise().maxCoeff().transpose()});
     }
   }
   return box.isEmpty() ? 0 : box.diagonal().norm();
@@ -155,11 +165,13 @@ Expected<FaceMesh> whole(const SplineSurface& entity, double tolerance) {
 }
 
 /// Faces of parts of one scale.
-void add_faces(const Model& model, std::span<const Face* const> faces, double tolerance, const Standing& standing,
-               FaceMeshes& result) {
+void add_faces(const Model& model, std::span<const Face* const> faces, double tolerance,
+               const Standing& standing, FaceMeshes& result) {
   FaceTessellator tessellator(model, {half_radian, safety * tolerance});
   std::vector<FaceOnSurface> ready;
-  const auto skip = [&](const Face& face, Error reason) { result.skipped.push_back({face.id, std::move(reason)}); };
+  const auto skip = [&](const Face& face, Error reason) {
+    result.skipped.push_back({face.id, std::move(reason)});
+  };
   for (const Face* face : faces) {
     auto on = tessellator.face_on_surface(*face);
     if (!on)
@@ -188,20 +200,25 @@ Expected<FaceMeshes> model_faces(const Model& model, double tolerance) {
       model.tessellated.skipped.empty())
     return input_error("the file has no faces", {}, "open a file with faces");
   if (!std::isfinite(diagonal)) {
-    return numerical_error("the extent of the model leaves the range of double precision", {},
-                           "correct its coordinates and placements, or use a larger unit of length");
+    return numerical_error(
+        "the extent of the model leaves the range of double precision", {},
+        "correct its coordinates and placements, or use a larger unit of length");
   }
   // Without any extent nothing can be read or drawn: the faces say why.
   if (tolerance == 0) tolerance = diagonal > 0 ? default_tolerance * diagonal : 1;
-  if (!std::isfinite(tolerance) || tolerance < least_tolerance_share * diagonal || !(tolerance > 0)) {
-    return std::unexpected(
-        Error{ErrorKind::usage, fmt::format("{} is not a tolerance for this model", tolerance), "tolerance",
-              fmt::format("use a length above {:.2g}, in the units of the file", least_tolerance_share * diagonal)});
+  if (!std::isfinite(tolerance) || tolerance < least_tolerance_share * diagonal ||
+      !(tolerance > 0)) {
+    return std::unexpected(Error{ErrorKind::usage,
+                                 fmt::format("{} is not a tolerance for this model", tolerance),
+                                 "tolerance",
+                                 fmt::format("use a length above {:.2g}, in the units of the file",
+                                             least_tolerance_share * diagonal)});
   }
   FaceMeshes result;
   std::map<float, std::vector<const Face*>> by_scale;
   for (const Face& face : model.faces) by_scale[standing.scale(face.id)].push_back(&face);
-  for (const auto& [scale, own] : by_scale) add_faces(model, own, tolerance / scale, standing, result);
+  for (const auto& [scale, own] : by_scale)
+    add_faces(model, own, tolerance / scale, standing, result);
   for (const SplineSurface& entity : model.surfaces) {
     if (entity.faces > 0) continue;
     auto mesh = whole(entity, tolerance / standing.scale(entity.id));
@@ -210,7 +227,8 @@ Expected<FaceMeshes> model_faces(const Model& model, double tolerance) {
     else
       result.skipped.push_back({entity.id, std::move(mesh.error())});
   }
-  for (const TessellatedItem& item : model.tessellated.items) standing.add(item.mesh, item.mesh.id, result.faces);
+  for (const TessellatedItem& item : model.tessellated.items)
+    standing.add(item.mesh, item.mesh.id, result.faces);
   const std::vector<SkippedFace>& torn = model.tessellated.skipped;
   result.skipped.insert(result.skipped.end(), torn.begin(), torn.end());
   return result;

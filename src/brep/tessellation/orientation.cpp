@@ -7,7 +7,8 @@
 namespace knead {
 namespace {
 
-/// A sum of doubles without rounding: terms that do not overlap, by increasing magnitude. Room for `Terms` of them.
+/// A sum of doubles without rounding: terms that do not overlap, by increasing magnitude. Room for
+/// `Terms` of them.
 template <std::size_t Terms>
 class ExactSum {
  public:

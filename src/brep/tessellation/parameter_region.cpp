@@ -12,7 +12,9 @@ using Eigen::Vector2d;
 
 constexpr int trials = 96;  // places for a cut
 
-std::unexpected<Error> no_region(std::string what) { return std::unexpected(Error{ErrorKind::input, std::move(what)}); }
+std::unexpected<Error> no_region(std::string what) {
+  return std::unexpected(Error{ErrorKind::input, std::move(what)});
+}
 
 double turned(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
@@ -27,11 +29,12 @@ bool cross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector
   return ((s > 0) != (t > 0)) && ((u > 0) != (v > 0)) && s != t;
 }
 
-/// Whether the segment from a to b meets no edge of the loops, shifted by whole turns; edges that end in a or b do not
-/// count.
+/// Whether the segment from a to b meets no edge of the loops, shifted by whole turns; edges that
+/// end in a or b do not count.
 class Sight {
  public:
-  Sight(const ParameterSpace& space, const std::vector<const Unwrapped*>& loops) : space_(space), loops_(loops) {}
+  Sight(const ParameterSpace& space, const std::vector<const Unwrapped*>& loops)
+      : space_(space), loops_(loops) {}
 
   bool clear(const Vector2d& a, const Vector2d& b) const {
     for (const Unwrapped* loop : loops_) {
@@ -39,7 +42,8 @@ class Sight {
       for (std::size_t k = 0; k < points.size(); ++k) {
         Vector2d from = points[k].at, to = points[(k + 1) % points.size()].at;
         if (k + 1 == points.size()) {
-          for (int d = 0; d < 2; ++d) to[d] += space_.periods[std::size_t(d)] * loop->winding[std::size_t(d)];
+          for (int d = 0; d < 2; ++d)
+            to[d] += space_.periods[std::size_t(d)] * loop->winding[std::size_t(d)];
         }
         if (!clear_of(a, b, from, to)) return false;
       }
@@ -48,21 +52,26 @@ class Sight {
   }
 
  private:
-  bool clear_of(const Vector2d& a, const Vector2d& b, const Vector2d& from, const Vector2d& to) const {
+  bool clear_of(const Vector2d& a, const Vector2d& b, const Vector2d& from,
+                const Vector2d& to) const {
     // Turns that bring the edge near the segment.
     std::array<int, 2> lower = {0, 0}, upper = {0, 0};
     for (int d = 0; d < 2; ++d) {
       const double period = space_.periods[std::size_t(d)];
       if (!(period > 0)) continue;
-      lower[std::size_t(d)] = static_cast<int>(std::floor((std::min(a[d], b[d]) - std::max(from[d], to[d])) / period));
-      upper[std::size_t(d)] = static_cast<int>(std::ceil((std::max(a[d], b[d]) - std::min(from[d], to[d])) / period));
+      lower[std::size_t(d)] =
+          static_cast<int>(std::floor((std::min(a[d], b[d]) - std::max(from[d], to[d])) / period));
+      upper[std::size_t(d)] =
+          static_cast<int>(std::ceil((std::max(a[d], b[d]) - std::min(from[d], to[d])) / period));
     }
     for (int i = lower[0]; i <= upper[0]; ++i) {
       for (int j = lower[1]; j <= upper[1]; ++j) {
         const Vector2d by(i * space_.periods[0], j * space_.periods[1]);
         const Vector2d p = from + by, q = to + by;
         const double near = 1e-9 * (a - b).norm();
-        const auto same = [near](const Vector2d& x, const Vector2d& y) { return (x - y).norm() <= near; };
+        const auto same = [near](const Vector2d& x, const Vector2d& y) {
+          return (x - y).norm() <= near;
+        };
         if (same(p, a) || same(p, b) || same(q, a) || same(q, b)) continue;
         if (cross(a, b, p, q)) return false;
       }
@@ -88,7 +97,8 @@ Polygon round_from(const Unwrapped& loop, std::size_t k, int d, double period) {
 }
 
 // The strip between two loops that wind in direction d, `below` towards larger parameters.
-std::optional<Polygon> strip(const Unwrapped& below, const Unwrapped& above, int d, double period, const Sight& sight) {
+std::optional<Polygon> strip(const Unwrapped& below, const Unwrapped& above, int d, double period,
+                             const Sight& sight) {
   struct Cut {
     double length;
     std::size_t from, to;
@@ -105,7 +115,8 @@ std::optional<Polygon> strip(const Unwrapped& below, const Unwrapped& above, int
       cuts.push_back({way.norm(), i, j, by});
     }
   }
-  std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.length < b.length; });
+  std::sort(cuts.begin(), cuts.end(),
+            [](const Cut& a, const Cut& b) { return a.length < b.length; });
   for (const Cut& cut : cuts) {
     Vector2d to = above.points[cut.to].at;
     to[d] += cut.shift;
@@ -116,7 +127,8 @@ std::optional<Polygon> strip(const Unwrapped& below, const Unwrapped& above, int
     const bool same_way = below.winding[std::size_t(d)] == above.winding[std::size_t(d)];
     if (same_way) std::reverse(back.begin(), back.end());
     shift(back, d,
-          cut.shift + period * below.winding[std::size_t(d)] - (same_way ? period * above.winding[std::size_t(d)] : 0));
+          cut.shift + period * below.winding[std::size_t(d)] -
+              (same_way ? period * above.winding[std::size_t(d)] : 0));
     add_between(result, result.back().at, back.front().at);
     result.insert(result.end(), back.begin(), back.end());
     add_between(result, result.back().at, result.front().at);
@@ -126,7 +138,8 @@ std::optional<Polygon> strip(const Unwrapped& below, const Unwrapped& above, int
 }
 
 // Between a loop and a pole at `end`: cut along the other direction.
-std::optional<Polygon> cap(const Unwrapped& loop, double end, int d, double period, const Sight& sight) {
+std::optional<Polygon> cap(const Unwrapped& loop, double end, int d, double period,
+                           const Sight& sight) {
   const auto n = loop.points.size();
   for (std::size_t k = 0; k < n; ++k) {
     Vector2d to = loop.points[k].at;
@@ -170,7 +183,8 @@ std::optional<Polygon> everything(const ParameterSpace& space, const Sight& sigh
       if (space.periods[0] > 0 && !sight.clear(corner(0, 0), corner(0, 1))) continue;
       if (space.periods[1] > 0 && !sight.clear(corner(0, 0), corner(1, 0))) continue;
       Polygon result;
-      const std::array<Vector2d, 5> corners = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1), corner(0, 0)};
+      const std::array<Vector2d, 5> corners = {corner(0, 0), corner(1, 0), corner(1, 1),
+                                               corner(0, 1), corner(0, 0)};
       for (std::size_t side = 0; side < 4; ++side) {
         result.push_back({corners[side]});
         add_between(result, corners[side], corners[side + 1]);
@@ -182,7 +196,8 @@ std::optional<Polygon> everything(const ParameterSpace& space, const Sight& sigh
 }
 
 // Moves a loop by whole turns into one of the polygons; false if it lies in none.
-bool place(Polygon& loop, const ParameterSpace& space, const std::vector<RegionPart>& parts, std::size_t& which) {
+bool place(Polygon& loop, const ParameterSpace& space, const std::vector<RegionPart>& parts,
+           std::size_t& which) {
   // A point just inside the loop would do as well; corners may touch the outline.
   Vector2d probe = (loop[0].at + loop[1 % loop.size()].at) / 2;
   for (which = 0; which < parts.size(); ++which) {
@@ -241,19 +256,23 @@ double mean_height(const Unwrapped& loop, int d) {
   return sum / static_cast<double>(loop.points.size());
 }
 
-/// The region is above a loop that runs along u and below one that runs against it; the reverse with u and v exchanged.
-bool upwards(const Unwrapped& loop, int d) { return (loop.winding[std::size_t(d)] > 0) == (d == 0); }
+/// The region is above a loop that runs along u and below one that runs against it; the reverse
+/// with u and v exchanged.
+bool upwards(const Unwrapped& loop, int d) {
+  return (loop.winding[std::size_t(d)] > 0) == (d == 0);
+}
 
 /// The parts between loops that wind in direction d, and between them and the poles.
-Expected<void> between_round_loops(const ParameterSpace& space, std::vector<Unwrapped> round, int d, const Sight& sight,
-                                   std::vector<RegionPart>& parts) {
+Expected<void> between_round_loops(const ParameterSpace& space, std::vector<Unwrapped> round, int d,
+                                   const Sight& sight, std::vector<RegionPart>& parts) {
   const double period = space.periods[std::size_t(d)], other = space.periods[std::size_t(1 - d)];
   const auto& ends = space.poles[std::size_t(1 - d)];
   for (auto& loop : round) {
     if (other > 0) shift(loop.points, 1 - d, -other * std::floor(mean_height(loop, d) / other));
   }
-  std::sort(round.begin(), round.end(),
-            [&](const Unwrapped& a, const Unwrapped& b) { return mean_height(a, d) < mean_height(b, d); });
+  std::sort(round.begin(), round.end(), [&](const Unwrapped& a, const Unwrapped& b) {
+    return mean_height(a, d) < mean_height(b, d);
+  });
   const bool lower_open = upwards(round.front(), d) || !(ends[0] || other > 0);
   if (!lower_open && other > 0) {
     shift(round.front().points, 1 - d, other);
@@ -271,7 +290,8 @@ Expected<void> between_round_loops(const ParameterSpace& space, std::vector<Unwr
       round.erase(round.begin(), round.begin() + 2);
     } else {
       // Alone: up to the pole it faces, or the only one.
-      const auto end = upwards(round[0], d) ? (ends[1] ? ends[1] : ends[0]) : (ends[0] ? ends[0] : ends[1]);
+      const auto end =
+          upwards(round[0], d) ? (ends[1] ? ends[1] : ends[0]) : (ends[0] ? ends[0] : ends[1]);
       if (!end) return no_region("one of its bounds goes round the surface and none faces it");
       polygon = cap(round[0], *end, d, period, sight);
       round.clear();
@@ -283,10 +303,11 @@ Expected<void> between_round_loops(const ParameterSpace& space, std::vector<Unwr
 }
 
 /// Loops that do not wind, the largest first: holes of existing parts, or parts of their own.
-Expected<void> add_plain_loops(const ParameterSpace& space, std::vector<Polygon> plain, const Sight& sight,
-                               std::vector<RegionPart>& parts) {
-  std::sort(plain.begin(), plain.end(),
-            [](const Polygon& a, const Polygon& b) { return std::abs(doubled_area(a)) > std::abs(doubled_area(b)); });
+Expected<void> add_plain_loops(const ParameterSpace& space, std::vector<Polygon> plain,
+                               const Sight& sight, std::vector<RegionPart>& parts) {
+  std::sort(plain.begin(), plain.end(), [](const Polygon& a, const Polygon& b) {
+    return std::abs(doubled_area(a)) > std::abs(doubled_area(b));
+  });
   const bool closed = (space.periods[0] > 0 || (space.poles[0][0] && space.poles[0][1])) &&
                       (space.periods[1] > 0 || (space.poles[1][0] && space.poles[1][1]));
   if (parts.empty() && closed && (plain.empty() || doubled_area(plain.front()) < 0)) {
@@ -350,7 +371,9 @@ Expected<std::vector<RegionPart>> parameter_region(const ParameterSpace& space,
   const Sight sight(space, every);
   std::vector<RegionPart> parts;
   if (bounds->direction >= 0) {
-    if (auto done = between_round_loops(space, std::move(bounds->round), bounds->direction, sight, parts); !done)
+    if (auto done =
+            between_round_loops(space, std::move(bounds->round), bounds->direction, sight, parts);
+        !done)
       return std::unexpected(done.error());
   }
   if (auto done = add_plain_loops(space, std::move(bounds->plain), sight, parts); !done)

@@ -19,7 +19,8 @@ constexpr std::uint32_t none = 0xFFFFFFFF;
 // Positive where d lies in the circle through a, b, c (counter-clockwise).
 double in_circle(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
   const Vector2d p = a - d, q = b - d, r = c - d;
-  return p.squaredNorm() * (q.x() * r.y() - q.y() * r.x()) - q.squaredNorm() * (p.x() * r.y() - p.y() * r.x()) +
+  return p.squaredNorm() * (q.x() * r.y() - q.y() * r.x()) -
+         q.squaredNorm() * (p.x() * r.y() - p.y() * r.x()) +
          r.squaredNorm() * (p.x() * q.y() - p.y() * q.x());
 }
 
@@ -31,15 +32,18 @@ class Mesh {
   // Neighbours across the sides that two triangles share; `bounds` of the loops are never flipped.
   void connect(std::span<const std::uint32_t> sizes) {
     neighbours_.assign(triangles_.size(), {none, none, none});
-    std::unordered_map<std::uint64_t, std::pair<std::uint32_t, int>> open;  // side to the triangle that has it
+    std::unordered_map<std::uint64_t, std::pair<std::uint32_t, int>>
+        open;  // side to the triangle that has it
     std::uint32_t at = 0;
     for (const auto size : sizes) {
-      for (std::uint32_t k = 0; k < size; ++k) open.emplace(key(at + k, at + (k + 1) % size), std::pair(none, 0));
+      for (std::uint32_t k = 0; k < size; ++k)
+        open.emplace(key(at + k, at + (k + 1) % size), std::pair(none, 0));
       at += size;
     }
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       for (int i = 0; i < 3; ++i) {
-        const auto [found, fresh] = open.emplace(key(corner(t, i), corner(t, i + 1)), std::pair(t, i));
+        const auto [found, fresh] =
+            open.emplace(key(corner(t, i), corner(t, i + 1)), std::pair(t, i));
         if (fresh || found->second.first == none) continue;
         const auto [other, j] = found->second;
         // A third triangle on one side: degenerate, and left so.
@@ -91,7 +95,9 @@ class Mesh {
   static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
     return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
   }
-  std::uint32_t corner(std::uint32_t t, int i) const { return triangles_[t][static_cast<std::size_t>(i % 3)]; }
+  std::uint32_t corner(std::uint32_t t, int i) const {
+    return triangles_[t][static_cast<std::size_t>(i % 3)];
+  }
   const Vector2d& place(std::uint32_t t, int i) const { return points_[corner(t, i)]; }
   void replace(std::uint32_t t, std::uint32_t from, std::uint32_t to) {
     if (t == none) return;
@@ -105,7 +111,8 @@ class Mesh {
 
   // Flips sides of the waiting triangles, and of those this changes, until all circles are empty.
   void settle(std::vector<std::uint32_t> waiting) {
-    // Rounding might make two sides flip in turn; Delaunay needs fewer than this (Lawson: half the square).
+    // Rounding might make two sides flip in turn; Delaunay needs fewer than this (Lawson: half the
+    // square).
     std::size_t budget = 64 + 128 * waiting.size() + waiting.size() * waiting.size();
     while (!waiting.empty() && budget-- > 0) {
       const auto t = waiting.back();
@@ -125,7 +132,8 @@ class Mesh {
   }
 
   bool should_flip(std::uint32_t t, int i, std::uint32_t s, int j) const {
-    const Vector2d &a = place(t, i), &b = place(t, i + 1), &c = place(t, i + 2), &d = place(s, j + 2);
+    const Vector2d &a = place(t, i), &b = place(t, i + 1), &c = place(t, i + 2),
+                   &d = place(s, j + 2);
     const double now = std::min(doubled_area(a, b, c), doubled_area(b, a, d));
     const double then = std::min(doubled_area(c, a, d), doubled_area(c, d, b));
     const double size = (a - b).squaredNorm() + (c - d).squaredNorm();
@@ -137,7 +145,9 @@ class Mesh {
   // Side a b of t = (a, b, c), s = (b, a, d) becomes c d.
   void flip(std::uint32_t t, int i, std::uint32_t s, int j) {
     const auto a = corner(t, i), b = corner(t, i + 1), c = corner(t, i + 2), d = corner(s, j + 2);
-    const auto side = [this](std::uint32_t of, int k) { return neighbours_[of][static_cast<std::size_t>(k % 3)]; };
+    const auto side = [this](std::uint32_t of, int k) {
+      return neighbours_[of][static_cast<std::size_t>(k % 3)];
+    };
     const auto bc = side(t, i + 1), ca = side(t, i + 2), ad = side(s, j + 1), db = side(s, j + 2);
     triangles_[t] = {c, a, d};
     neighbours_[t] = {ca, ad, s};
@@ -159,7 +169,8 @@ class Mesh {
     for (std::size_t steps = 0; steps < most; ++steps) {
       int out = -1;
       for (int i = 0; i < 3; ++i) {
-        if (doubled_area(place(t, i), place(t, i + 1), p) < 0 && neighbours_[t][static_cast<std::size_t>(i)] != none)
+        if (doubled_area(place(t, i), place(t, i + 1), p) < 0 &&
+            neighbours_[t][static_cast<std::size_t>(i)] != none)
           out = i;
       }
       if (out < 0) break;
@@ -171,14 +182,15 @@ class Mesh {
   [[nodiscard]] std::size_t cell(const Vector2d& p) const {
     const auto along = [&](int d) {
       const double cells = (p[d] - box_.min()[d]) / box_.sizes()[d] * static_cast<double>(across_);
-      if (!(cells > 0)) return std::size_t{0};  // as where the box is too large for its size to be a number
+      if (!(cells > 0))
+        return std::size_t{0};  // as where the box is too large for its size to be a number
       return static_cast<std::size_t>(std::min(cells, static_cast<double>(across_ - 1)));
     };
     return along(1) * across_ + along(0);
   }
 
-  // From the last triangle, and where that is far, or a bound in the way, from where a point was inserted nearby.
-  // Where neither helps, all triangles are searched.
+  // From the last triangle, and where that is far, or a bound in the way, from where a point was
+  // inserted nearby. Where neither helps, all triangles are searched.
   std::uint32_t locate(const Vector2d& p) const {
     const auto last = walk(last_ < triangles_.size() ? last_ : 0, p, 200);
     if (holds(last, p)) return last;

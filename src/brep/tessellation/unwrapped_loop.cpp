@@ -44,8 +44,8 @@ Unwrapped unwrap(const ParameterSpace& space, std::span<const LoopPoint> loop, i
         if (!free[static_cast<std::size_t>(d)]) continue;
         const double period = space.periods[static_cast<std::size_t>(d)];
         const auto& ends = space.poles[static_cast<std::size_t>(1 - d)];
-        const bool upper =
-            !ends[0] || (ends[1] && std::abs(*ends[1] - pole->at[1 - d]) < std::abs(*ends[0] - pole->at[1 - d]));
+        const bool upper = !ends[0] || (ends[1] && std::abs(*ends[1] - pole->at[1 - d]) <
+                                                       std::abs(*ends[0] - pole->at[1 - d]));
         // Downwards (d = 0) at the upper end; reversed if the pole is an end of u.
         const bool down = upper == (d == 0);
         const double near = 1e-6 * period;
@@ -69,7 +69,8 @@ Unwrapped unwrap(const ParameterSpace& space, std::span<const LoopPoint> loop, i
       for (int d = 0; d < 2; ++d) {
         const double period = space.periods[static_cast<std::size_t>(d)];
         const double way = next.at[d] - result.points.front().at[d];
-        if (period > 0) result.winding[static_cast<std::size_t>(d)] = static_cast<int>(std::lround(way / period));
+        if (period > 0)
+          result.winding[static_cast<std::size_t>(d)] = static_cast<int>(std::lround(way / period));
       }
     }
   }

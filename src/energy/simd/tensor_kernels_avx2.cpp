@@ -1,4 +1,5 @@
-// Compiled for AVX2 if the compiler can (src/energy/CMakeLists.txt); called only if the machine has it.
+// Compiled for AVX2 if the compiler can (src/energy/CMakeLists.txt); called only if the machine has
+// it.
 #ifdef __AVX2__
 #define KNEAD_ISA tensor_avx2
 #define KNEAD_LANES 4

@@ -17,7 +17,8 @@ using brep::Index;
 Expected<void> refuse(std::string reason) { return input_error(std::move(reason)); }
 
 bool torn(const Surface& s) {
-  return std::ranges::any_of(s.knots(), [](const KnotVector& k) { return k.max_interior_multiplicity() > k.degree(); });
+  return std::ranges::any_of(
+      s.knots(), [](const KnotVector& k) { return k.max_interior_multiplicity() > k.degree(); });
 }
 bool torn(const Curve& c) { return c.knots(0).max_interior_multiplicity() > c.knots(0).degree(); }
 
@@ -40,22 +41,27 @@ class Planner {
     if (assembly.unit != "unknown") plan_.unit = assembly.unit;
     for (const brep::Part& part : assembly.parts) add_part(part);
     for (const SkippedFace& s : prepared_.analytic)
-      list_.add({"surface that stays what it is", "surfaces that stay what they are", s.reason.what, s.reason.remedy},
+      list_.add({"surface that stays what it is", "surfaces that stay what they are", s.reason.what,
+                 s.reason.remedy},
                 s.id);
-    constexpr LeftOutKind tessellated = {"tessellated item", "tessellated items", "triangles have no surfaces"};
-    for (const brep::TessellatedItem& item : model_.tessellated.items) list_.add(tessellated, item.mesh.id);
+    constexpr LeftOutKind tessellated = {"tessellated item", "tessellated items",
+                                         "triangles have no surfaces"};
+    for (const brep::TessellatedItem& item : model_.tessellated.items)
+      list_.add(tessellated, item.mesh.id);
     for (const SkippedFace& item : model_.tessellated.skipped) list_.add(tessellated, item.id);
     plan_.left_out = list_.take();
     for (LeftOut& left : source_.left_out()) plan_.left_out.push_back(std::move(left));
-    if (plan_.parts.empty()) return input_error("there is no face, surface or curve to write", source_.name());
+    if (plan_.parts.empty())
+      return input_error("there is no face, surface or curve to write", source_.name());
     return std::move(plan_);
   }
 
  private:
   void list_unreadable() {
     for (const brep::UnreadableSurface& s : source_.unreadable()) {
-      list_.add({"surface that cannot be read", "surfaces that cannot be read", s.reason.what, s.reason.remedy}, s.id,
-                1, s.reason.line);
+      list_.add({"surface that cannot be read", "surfaces that cannot be read", s.reason.what,
+                 s.reason.remedy},
+                s.id, 1, s.reason.line);
     }
   }
 
@@ -82,7 +88,8 @@ class Planner {
     if (support.wrong) return refuse("its surface cannot be read: " + support.wrong->what);
     const auto* swept = std::get_if<brep::SweptSurface>(&support.form);
     if (swept != nullptr && (swept->wrong || swept->curve == nullptr))
-      return refuse("its surface cannot be read: " + (swept->wrong ? swept->wrong->what : "it has no swept curve"));
+      return refuse("its surface cannot be read: " +
+                    (swept->wrong ? swept->wrong->what : "it has no swept curve"));
     if (support.spline == brep::none && std::holds_alternative<std::monostate>(support.form))
       return refuse("its surface is of a form that is not known");
     if (support.spline != brep::none && torn(model_.surfaces[support.spline].surface))
@@ -91,7 +98,8 @@ class Planner {
     for (const brep::Bound& bound : face.bounds) {
       if (bound.wrong) return std::unexpected(*bound.wrong);
       const bool vertex = bound.kind == brep::Bound::Kind::vertex && bound.vertex != brep::none;
-      if (vertex && model_.vertices[bound.vertex].wrong) return std::unexpected(*model_.vertices[bound.vertex].wrong);
+      if (vertex && model_.vertices[bound.vertex].wrong)
+        return std::unexpected(*model_.vertices[bound.vertex].wrong);
       if (!vertex && bound.edges.empty()) return refuse("one of its bounds is of an unknown form");
       for (const brep::EdgeUse& use : bound.edges) {
         if (const auto& own = piece(use.edge); !*own) return std::unexpected(own->error());
@@ -108,7 +116,8 @@ class Planner {
     if (!made) return own = std::unexpected(made.error());
     const auto* spline = std::get_if<std::shared_ptr<const Curve>>(&model_.edges[edge].curve->form);
     if (spline != nullptr && torn(**spline))
-      return own = std::unexpected(input_error("new files know no curve that is torn along a knot").error());
+      return own = std::unexpected(
+                 input_error("new files know no curve that is torn along a knot").error());
     return own = WrittenEdge{{made->from, made->to}, made->backwards};
   }
 
@@ -130,15 +139,17 @@ class Planner {
     for (const std::string& id : part.surfaces) {
       const brep::SplineSurface* s = model_.find_surface(id);
       if (s == nullptr || covered.contains(id)) continue;
-      NamedSurface& own = made.surfaces.emplace_back(NamedSurface{s->name.empty() ? s->id : s->name, s->surface});
-      if (const auto colour = plan_.colours.find(id); colour != plan_.colours.end()) own.colour = colour->second;
+      NamedSurface& own =
+          made.surfaces.emplace_back(NamedSurface{s->name.empty() ? s->id : s->name, s->surface});
+      if (const auto colour = plan_.colours.find(id); colour != plan_.colours.end())
+        own.colour = colour->second;
       if (torn(s->surface)) {
         list_.add({"surface", "surfaces", "new files know none that is torn along a knot"}, id);
         made.surfaces.pop_back();
       } else if (without_face(own)) {
-        list_.add(
-            {"surface", "surfaces", "all its sides are points, so that it has no face", "write it bare, with --sets"},
-            id);
+        list_.add({"surface", "surfaces", "all its sides are points, so that it has no face",
+                   "write it bare, with --sets"},
+                  id);
         made.surfaces.pop_back();
       }
     }
@@ -167,24 +178,29 @@ class Planner {
   void put_places(const brep::Part& part, WrittenPart& made) {
     constexpr double same = 1e-9;
     const auto *own = length_unit_named(made.unit), *whole = length_unit_named(plan_.unit);
-    const double ratio = own != nullptr && whole != nullptr ? own->millimetres / whole->millimetres : 1;
+    const double ratio =
+        own != nullptr && whole != nullptr ? own->millimetres / whole->millimetres : 1;
     for (const brep::PartPlace& place : part.places) {
       const Eigen::Matrix3d linear = place.to_model.linear();
       const auto scale = brep::scale_of(linear);
       if (!scale || linear.determinant() < 0 || std::abs(*scale / ratio - 1) > same) {
-        list_.add({"place of a part", "places of parts", "it mirrors, shears or scales the part"}, part.name);
+        list_.add({"place of a part", "places of parts", "it mirrors, shears or scales the part"},
+                  part.name);
         continue;
       }
       made.places.push_back(place);
     }
     if (!made.places.empty()) return;
-    list_.add({"part", "parts", "none of its places can be kept, so that it stands at its own origin"}, part.name);
+    list_.add(
+        {"part", "parts", "none of its places can be kept, so that it stands at its own origin"},
+        part.name);
     made.places.emplace_back().to_model.linear() *= ratio;
   }
 
   Index face_named(const std::string& id) {
     if (faces_.empty()) {
-      for (std::size_t k = 0; k < model_.faces.size(); ++k) faces_.emplace(model_.faces[k].id, static_cast<Index>(k));
+      for (std::size_t k = 0; k < model_.faces.size(); ++k)
+        faces_.emplace(model_.faces[k].id, static_cast<Index>(k));
     }
     const auto found = faces_.find(id);
     return found == faces_.end() ? brep::none : found->second;
@@ -212,12 +228,14 @@ class Planner {
 }  // namespace
 
 bool FacePlan::placed() const {
-  return parts.size() != 1 || parts[0].places.size() != 1 || !parts[0].places[0].to_model.matrix().isIdentity(0);
+  return parts.size() != 1 || parts[0].places.size() != 1 ||
+         !parts[0].places[0].to_model.matrix().isIdentity(0);
 }
 
 std::optional<Colour> FacePlan::colour_of(const brep::Face& face) const {
   auto found = colours.find(face.id);
-  if (found == colours.end() && face.support != brep::none) found = colours.find(model->supports[face.support].id);
+  if (found == colours.end() && face.support != brep::none)
+    found = colours.find(model->supports[face.support].id);
   return found == colours.end() ? std::nullopt : std::optional(found->second);
 }
 

@@ -27,7 +27,8 @@ std::vector<Point> corners_on(const brep::Model& model, Index support) {
     for (const Index k : brep::edges_around(face)) {
       const brep::Edge& edge = model.edges[k];
       for (const Index end : {edge.start, edge.end}) {
-        if (end != brep::none && !model.vertices[end].wrong) result.push_back(model.vertices[end].place);
+        if (end != brep::none && !model.vertices[end].wrong)
+          result.push_back(model.vertices[end].place);
       }
     }
   }
@@ -41,15 +42,19 @@ double angle_unit(const brep::Model& model, Index support) {
   const auto surface = brep::FaceSurface::create(model, own, corners_on(model, support));
   if (!surface) return model.angle_units.front();
   const auto& cone = std::get<brep::ElementarySurface>(own.form);
-  const auto radius = [&](double v) { return (surface->at({0, v}) - cone.frame.origin).dot(cone.frame.x); };
+  const auto radius = [&](double v) {
+    return (surface->at({0, v}) - cone.frame.origin).dot(cone.frame.x);
+  };
   const double slope = radius(1) - radius(0);
-  return *std::ranges::min_element(model.angle_units, {},
-                                   [&](double unit) { return std::abs(std::tan(unit * cone.second) - slope); });
+  return *std::ranges::min_element(model.angle_units, {}, [&](double unit) {
+    return std::abs(std::tan(unit * cone.second) - slope);
+  });
 }
 
 void use_radians(brep::Model& model, const brep::Model& from) {
   for (std::size_t k = 0; k < model.supports.size(); ++k) {
-    if (auto* cone = cone_of(model.supports[k])) cone->second *= angle_unit(from, static_cast<Index>(k));
+    if (auto* cone = cone_of(model.supports[k]))
+      cone->second *= angle_unit(from, static_cast<Index>(k));
   }
   model.angle_units = {1};
 }
@@ -83,22 +88,25 @@ class PolygonEdges {
     support.id = face.id;
     support.kind = "PLANE";
     const bool counterclockwise = face.bounds.front().forward == face.same_sense;
-    support.form =
-        brep::ElementarySurface{Kind::plane, brep::frame_about(polygon[0], counterclockwise ? normal : Point(-normal))};
+    support.form = brep::ElementarySurface{
+        Kind::plane, brep::frame_about(polygon[0], counterclockwise ? normal : Point(-normal))};
     face.support = static_cast<Index>(model_.supports.size() - 1);
   }
 
   Index vertex(const Point& p) {
-    const auto [at, fresh] = vertices_.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(model_.vertices.size()));
+    const auto [at, fresh] =
+        vertices_.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(model_.vertices.size()));
     if (fresh) model_.vertices.push_back({.id = {}, .place = p});
     return at->second;
   }
 
   brep::EdgeUse use(Index from, Index to) {
     const bool forward = from < to;
-    const auto [at, fresh] = edges_.try_emplace(std::minmax({from, to}), static_cast<Index>(model_.edges.size()));
+    const auto [at, fresh] =
+        edges_.try_emplace(std::minmax({from, to}), static_cast<Index>(model_.edges.size()));
     if (fresh) {
-      const Point a = model_.vertices[std::min(from, to)].place, b = model_.vertices[std::max(from, to)].place;
+      const Point a = model_.vertices[std::min(from, to)].place,
+                  b = model_.vertices[std::max(from, to)].place;
       brep::Edge& edge = model_.edges.emplace_back();
       edge.start = std::min(from, to);
       edge.end = std::max(from, to);
@@ -117,8 +125,9 @@ class PolygonEdges {
 };
 
 bool has_polygon(const brep::Face& face) {
-  return std::ranges::any_of(face.bounds,
-                             [](const brep::Bound& b) { return b.kind == brep::Bound::Kind::polygon && !b.wrong; });
+  return std::ranges::any_of(face.bounds, [](const brep::Bound& b) {
+    return b.kind == brep::Bound::Kind::polygon && !b.wrong;
+  });
 }
 
 /// Some face covers all of a sphere: its bounds are vertices, or its seam there and back.
@@ -134,22 +143,26 @@ bool whole_sphere(const brep::Model& model, const std::string& id) {
   });
 }
 
-std::vector<SkippedFace> use_splines(brep::Model& model, const brep::Model& from, Conversion conversion) {
+std::vector<SkippedFace> use_splines(brep::Model& model, const brep::Model& from,
+                                     Conversion conversion) {
   std::vector<SkippedFace> left;
   const auto others = brep::other_surfaces(from);
   auto made = brep::exact_splines(from);
   for (std::size_t k = 0; k < others.size(); ++k) {
     if (conversion == Conversion::all_but_whole_spheres && whole_sphere(from, others[k].id)) {
-      left.push_back({others[k].id,
-                      input_error("readers of the format know whole spheres as such alone", {}, "write STEP").error()});
+      left.push_back(
+          {others[k].id,
+           input_error("readers of the format know whole spheres as such alone", {}, "write STEP")
+               .error()});
       continue;
     }
     if (!made[k]) {
       left.push_back({others[k].id, std::move(made[k].error())});
       continue;
     }
-    const auto support = std::ranges::find_if(
-        model.supports, [&](const brep::Support& s) { return s.id == others[k].id && s.spline == brep::none; });
+    const auto support = std::ranges::find_if(model.supports, [&](const brep::Support& s) {
+      return s.id == others[k].id && s.spline == brep::none;
+    });
     support->spline = static_cast<Index>(model.surfaces.size());
     support->form = std::monostate();
     const auto closed = brep::closed_directions(*made[k]);

@@ -8,9 +8,11 @@ namespace knead {
 
 bool holds_faces(const Format& format) { return format.save_faces != nullptr; }
 
-Expected<FacesFile> save_faces(const Source& source, const Format& format, const SaveOptions& options, bool convert) {
+Expected<FacesFile> save_faces(const Source& source, const Format& format,
+                               const SaveOptions& options, bool convert) {
   if (!holds_faces(format))
-    return input_error(fmt::format("new {} files hold no faces", format.name), {}, "write STEP or IGES");
+    return input_error(fmt::format("new {} files hold no faces", format.name), {},
+                       "write STEP or IGES");
   using detail::Conversion;
   const Conversion conversion = !convert                     ? Conversion::none
                                 : format.keeps_whole_spheres ? Conversion::all_but_whole_spheres

@@ -33,7 +33,8 @@ struct Patchwork {
 
 class ShellFinder {
  public:
-  ShellFinder(const brep::Model& model, std::span<const Index> faces) : model_(model), faces_(faces) {
+  ShellFinder(const brep::Model& model, std::span<const Index> faces)
+      : model_(model), faces_(faces) {
     for (std::size_t k = 0; k < faces.size(); ++k) {
       const brep::Face& face = model.faces[faces[k]];
       senses_.push_back(face.sense() > 0);
@@ -98,7 +99,8 @@ class ShellFinder {
   using Runs = std::map<Index, std::vector<EdgeRun>>;
 
   /// The uses of edges by the faces of each part alone.
-  [[nodiscard]] std::vector<Runs> runs_of(const std::vector<std::vector<std::size_t>>& parts) const {
+  [[nodiscard]] std::vector<Runs> runs_of(
+      const std::vector<std::vector<std::size_t>>& parts) const {
     std::vector<std::size_t> part_of(faces_.size(), 0);
     for (std::size_t p = 0; p < parts.size(); ++p) {
       for (const std::size_t k : parts[p]) part_of[k] = p;
@@ -116,8 +118,10 @@ class ShellFinder {
   }
 
   /// Which faces to turn so that neighbours agree; none where that is impossible.
-  static std::optional<std::map<std::size_t, bool>> agreeing(const std::vector<std::size_t>& part, const Runs& runs) {
-    std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>> neighbours;  // and whether they differ
+  static std::optional<std::map<std::size_t, bool>> agreeing(const std::vector<std::size_t>& part,
+                                                             const Runs& runs) {
+    std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>>
+        neighbours;  // and whether they differ
     for (const auto& [edge, own] : runs) {
       if (own.size() > 2) return std::nullopt;
       if (own.size() < 2) continue;
@@ -142,7 +146,8 @@ class ShellFinder {
     Patchwork result;
     if (const auto flips = agreeing(part, runs)) {
       for (const auto& [k, flip] : *flips) senses_[k] = senses_[k] != flip;
-      result.shell.closed = std::ranges::all_of(runs, [&](const auto& edge) { return opposite(edge.second, *flips); });
+      result.shell.closed = std::ranges::all_of(
+          runs, [&](const auto& edge) { return opposite(edge.second, *flips); });
     }
     result.turned = true;
     for (const std::size_t k : part) {
@@ -165,7 +170,8 @@ class ShellFinder {
       const double way = written.same_sense == (face.sense() > 0) ? 1 : -1;
       for (const Point& p : mesh->points) body.box.extend(p);
       for (const auto& [a, b, c] : mesh->triangles) {
-        volume += way * (mesh->points[a] - *origin).dot((mesh->points[b] - *origin).cross(mesh->points[c] - *origin));
+        volume += way * (mesh->points[a] - *origin)
+                            .dot((mesh->points[b] - *origin).cross(mesh->points[c] - *origin));
       }
     }
     body.volume = volume / 6;
@@ -195,7 +201,8 @@ class ShellFinder {
     }
     for (std::size_t k = 0; k < closed.size(); ++k) {
       const auto own = inside.find(k);
-      const bool alone = own != inside.end() && std::ranges::find(own->second, k) != own->second.end();
+      const bool alone =
+          own != inside.end() && std::ranges::find(own->second, k) != own->second.end();
       if (std::ranges::find(solids, k) == solids.end() && !alone) continue;
       WrittenSolid& solid = result.solids.emplace_back();
       solid.outer = closed[k].shell;

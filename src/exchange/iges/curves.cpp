@@ -29,15 +29,17 @@ Point along(const std::vector<Point>& points, double t) {
 }  // namespace
 
 bool CurveReader::exceeded() const {
-  return least_bytes_per_point * static_cast<double>(points_) > static_cast<double>(file_.bytes().size() + free_bytes);
+  return least_bytes_per_point * static_cast<double>(points_) >
+         static_cast<double>(file_.bytes().size() + free_bytes);
 }
 
-Expected<void> CurveReader::add(int number, const Eigen::Affine3d& outer, std::vector<Piece>& pieces) {
+Expected<void> CurveReader::add(int number, const Eigen::Affine3d& outer,
+                                std::vector<Piece>& pieces) {
   return add_nested(number, outer, pieces, 0);
 }
 
-Expected<void> CurveReader::add_nested(int number, const Eigen::Affine3d& outer, std::vector<Piece>& pieces,
-                                       int depth) {
+Expected<void> CurveReader::add_nested(int number, const Eigen::Affine3d& outer,
+                                       std::vector<Piece>& pieces, int depth) {
   const Entity* entity = file_.find(number);
   if (entity == nullptr) return file_.error(number, "there is no such curve");
   if (exceeded() || depth > max_composite_nesting) {
@@ -49,14 +51,16 @@ Expected<void> CurveReader::add_nested(int number, const Eigen::Affine3d& outer,
   if (entity->type == 102) {
     const auto parameters = file_.parameters(number);
     if (!parameters) return std::unexpected(parameters.error());
-    const auto count = parameters->values.size() > 1 ? integer(parameters->values[1]) : std::nullopt;
+    const auto count =
+        parameters->values.size() > 1 ? integer(parameters->values[1]) : std::nullopt;
     if (!count || *count < 1 || parameters->values.size() < 2 + static_cast<std::size_t>(*count)) {
       return file_.error(number, "its list of curves is incomplete", "get the whole file");
     }
     for (std::size_t k = 2; k < 2 + static_cast<std::size_t>(*count); ++k) {
       const int part = integer(parameters->values[k]).value_or(0);
       const Entity* other = file_.find(part);
-      if (other != nullptr && (other->type == 116 || other->type == 132)) continue;  // points between curves
+      if (other != nullptr && (other->type == 116 || other->type == 132))
+        continue;  // points between curves
       if (auto done = add_nested(part, move, pieces, depth + 1); !done) return done;
     }
     return {};
@@ -102,9 +106,11 @@ Expected<Piece> CurveReader::arc(int number, const Eigen::Affine3d& move) const 
   const Point centre = move * Point(p[1], p[2], p[0]), x = radius * move.linear().col(0),
               y = radius * move.linear().col(1);
   Piece piece;
-  piece.geometry =
-      brep::conic_of(brep::Conic::Form::ellipse, brep::frame_of(centre, x.cross(y), x), x.norm(), x.norm());
-  piece.at = [=](double t) { return Point(centre + std::cos(first + t * turn) * x + std::sin(first + t * turn) * y); };
+  piece.geometry = brep::conic_of(brep::Conic::Form::ellipse, brep::frame_of(centre, x.cross(y), x),
+                                  x.norm(), x.norm());
+  piece.at = [=](double t) {
+    return Point(centre + std::cos(first + t * turn) * x + std::sin(first + t * turn) * y);
+  };
   return piece;
 }
 
@@ -113,7 +119,8 @@ Expected<Piece> CurveReader::line(int number, const Eigen::Affine3d& move) const
   if (!parameters) return std::unexpected(parameters.error());
   const auto v = numbers(file_, number, *parameters, 1, 6);
   if (!v) return std::unexpected(v.error());
-  const Point a = move * Point((*v)[0], (*v)[1], (*v)[2]), b = move * Point((*v)[3], (*v)[4], (*v)[5]);
+  const Point a = move * Point((*v)[0], (*v)[1], (*v)[2]),
+              b = move * Point((*v)[3], (*v)[4], (*v)[5]);
   if (a == b) return file_.error(number, "it is a line without length");
   Piece piece;
   piece.geometry = brep::line_of(a, b - a);
@@ -154,8 +161,8 @@ Expected<Piece> CurveReader::spline(int number, const Eigen::Affine3d& outer) {
   if (!read) return std::unexpected(std::move(read.error()));
   const auto curve = std::make_shared<const Curve>(*std::move(read));
   const auto parameters = file_.parameters(number);
-  const std::size_t end =
-      7 + static_cast<std::size_t>(curve->size() + curve->knots(0).degree() + 1 + 4 * curve->size());
+  const std::size_t end = 7 + static_cast<std::size_t>(curve->size() + curve->knots(0).degree() +
+                                                       1 + 4 * curve->size());
   Interval domain = curve->knots(0).domain();
   if (const auto limits = numbers(file_, number, *parameters, end, 2)) {
     const Interval own{std::max((*limits)[0], domain.lower), std::min((*limits)[1], domain.upper)};

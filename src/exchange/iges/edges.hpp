@@ -21,8 +21,9 @@ struct EdgeVertex {
   Eigen::Affine3d move = Eigen::Affine3d::Identity();
 };
 
-/// What of the file the edges and vertices of its model stand for, by id. An edge that is only given in parameters has
-/// no curves, and moves with its surface by itself; a vertex that is no entry of a list is where edges end.
+/// What of the file the edges and vertices of its model stand for, by id. An edge that is only
+/// given in parameters has no curves, and moves with its surface by itself; a vertex that is no
+/// entry of a list is where edges end.
 struct EdgeSources {
   std::map<std::string, std::vector<EdgeCurve>> edges;
   std::map<std::string, EdgeVertex> vertices;

@@ -36,7 +36,8 @@ class Lexer {
  public:
   Lexer(char separator, char terminator) : separator_(separator), terminator_(terminator) {}
 
-  /// Takes the next piece of text; false: more is needed. Values are split where they end, strings by their count.
+  /// Takes the next piece of text; false: more is needed. Values are split where they end, strings
+  /// by their count.
   bool take(std::string_view text) {
     text_ += text;
     while (at_ < text_.size()) {
@@ -47,7 +48,8 @@ class Lexer {
       std::size_t end = begin;
       while (end < text_.size() && text_[end] != separator_ && text_[end] != terminator_) ++end;
       if (end == text_.size()) return false;
-      values_.emplace_back(trimmed(std::string_view(text_).substr(start, string ? begin - start : end - start)));
+      values_.emplace_back(
+          trimmed(std::string_view(text_).substr(start, string ? begin - start : end - start)));
       if (string) values_.back() = text_.substr(start, begin - start);
       at_ = end + 1;
       if (text_[end] == terminator_) return true;
@@ -139,10 +141,13 @@ std::optional<double> real(std::string_view text) {
 
 std::string string(std::string_view text) {
   const auto found = hollerith(text);
-  return found ? std::string(trimmed(text.substr(std::min(found->first, text.size())))) : std::string();
+  return found ? std::string(trimmed(text.substr(std::min(found->first, text.size()))))
+               : std::string();
 }
 
-const std::vector<Line>& File::lines(char section) const { return sections_[letters.find(section)]; }
+const std::vector<Line>& File::lines(char section) const {
+  return sections_[letters.find(section)];
+}
 
 const Entity* File::find(int number) const {
   const auto k = static_cast<std::size_t>(number - 1) / 2;
@@ -152,7 +157,8 @@ const Entity* File::find(int number) const {
 std::string File::label(int number) const {
   const Entity* entity = find(number);
   const std::string_view name = entity != nullptr ? type_name(entity->type) : std::string_view();
-  return fmt::format("D{}{}{}", number, entity != nullptr ? fmt::format(", type {}", entity->type) : "",
+  return fmt::format("D{}{}{}", number,
+                     entity != nullptr ? fmt::format(", type {}", entity->type) : "",
                      name.empty() ? "" : fmt::format(" ({})", name));
 }
 
@@ -166,7 +172,8 @@ std::unexpected<Error> File::error(int number, std::string what, std::string rem
   return std::unexpected(std::move(result));
 }
 
-std::unexpected<Error> File::line_error(const Line& line, std::string what, std::string remedy) const {
+std::unexpected<Error> File::line_error(const Line& line, std::string what,
+                                        std::string remedy) const {
   const std::string_view before = std::string_view(bytes_).substr(0, line.begin);
   return std::unexpected(Error{ErrorKind::input,
                                std::move(what),
@@ -190,8 +197,8 @@ Expected<void> File::split() {
   const bool broken = bytes_.find('\n') != std::string::npos;
   std::size_t section = 0;
   for (std::size_t at = 0; at < bytes_.size();) {
-    const std::size_t stop =
-        broken ? std::min(bytes_.find('\n', at), bytes_.size()) : std::min(at + record_columns, bytes_.size());
+    const std::size_t stop = broken ? std::min(bytes_.find('\n', at), bytes_.size())
+                                    : std::min(at + record_columns, bytes_.size());
     Line line{static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(stop)};
     at = broken ? stop + 1 : stop;
     if (broken && line.end > line.begin && bytes_[line.end - 1] == '\r') --line.end;
@@ -199,25 +206,32 @@ Expected<void> File::split() {
     if (own.find_first_not_of(" \t\x1A\0") == std::string_view::npos) continue;
     const char letter = own.size() > letter_column ? own[letter_column] : ' ';
     if (letter == 'C' && at < 2 * record_columns) {
-      return line_error(line, "an IGES file in compressed ASCII form", "export it in fixed ASCII form");
+      return line_error(line, "an IGES file in compressed ASCII form",
+                        "export it in fixed ASCII form");
     }
     if (letter == 'B' && at < 2 * record_columns) {
       return line_error(line, "an IGES file in binary form", "export it in fixed ASCII form");
     }
     const auto found = letters.find(letter);
     if (found == std::string_view::npos) {
-      return line_error(line, "no section letter S, G, D, P or T in column 73", "get the file as it was written");
+      return line_error(line, "no section letter S, G, D, P or T in column 73",
+                        "get the file as it was written");
     }
-    if (found < section) return line_error(line, "its sections are out of order", "sort them as S, G, D, P, T");
+    if (found < section)
+      return line_error(line, "its sections are out of order", "sort them as S, G, D, P, T");
     section = found;
     sections_[section].push_back(line);
   }
   if (lines('D').empty()) {
-    return std::unexpected(
-        Error{ErrorKind::input, "an IGES file without a directory section", {}, "get the whole file", name_});
+    return std::unexpected(Error{ErrorKind::input,
+                                 "an IGES file without a directory section",
+                                 {},
+                                 "get the whole file",
+                                 name_});
   }
   if (lines('D').size() % 2 != 0) {
-    return line_error(lines('D').back(), "the directory has an odd number of records", "get the whole file");
+    return line_error(lines('D').back(), "the directory has an odd number of records",
+                      "get the whole file");
   }
   return {};
 }
@@ -262,10 +276,12 @@ Expected<void> File::read_directory() {
       const std::size_t at = 8 * n;
       return at < std::min(own.size(), letter_column) ? own.substr(at, 8) : std::string_view();
     };
-    const auto type = integer(field(0, 0)), first = integer(field(0, 1)), transform = integer(field(0, 6)),
-               count = integer(field(1, 3)), form = integer(field(1, 4));
+    const auto type = integer(field(0, 0)), first = integer(field(0, 1)),
+               transform = integer(field(0, 6)), count = integer(field(1, 3)),
+               form = integer(field(1, 4));
     if (!type || !first || !transform || !count || !form) {
-      return line_error(directory[k], "a field of the directory is not a number", "get the file as it was written");
+      return line_error(directory[k], "a field of the directory is not a number",
+                        "get the file as it was written");
     }
     Entity entity{*type, *form, std::max(*transform, 0), *first - 1, *count, false, {}};
     const std::string_view status = field(0, 8);
@@ -287,7 +303,8 @@ Expected<Parameters> File::parameters(int number) const {
   Parameters result;
   for (auto k = static_cast<std::size_t>(entity->first); k < records.size(); ++k) {
     const std::string_view own = text(records[k]);
-    const auto owner = integer(own.substr(std::min(data_columns, own.size()), letter_column - data_columns));
+    const auto owner =
+        integer(own.substr(std::min(data_columns, own.size()), letter_column - data_columns));
     // The directory may state too few records; the next entity's are not taken for its own.
     if (result.lines >= std::max(entity->lines, 1) && owner != number) break;
     ++result.lines;
@@ -297,7 +314,8 @@ Expected<Parameters> File::parameters(int number) const {
       return result;
     }
   }
-  return error(number, "its parameters do not end", fmt::format("end them with \"{}\"", global_.terminator));
+  return error(number, "its parameters do not end",
+               fmt::format("end them with \"{}\"", global_.terminator));
 }
 
 }  // namespace knead::iges

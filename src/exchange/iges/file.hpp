@@ -10,8 +10,8 @@
 
 namespace knead::iges {
 
-/// Columns of a record: its text, the section's letter and number; of a parameter record's text the data, with the
-/// entity's number behind.
+/// Columns of a record: its text, the section's letter and number; of a parameter record's text the
+/// data, with the entity's number behind.
 inline constexpr std::size_t record_columns = 80, letter_column = 72, data_columns = 64;
 
 /// One record: 80 columns, without what ends its line.
@@ -38,7 +38,8 @@ struct Global {
   double resolution = 0;  ///< smallest discernible distance, in the file's units; 0: not given
 };
 
-/// The parameters of an entity: numbers, pointers and strings as written, without blanks around them.
+/// The parameters of an entity: numbers, pointers and strings as written, without blanks around
+/// them.
 struct Parameters {
   std::vector<std::string> values;  ///< the first is the type; an empty one has its default
   int lines = 0;                    ///< records up to the one that holds the terminator
@@ -47,11 +48,12 @@ struct Parameters {
 
 /// An IGES file in fixed ASCII form (IGES 5.3, § 2.2), whose records remember their bytes.
 ///
-/// Beyond the standard these deviations are accepted: line breaks LF and CR LF, or none at all; blank start sections;
-/// parameter records beyond the count in the directory, as long as they name the entity; missing fields at the end of a
-/// record; trailing blank lines. Errors (input), with line: another form (compressed ASCII, binary), records without a
-/// section letter, sections out of order, an odd number of directory records, numbers where there are none. Cost of
-/// reading: linear; parameters are read when asked for. Immutable.
+/// Beyond the standard these deviations are accepted: line breaks LF and CR LF, or none at all;
+/// blank start sections; parameter records beyond the count in the directory, as long as they name
+/// the entity; missing fields at the end of a record; trailing blank lines. Errors (input), with
+/// line: another form (compressed ASCII, binary), records without a section letter, sections out of
+/// order, an odd number of directory records, numbers where there are none. Cost of reading:
+/// linear; parameters are read when asked for. Immutable.
 class File {
  public:
   [[nodiscard]] static Expected<File> parse(std::string bytes, std::string name);
@@ -68,7 +70,8 @@ class File {
   [[nodiscard]] Expected<Parameters> parameters(int number) const;
   /// "D15, type 128 (B-spline surface)".
   [[nodiscard]] std::string label(int number) const;
-  [[nodiscard]] std::unexpected<Error> error(int number, std::string what, std::string remedy = {}) const;
+  [[nodiscard]] std::unexpected<Error> error(int number, std::string what,
+                                             std::string remedy = {}) const;
 
   /// Records of a section: 'S', 'G', 'D', 'P' or 'T'.
   [[nodiscard]] const std::vector<Line>& lines(char section) const;
@@ -81,7 +84,8 @@ class File {
   [[nodiscard]] Expected<void> split();
   [[nodiscard]] Expected<void> read_global();
   [[nodiscard]] Expected<void> read_directory();
-  [[nodiscard]] std::unexpected<Error> line_error(const Line& line, std::string what, std::string remedy) const;
+  [[nodiscard]] std::unexpected<Error> line_error(const Line& line, std::string what,
+                                                  std::string remedy) const;
 
   std::string name_, bytes_;
   std::vector<Line> sections_[5];

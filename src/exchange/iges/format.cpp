@@ -24,43 +24,55 @@ class IgesSource final : public Source {
         edges_(std::move(read.sources)),
         unplaced_(std::move(read.unplaced)) {
     for (const brep::SplineSurface& s : model_->surfaces) {
-      surfaces_.push_back({s.id, s.name, file_.global().unit, std::shared_ptr<const Surface>(model_, &s.surface)});
+      surfaces_.push_back(
+          {s.id, s.name, file_.global().unit, std::shared_ptr<const Surface>(model_, &s.surface)});
     }
   }
 
   const std::string& name() const override { return file_.name(); }
   std::string_view format() const override { return "IGES"; }
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
-  const std::vector<brep::UnreadableSurface>& unreadable() const override { return model_->unreadable; }
+  const std::vector<brep::UnreadableSurface>& unreadable() const override {
+    return model_->unreadable;
+  }
   std::shared_ptr<const brep::Model> model() const override { return model_; }
-  Expected<void> can_move_edge(const std::string& id) const override { return iges::can_move(file_, edges_, id); }
+  Expected<void> can_move_edge(const std::string& id) const override {
+    return iges::can_move(file_, edges_, id);
+  }
 
-  std::vector<LeftOut> left_out() const override { return iges::left_out(file_, *model_, unplaced_); }
+  std::vector<LeftOut> left_out() const override {
+    return iges::left_out(file_, *model_, unplaced_);
+  }
 
   std::vector<std::string> remarks() const override {
     const iges::Global& global = file_.global();
     std::vector<std::string> result;
     if (!global.system.empty()) result.push_back("written by " + global.system);
     if (global.scale != 1)
-      result.push_back(fmt::format("scale {:.6g}: lengths of the model over real ones", global.scale));
-    if (global.resolution > 0) result.push_back(fmt::format("resolution {:.6g}", global.resolution));
+      result.push_back(
+          fmt::format("scale {:.6g}: lengths of the model over real ones", global.scale));
+    if (global.resolution > 0)
+      result.push_back(fmt::format("resolution {:.6g}", global.resolution));
     std::map<int, int> counts;
     for (const iges::Entity& entity : file_.entities()) ++counts[entity.type];
     for (const auto& [type, count] : counts) {
       const std::string_view name = iges::type_name(type);
-      result.push_back(fmt::format("{} x {}{}", count, type, name.empty() ? "" : fmt::format(" ({})", name)));
+      result.push_back(
+          fmt::format("{} x {}{}", count, type, name.empty() ? "" : fmt::format(" ({})", name)));
     }
     return result;
   }
 
-  Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
-                             std::span<const std::string> followed,
-                             std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
+  Expected<std::string> save(
+      std::span<const std::shared_ptr<const Surface>> surfaces,
+      std::span<const std::string> followed,
+      std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
     std::vector<iges::Replacement> replacements;
     std::vector<brep::Replacement> changed;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       if (surfaces[k] == surfaces_[k].surface) continue;
-      replacements.push_back({iges::integer(std::string_view(surfaces_[k].id).substr(1)).value_or(0), *surfaces[k]});
+      replacements.push_back(
+          {iges::integer(std::string_view(surfaces_[k].id).substr(1)).value_or(0), *surfaces[k]});
       if (!followed.empty()) changed.push_back({surfaces_[k].id, *surfaces[k]});
     }
     const auto moved = brep::moved_edges(*model_, changed, followed);

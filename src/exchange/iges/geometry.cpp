@@ -10,34 +10,38 @@ namespace {
 constexpr int max_matrix_nesting = 8;
 constexpr int max_control_points = 1 << 28;
 
-/// `count` parameters from `first` on, each by `read`, which says nothing where a parameter is not `what`.
+/// `count` parameters from `first` on, each by `read`, which says nothing where a parameter is not
+/// `what`.
 template <class T>
-Expected<std::vector<T>> values(const File& file, int number, const Parameters& parameters, std::size_t first,
-                                std::size_t count, std::optional<T> (*read)(std::string_view), std::string_view what) {
+Expected<std::vector<T>> values(const File& file, int number, const Parameters& parameters,
+                                std::size_t first, std::size_t count,
+                                std::optional<T> (*read)(std::string_view), std::string_view what) {
   if (parameters.values.size() < first + count)
     return file.error(number, "parameters are missing", "get the whole file");
   std::vector<T> result;
   result.reserve(count);
   for (std::size_t k = first; k < first + count; ++k) {
     const auto value = read(parameters.values[k]);
-    if (!value) return file.error(number, fmt::format("parameter {} is not {}", k, what), "correct it");
+    if (!value)
+      return file.error(number, fmt::format("parameter {} is not {}", k, what), "correct it");
     result.push_back(*value);
   }
   return result;
 }
 
-Expected<std::vector<int>> integers(const File& file, int number, const Parameters& parameters, std::size_t first,
-                                    std::size_t count) {
+Expected<std::vector<int>> integers(const File& file, int number, const Parameters& parameters,
+                                    std::size_t first, std::size_t count) {
   return values<int>(file, number, parameters, first, count, integer, "an integer");
 }
 
 /// Checks degrees and counts of one direction: K is the upper index of the control points.
 bool fits(int upper, int degree) {
-  return degree >= 1 && degree <= max_control_points && upper >= degree && upper < max_control_points;
+  return degree >= 1 && degree <= max_control_points && upper >= degree &&
+         upper < max_control_points;
 }
 
-Expected<KnotVector> knots_of(const File& file, int number, const Parameters& parameters, const SplineLayout& at,
-                              std::size_t direction) {
+Expected<KnotVector> knots_of(const File& file, int number, const Parameters& parameters,
+                              const SplineLayout& at, std::size_t direction) {
   const auto count = static_cast<std::size_t>(at.count[direction] + at.degree[direction] + 1);
   auto values = numbers(file, number, parameters, at.knots[direction], count);
   if (!values) return std::unexpected(std::move(values.error()));
@@ -48,15 +52,18 @@ Expected<KnotVector> knots_of(const File& file, int number, const Parameters& pa
 
 /// None where all are equal.
 std::vector<double> weights_of(const std::vector<double>& all, std::array<int, 2> count) {
-  if (std::ranges::all_of(all, [&](double w) { return w == all.front(); }) && all.front() > 0) return {};
+  if (std::ranges::all_of(all, [&](double w) { return w == all.front(); }) && all.front() > 0)
+    return {};
   std::vector<double> result;
   for (int i = 0; i < count[0]; ++i) {
-    for (int j = 0; j < count[1]; ++j) result.push_back(all[static_cast<std::size_t>(i + count[0] * j)]);
+    for (int j = 0; j < count[1]; ++j)
+      result.push_back(all[static_cast<std::size_t>(i + count[0] * j)]);
   }
   return result;
 }
 
-Points points_of(const std::vector<double>& all, std::array<int, 2> count, const Eigen::Affine3d& move) {
+Points points_of(const std::vector<double>& all, std::array<int, 2> count,
+                 const Eigen::Affine3d& move) {
   Points result(count[0] * count[1], 3);
   const bool still = move.matrix().isIdentity(0);
   for (int i = 0; i < count[0]; ++i) {
@@ -69,7 +76,8 @@ Points points_of(const std::vector<double>& all, std::array<int, 2> count, const
   return result;
 }
 
-Expected<Eigen::Affine3d> with_matrices(const File& file, int number, const Eigen::Affine3d& outer) {
+Expected<Eigen::Affine3d> with_matrices(const File& file, int number,
+                                        const Eigen::Affine3d& outer) {
   const auto own = transform_of(file, number);
   if (!own) return std::unexpected(own.error());
   return Eigen::Affine3d(outer * *own);
@@ -77,9 +85,10 @@ Expected<Eigen::Affine3d> with_matrices(const File& file, int number, const Eige
 
 }  // namespace
 
-Expected<std::vector<double>> numbers(const File& file, int number, const Parameters& parameters, std::size_t first,
-                                      std::size_t count) {
-  return values<double>(file, number, parameters, first, count, real, "a number that a double can hold");
+Expected<std::vector<double>> numbers(const File& file, int number, const Parameters& parameters,
+                                      std::size_t first, std::size_t count) {
+  return values<double>(file, number, parameters, first, count, real,
+                        "a number that a double can hold");
 }
 
 Expected<SplineLayout> surface_layout(const File& file, int number, const Parameters& parameters) {
@@ -93,7 +102,8 @@ Expected<SplineLayout> surface_layout(const File& file, int number, const Parame
       return file.error(number, "a degree or a number of control points is out of range");
     }
   }
-  if (at.count[0] > max_control_points / at.count[1]) return file.error(number, "it has too many control points");
+  if (at.count[0] > max_control_points / at.count[1])
+    return file.error(number, "it has too many control points");
   const auto n = static_cast<std::size_t>(at.count[0]) * static_cast<std::size_t>(at.count[1]);
   at.knots[0] = 10;  // after five flags
   at.knots[1] = at.knots[0] + static_cast<std::size_t>(at.count[0] + at.degree[0] + 1);
@@ -101,7 +111,8 @@ Expected<SplineLayout> surface_layout(const File& file, int number, const Parame
   at.points = at.weights + n;
   at.domain = at.points + 3 * n;
   at.end = at.domain + 4;
-  if (parameters.values.size() < at.domain) return file.error(number, "parameters are missing", "get the whole file");
+  if (parameters.values.size() < at.domain)
+    return file.error(number, "parameters are missing", "get the whole file");
   return at;
 }
 
@@ -119,7 +130,8 @@ Expected<SplineLayout> curve_layout(const File& file, int number, const Paramete
   at.points = at.weights + n;
   at.domain = at.points + 3 * n;
   at.end = at.domain + 2;
-  if (parameters.values.size() < at.domain) return file.error(number, "parameters are missing", "get the whole file");
+  if (parameters.values.size() < at.domain)
+    return file.error(number, "parameters are missing", "get the whole file");
   return at;
 }
 
@@ -158,14 +170,16 @@ Expected<Surface> read_surface(const File& file, int number, const Eigen::Affine
   if (file.find(number)->type == 118) return read_ruled_surface(file, number, *move);
   const auto at = surface_layout(file, number, *parameters);
   if (!at) return std::unexpected(at.error());
-  auto u = knots_of(file, number, *parameters, *at, 0), v = knots_of(file, number, *parameters, *at, 1);
+  auto u = knots_of(file, number, *parameters, *at, 0),
+       v = knots_of(file, number, *parameters, *at, 1);
   if (!u || !v) return std::unexpected(!u ? u.error() : v.error());
   const auto n = at->points - at->weights;
   const auto weights = numbers(file, number, *parameters, at->weights, n);
   const auto points = numbers(file, number, *parameters, at->points, 3 * n);
   if (!weights || !points) return std::unexpected(!weights ? weights.error() : points.error());
-  auto surface = Surface::create({*std::move(u), *std::move(v)}, points_of(*points, at->count, *move),
-                                 weights_of(*weights, at->count));
+  auto surface =
+      Surface::create({*std::move(u), *std::move(v)}, points_of(*points, at->count, *move),
+                      weights_of(*weights, at->count));
   if (!surface) return file.error(number, surface.error().message());
   return surface;
 }
@@ -184,7 +198,8 @@ Expected<Curve> read_curve(const File& file, int number, const Eigen::Affine3d& 
   const auto points = numbers(file, number, *parameters, at->points, 3 * n);
   if (!weights || !points) return std::unexpected(!weights ? weights.error() : points.error());
   const std::array<int, 2> count = {at->count[0], 1};
-  auto curve = Curve::create({*std::move(knots)}, points_of(*points, count, *move), weights_of(*weights, count));
+  auto curve = Curve::create({*std::move(knots)}, points_of(*points, count, *move),
+                             weights_of(*weights, count));
   if (!curve) return file.error(number, curve.error().message());
   return curve;
 }

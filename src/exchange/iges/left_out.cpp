@@ -15,32 +15,35 @@ namespace {
 using detail::LeftOutKind;
 
 namespace kinds {
-constexpr LeftOutKind points = {"point", "points", "a point has no surface"},
-                      curves = {"curve that bounds no face", "curves that bound no face",
-                                "curves of an IGES file are not read by themselves",
-                                "write them as B-spline curves of a STEP file"},
-                      surfaces = {"surface without a face", "surfaces without faces",
-                                  "of surfaces that are no B-splines only what faces cover is shown"},
-                      faces = {"face that cannot be read", "faces that cannot be read",
-                               "its bounds or its surface are missing", "check that the file is complete"},
-                      whole = {"face without bounds", "faces without bounds", "only B-spline surfaces are shown whole",
-                               "trim it in the program that wrote the file"},
-                      solids = {"solid without faces", "solids without faces", "its faces are not in the file",
-                                "write a boundary representation in the program that made the file"},
-                      instances = {"subfigure instance", "subfigure instances",
-                                   "its definition or its place cannot be read, or it is sheared"},
-                      definitions = {"subfigure definition", "subfigure definitions", "no instance uses it"},
-                      annotations = {"annotation", "annotations", "dimensions and notes are not shown"},
-                      elements = {"record of finite elements", "records of finite elements",
-                                  "meshes of an analysis are not read"},
-                      groups = {"group", "groups", "groups are not shown"},
-                      views = {"drawing or view", "drawings and views", "drawings are not shown"},
-                      colours = {"colour", "colours", "colours of an IGES file are not read"},
-                      outside = {"external reference", "external references", "other files are not opened",
-                                 "open them by themselves"};
+constexpr LeftOutKind
+    points = {"point", "points", "a point has no surface"},
+    curves = {"curve that bounds no face", "curves that bound no face",
+              "curves of an IGES file are not read by themselves",
+              "write them as B-spline curves of a STEP file"},
+    surfaces = {"surface without a face", "surfaces without faces",
+                "of surfaces that are no B-splines only what faces cover is shown"},
+    faces = {"face that cannot be read", "faces that cannot be read",
+             "its bounds or its surface are missing", "check that the file is complete"},
+    whole = {"face without bounds", "faces without bounds",
+             "only B-spline surfaces are shown whole",
+             "trim it in the program that wrote the file"},
+    solids = {"solid without faces", "solids without faces", "its faces are not in the file",
+              "write a boundary representation in the program that made the file"},
+    instances = {"subfigure instance", "subfigure instances",
+                 "its definition or its place cannot be read, or it is sheared"},
+    definitions = {"subfigure definition", "subfigure definitions", "no instance uses it"},
+    annotations = {"annotation", "annotations", "dimensions and notes are not shown"},
+    elements = {"record of finite elements", "records of finite elements",
+                "meshes of an analysis are not read"},
+    groups = {"group", "groups", "groups are not shown"},
+    views = {"drawing or view", "drawings and views", "drawings are not shown"},
+    colours = {"colour", "colours", "colours of an IGES file are not read"},
+    outside = {"external reference", "external references", "other files are not opened",
+               "open them by themselves"};
 }  // namespace kinds
 
-/// Parts of others, and what says nothing of a shape: nulls, directions, matrices, boundaries, lists of shells.
+/// Parts of others, and what says nothing of a shape: nulls, directions, matrices, boundaries,
+/// lists of shells.
 bool only_helps(int type) {
   constexpr int helpers[] = {0, 114, 118, 123, 124, 128, 140, 141, 186, 502, 504, 508, 514};
   return std::ranges::find(helpers, type) != std::end(helpers);
@@ -55,7 +58,8 @@ class Unread {
 
   std::vector<LeftOut> list() {
     for (std::size_t k = 0; k < file_.entities().size(); ++k) note_parts(File::number(k));
-    for (std::size_t k = 0; k < file_.entities().size(); ++k) add(File::number(k), file_.entities()[k]);
+    for (std::size_t k = 0; k < file_.entities().size(); ++k)
+      add(File::number(k), file_.entities()[k]);
     return list_.take();
   }
 
@@ -139,13 +143,15 @@ class Unread {
     for (int n = pointer(values, 4); n > 0 && at + 2 < values.size(); --n) {
       const auto flat = static_cast<std::size_t>(pointer(values, at + 2));
       parts_.insert(pointer(values, at));
-      for (std::size_t k = at + 3; k < at + 3 + flat && k < values.size(); ++k) parts_.insert(pointer(values, k));
+      for (std::size_t k = at + 3; k < at + 3 + flat && k < values.size(); ++k)
+        parts_.insert(pointer(values, k));
       at += 3 + flat;
     }
   }
 
   void note_loop(const Values& values) {
-    std::size_t at = 2;  // of each: kind, list, its entry, sense, number of curves in parameters, and these
+    // Of each: kind, list, its entry, sense, number of curves in parameters, and these.
+    std::size_t at = 2;
     for (int n = pointer(values, 1); n > 0 && at + 4 < values.size(); --n) {
       const auto flat = static_cast<std::size_t>(pointer(values, at + 4));
       for (std::size_t k = 0; k < flat && at + 6 + 2 * k < values.size(); ++k)
@@ -174,8 +180,10 @@ class Unread {
       return;
     }
     const std::string_view known = type_name(type);
-    const std::string name = fmt::format("of type {}{}", type, known.empty() ? "" : fmt::format(" ({})", known));
-    list_.add({"entity " + name, "entities " + name, "entities of this type are not read"}, fmt::format("#{}", number));
+    const std::string name =
+        fmt::format("of type {}{}", type, known.empty() ? "" : fmt::format(" ({})", known));
+    list_.add({"entity " + name, "entities " + name, "entities of this type are not read"},
+              fmt::format("#{}", number));
   }
 
   /// Geometry that is left out where nothing else is made of it.
@@ -194,7 +202,9 @@ class Unread {
       case 142:
         return &kinds::curves;
       case 106:
-        return form <= 3 ? &kinds::points : form <= 13 || form == 63 ? &kinds::curves : &kinds::annotations;
+        return form <= 3                  ? &kinds::points
+               : form <= 13 || form == 63 ? &kinds::curves
+                                          : &kinds::annotations;
       case 108:
       case 120:
       case 122:
@@ -210,7 +220,8 @@ class Unread {
   }
 
   static const LeftOutKind* kind_of(int type) {
-    if ((type >= 150 && type <= 168) || type == 180 || type == 182 || type == 184 || type == 430) return &kinds::solids;
+    if ((type >= 150 && type <= 168) || type == 180 || type == 182 || type == 184 || type == 430)
+      return &kinds::solids;
     if ((type >= 202 && type <= 230)) return &kinds::annotations;
     switch (type) {
       case 134:
@@ -236,12 +247,13 @@ class Unread {
   void add_face(int number, int type) {
     if (shown_.contains(fmt::format("#{}", number))) return;
     const auto parameters = file_.parameters(number);
-    const bool bare =
-        type == 144 && parameters && pointer(parameters->values, 2) == 0 && pointer(parameters->values, 3) == 0;
+    const bool bare = type == 144 && parameters && pointer(parameters->values, 2) == 0 &&
+                      pointer(parameters->values, 3) == 0;
     const int below = parameters ? pointer(parameters->values, type == 143 ? 2 : 1) : 0;
     // A whole B-spline surface stands for itself.
     if (bare && model_.find_surface(fmt::format("#{}", below)) != nullptr) return;
-    list_.add(bare && file_.find(below) != nullptr ? kinds::whole : kinds::faces, fmt::format("#{}", number));
+    list_.add(bare && file_.find(below) != nullptr ? kinds::whole : kinds::faces,
+              fmt::format("#{}", number));
   }
 
   const File& file_;
@@ -254,7 +266,8 @@ class Unread {
 
 }  // namespace
 
-std::vector<LeftOut> left_out(const File& file, const brep::Model& model, const std::set<int>& unplaced) {
+std::vector<LeftOut> left_out(const File& file, const brep::Model& model,
+                              const std::set<int>& unplaced) {
   return Unread(file, model, unplaced).list();
 }
 

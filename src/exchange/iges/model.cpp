@@ -26,20 +26,25 @@ bool is_face(int type) { return type == 143 || type == 144 || type == 510; }
 int surface_of(const File& file, int face) {
   const auto parameters = file.parameters(face);
   const std::size_t at = file.find(face)->type == 143 ? 2 : 1;
-  return parameters && parameters->values.size() > at ? integer(parameters->values[at]).value_or(0) : 0;
+  return parameters && parameters->values.size() > at ? integer(parameters->values[at]).value_or(0)
+                                                      : 0;
 }
 
-/// The faces (510) whose normals are opposite to those of their surfaces. A shell (514) lists its faces, each with a
-/// flag that is 0 then; a solid (186) its shell and the shells of its voids, each with a flag that is 0 where all of
-/// that is turned once more (IGES 5.3, § 4.147 and 4.49). Of several shells with the same face the first counts.
+/// The faces (510) whose normals are opposite to those of their surfaces. A shell (514) lists its
+/// faces, each with a flag that is 0 then; a solid (186) its shell and the shells of its voids,
+/// each with a flag that is 0 where all of that is turned once more (IGES 5.3, § 4.147 and 4.49).
+/// Of several shells with the same face the first counts.
 std::set<int> turned_faces(const File& file) {
   const auto pairs = [&](int number, int count_at, const auto& act) {  // pointer and flag, so often
     const auto parameters = file.parameters(number);
     if (!parameters) return;
     const auto& values = parameters->values;
-    const auto value = [&](std::size_t k) { return k < values.size() ? integer(values[k]).value_or(0) : 0; };
+    const auto value = [&](std::size_t k) {
+      return k < values.size() ? integer(values[k]).value_or(0) : 0;
+    };
     std::size_t at = static_cast<std::size_t>(count_at) + 1;
-    for (int n = value(at - 1); n > 0 && at + 1 < values.size(); --n, at += 2) act(value(at), value(at + 1) == 0);
+    for (int n = value(at - 1); n > 0 && at + 1 < values.size(); --n, at += 2)
+      act(value(at), value(at + 1) == 0);
   };
   std::map<int, bool> shells, faces;
   for (std::size_t k = 0; k < file.entities().size(); ++k) {
@@ -47,7 +52,8 @@ std::set<int> turned_faces(const File& file) {
     const auto note = [&](int shell, bool turned) { shells.try_emplace(shell, turned); };
     const auto parameters = file.parameters(File::number(k));
     if (parameters && parameters->values.size() > 2) {
-      note(integer(parameters->values[1]).value_or(0), integer(parameters->values[2]).value_or(1) == 0);
+      note(integer(parameters->values[1]).value_or(0),
+           integer(parameters->values[2]).value_or(1) == 0);
     }
     pairs(File::number(k), 3, note);
   }
@@ -55,7 +61,8 @@ std::set<int> turned_faces(const File& file) {
     if (file.entities()[k].type != 514) continue;
     const auto shell = shells.find(File::number(k));
     const bool all = shell != shells.end() && shell->second;
-    pairs(File::number(k), 1, [&](int face, bool turned) { faces.try_emplace(face, turned != all); });
+    pairs(File::number(k), 1,
+          [&](int face, bool turned) { faces.try_emplace(face, turned != all); });
   }
   std::set<int> result;
   for (const auto& [face, turned] : faces) {
@@ -73,7 +80,8 @@ class ModelReader {
         turned_(turned_faces(file)),
         edges_(builder_.model(), [this] { return brep::ModelBuilder::name(builder_.fresh()); }) {
     // Subfigures (408) stand in several places: what seems to meet need not.
-    if (std::ranges::find(file.entities(), 408, &Entity::type) == file.entities().end()) together_ = 0;
+    if (std::ranges::find(file.entities(), 408, &Entity::type) == file.entities().end())
+      together_ = 0;
     const KnownLengthUnit* unit = length_unit_named(file.global().unit);
     if (unit == nullptr) return;
     unit_ = unit->name;
@@ -120,16 +128,18 @@ class ModelReader {
       builder_.add_unreadable(number, std::move(surface.error()));
       return;
     }
-    supports_.emplace(
-        number, builder_.add_surface(number, file_.find(number)->label, *std::move(surface), unit_, uncertainty_));
+    supports_.emplace(number, builder_.add_surface(number, file_.find(number)->label,
+                                                   *std::move(surface), unit_, uncertainty_));
   }
 
   void report_offset(int number) {
     builder_.add_unreadable(
-        number, file_
-                    .error(number, "an offset surface is no B-spline surface, and would move with the one below",
-                           "convert it to a B-spline surface in the program that wrote the file")
-                    .error());
+        number,
+        file_
+            .error(number,
+                   "an offset surface is no B-spline surface, and would move with the one below",
+                   "convert it to a B-spline surface in the program that wrote the file")
+            .error());
   }
 
   /// The surface of a face.
@@ -147,19 +157,24 @@ class ModelReader {
     const auto parameters = file_.parameters(number);
     if (surface == 0 || !move || !parameters) return;
     const auto& values = parameters->values;
-    const auto pointer = [&](std::size_t k) { return k < values.size() ? integer(values[k]).value_or(0) : 0; };
+    const auto pointer = [&](std::size_t k) {
+      return k < values.size() ? integer(values[k]).value_or(0) : 0;
+    };
     const int type = file_.find(number)->type;
     std::vector<int> boundaries;
     std::size_t first = 4, count = 0;
-    if (type == 144) {  // surface, whether its outer boundary is given, number of inner ones, the outer one
+    if (type ==
+        144) {  // surface, whether its outer boundary is given, number of inner ones, the outer one
       if (pointer(2) == 0 && pointer(3) == 0) return;
       boundaries.push_back(pointer(2) == 0 ? 0 : pointer(4));
       first = 5;
       count = static_cast<std::size_t>(std::max(pointer(3), 0));
-    } else {  // 143: kind, surface, their number; 510: surface, their number, whether the first is the outer one
+    } else {  // 143: kind, surface, their number; 510: surface, their number, whether the first is
+              // the outer one
       count = static_cast<std::size_t>(std::max(pointer(type == 143 ? 3 : 2), 0));
     }
-    for (std::size_t k = first; k < first + count && k < values.size(); ++k) boundaries.push_back(pointer(k));
+    for (std::size_t k = first; k < first + count && k < values.size(); ++k)
+      boundaries.push_back(pointer(k));
     brep::Face face;
     face.id = brep::ModelBuilder::name(number);
     face.kind = "ADVANCED_FACE";
@@ -167,7 +182,8 @@ class ModelReader {
     for (const int boundary : boundaries) {
       brep::Bound bound = read_loop(boundary, surface, *move);
       if (bound.kind == brep::Bound::Kind::unknown) continue;
-      bound.forward = face.same_sense;  // loops of IGES run round the normal of the surface, not that of the face
+      bound.forward = face.same_sense;  // loops of IGES run round the normal of the surface, not
+                                        // that of the face
       face.bounds.push_back(std::move(bound));
     }
     face.support = support_of(surface);
@@ -177,38 +193,47 @@ class ModelReader {
   /// Of an unknown kind if there is none.
   brep::Bound read_loop(int number, int surface, const Eigen::Affine3d& move) {
     const Entity* entity = file_.find(number);
-    const auto parameters = entity != nullptr ? file_.parameters(number) : Expected<Parameters>(input_error(""));
+    const auto parameters =
+        entity != nullptr ? file_.parameters(number) : Expected<Parameters>(input_error(""));
     std::vector<Piece> pieces;
     if (entity != nullptr && parameters && entity->type == 508) {
       if (auto loop = read_shared_loop(*parameters, move)) return *std::move(loop);
     }
     Expected<void> read = file_.error(number, "a boundary of an unknown kind");
-    if (entity != nullptr && parameters && entity->type == 142) read = add_curve(*parameters, surface, move, pieces);
-    if (entity != nullptr && parameters && entity->type == 141) read = add_boundary(*parameters, move, pieces);
+    if (entity != nullptr && parameters && entity->type == 142)
+      read = add_curve(*parameters, surface, move, pieces);
+    if (entity != nullptr && parameters && entity->type == 141)
+      read = add_boundary(*parameters, move, pieces);
     if (read && !pieces.empty()) return edge_loop(pieces);
     // A face whose boundary is not known must not pass for a whole one.
     brep::Bound unknown;
     unknown.kind = brep::Bound::Kind::edges;
-    unknown.wrong = brep::fault(read ? file_.error(number, "its boundary has no curves").error() : read.error());
+    unknown.wrong = brep::fault(read ? file_.error(number, "its boundary has no curves").error()
+                                     : read.error());
     return unknown;
   }
 
-  /// A curve on a surface (142): how it was made, surface, curve in parameters, curve in space, which is preferred.
+  /// A curve on a surface (142): how it was made, surface, curve in parameters, curve in space,
+  /// which is preferred.
   Expected<void> add_curve(const Parameters& parameters, int surface, const Eigen::Affine3d& move,
                            std::vector<Piece>& pieces) {
     const auto& values = parameters.values;
-    const auto pointer = [&](std::size_t k) { return k < values.size() ? integer(values[k]).value_or(0) : 0; };
+    const auto pointer = [&](std::size_t k) {
+      return k < values.size() ? integer(values[k]).value_or(0) : 0;
+    };
     if (pointer(4) != 0) return curves_.add(pointer(4), move, pieces);
     std::vector<Piece> flat;
     if (auto done = curves_.add(pointer(3), Eigen::Affine3d::Identity(), flat); !done) return done;
     const brep::SplineSurface* spline = spline_of(surface);
-    if (spline == nullptr) return file_.error(surface, "a boundary in parameters of another surface than a B-spline");
+    if (spline == nullptr)
+      return file_.error(surface, "a boundary in parameters of another surface than a B-spline");
     const Surface& on = spline->surface;
     const Interval u = on.knots(0).domain(), v = on.knots(1).domain();
     for (const Piece& piece : flat) {
       const auto above = [&](double t) {
         const Point p = piece.at(t);
-        return evaluate_point<2>(on, {std::clamp(p.x(), u.lower, u.upper), std::clamp(p.y(), v.lower, v.upper)});
+        return evaluate_point<2>(
+            on, {std::clamp(p.x(), u.lower, u.upper), std::clamp(p.y(), v.lower, v.upper)});
       };
       auto fitted = brep::lifted_curve(above, piece.corners);
       if (!fitted) return std::unexpected(std::move(fitted.error()));
@@ -223,11 +248,14 @@ class ModelReader {
     return {};
   }
 
-  /// A boundary (141): kind, preference, surface, number of curves; of each the curve, whether it runs along it (1) or
-  /// against it (2), and its curves in parameters.
-  Expected<void> add_boundary(const Parameters& parameters, const Eigen::Affine3d& move, std::vector<Piece>& pieces) {
+  /// A boundary (141): kind, preference, surface, number of curves; of each the curve, whether it
+  /// runs along it (1) or against it (2), and its curves in parameters.
+  Expected<void> add_boundary(const Parameters& parameters, const Eigen::Affine3d& move,
+                              std::vector<Piece>& pieces) {
     const auto& values = parameters.values;
-    const auto pointer = [&](std::size_t k) { return k < values.size() ? integer(values[k]).value_or(0) : 0; };
+    const auto pointer = [&](std::size_t k) {
+      return k < values.size() ? integer(values[k]).value_or(0) : 0;
+    };
     std::size_t at = 5;
     for (int n = pointer(4); n > 0 && at + 2 < values.size(); --n) {
       std::vector<Piece> own;
@@ -249,11 +277,15 @@ class ModelReader {
                         });
   }
 
-  /// A loop (508) of a B-rep, whose edges are shared: their number, and of each whether it is an edge or a vertex, its
-  /// list, its place there, whether it runs along it, and its curves in parameters.
-  Expected<brep::Bound> read_shared_loop(const Parameters& parameters, const Eigen::Affine3d& move) {
+  /// A loop (508) of a B-rep, whose edges are shared: their number, and of each whether it is an
+  /// edge or a vertex, its list, its place there, whether it runs along it, and its curves in
+  /// parameters.
+  Expected<brep::Bound> read_shared_loop(const Parameters& parameters,
+                                         const Eigen::Affine3d& move) {
     const auto& values = parameters.values;
-    const auto pointer = [&](std::size_t k) { return k < values.size() ? integer(values[k]).value_or(0) : 0; };
+    const auto pointer = [&](std::size_t k) {
+      return k < values.size() ? integer(values[k]).value_or(0) : 0;
+    };
     brep::Bound bound;
     std::size_t at = 2;
     for (int n = pointer(1); n > 0 && at + 4 < values.size(); --n) {
@@ -290,7 +322,8 @@ class ModelReader {
     const auto parameters = added ? file_.parameters(list) : Expected<Parameters>(input_error(""));
     if (parameters && parameters->values.size() > 2) {
       const std::size_t count = (parameters->values.size() - 2) / 3;
-      if (auto all = numbers(file_, list, *parameters, 2, 3 * count)) found->second = *std::move(all);
+      if (auto all = numbers(file_, list, *parameters, 2, 3 * count))
+        found->second = *std::move(all);
     }
     return found->second;
   }
@@ -302,11 +335,13 @@ class ModelReader {
     const auto [lists, fresh] = edge_lists_.try_emplace(list);
     const auto parameters = fresh ? file_.parameters(list) : Expected<Parameters>(input_error(""));
     if (parameters) {
-      for (const std::string& value : parameters->values) lists->second.push_back(integer(value).value_or(0));
+      for (const std::string& value : parameters->values)
+        lists->second.push_back(integer(value).value_or(0));
     }
     const std::vector<int>& own = lists->second;
     const std::size_t at = 2 + 5 * static_cast<std::size_t>(std::max(index, 1) - 1);
-    if (at + 5 > own.size()) return file_.error(list, fmt::format("it has no edge {}", index), "get the whole file");
+    if (at + 5 > own.size())
+      return file_.error(list, fmt::format("it has no edge {}", index), "get the whole file");
     std::vector<Piece> pieces;
     if (auto done = curves_.add(own[at], move, pieces); !done) return std::unexpected(done.error());
     const brep::Index from = shared_vertex(own[at + 1], own[at + 2], move),

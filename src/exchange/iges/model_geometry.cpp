@@ -21,13 +21,16 @@ std::string pointer(int number) { return std::to_string(number); }
 Expected<Curve> starting_at(const Curve& curve, double start) {
   const int p = curve.knots(0).degree();
   const int missing = p - curve.knots(0).multiplicity(start);
-  auto split = insert_knots<1>(curve, {std::vector<double>(static_cast<std::size_t>(std::max(missing, 0)), start)});
+  auto split = insert_knots<1>(
+      curve, {std::vector<double>(static_cast<std::size_t>(std::max(missing, 0)), start)});
   if (!split) return split;
   const auto knots = split->knots(0).knots();
   const double period = split->knots(0).domain().length();
   // Control point `at` is the point of the curve at `start`: its knots are start, …, p times.
-  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(knots, start) - knots.begin());
-  const auto at = static_cast<Eigen::Index>(first) - 1, n = static_cast<Eigen::Index>(split->size());
+  const auto first =
+      static_cast<std::size_t>(std::ranges::lower_bound(knots, start) - knots.begin());
+  const auto at = static_cast<Eigen::Index>(first) - 1,
+             n = static_cast<Eigen::Index>(split->size());
   std::vector<double> turned = {start};
   turned.insert(turned.end(), knots.begin() + static_cast<std::ptrdiff_t>(first), knots.end() - 1);
   for (auto k = static_cast<std::size_t>(p) + 1; k < first + static_cast<std::size_t>(p); ++k)
@@ -41,7 +44,8 @@ Expected<Curve> starting_at(const Curve& curve, double start) {
     const auto own = split->weights();
     const double ratio = own.back() / own.front();
     weights.assign(own.begin() + at, own.end());
-    for (Eigen::Index k = 1; k <= at; ++k) weights.push_back(ratio * own[static_cast<std::size_t>(k)]);
+    for (Eigen::Index k = 1; k <= at; ++k)
+      weights.push_back(ratio * own[static_cast<std::size_t>(k)]);
   }
   auto vector = KnotVector::create(p, std::move(turned));
   if (!vector) return std::unexpected(std::move(vector.error()));
@@ -97,7 +101,8 @@ int ModelGeometry::elementary(const brep::ElementarySurface& surface) {
       values.insert(values.end(), {axis, radius, along});
       return to_.add(192, std::move(values), entry);
     case Kind::cone:
-      values.insert(values.end(), {axis, radius, format_real(second * 180 / std::numbers::pi), along});
+      values.insert(values.end(),
+                    {axis, radius, format_real(second * 180 / std::numbers::pi), along});
       return to_.add(194, std::move(values), entry);
     case Kind::sphere:
       values.insert(values.end(), {radius, axis, along});
@@ -154,7 +159,8 @@ Expected<int> ModelGeometry::curve(brep::Index edge) {
   if (!own) return std::unexpected(own.error());
   auto spline = own->spline(range);
   if (!spline) return std::unexpected(std::move(spline.error()));
-  const bool whole = range.lower <= spline->knots(0).domain().lower && range.upper >= spline->knots(0).domain().upper;
+  const bool whole = range.lower <= spline->knots(0).domain().lower &&
+                     range.upper >= spline->knots(0).domain().upper;
   if (range.upper > spline->knots(0).domain().upper && !whole && spline->knots(0).clamped()) {
     spline = starting_at(*spline, range.lower);
     if (!spline) return std::unexpected(std::move(spline.error()));

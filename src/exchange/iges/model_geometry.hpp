@@ -16,10 +16,11 @@ class ModelGeometry {
   ModelGeometry(const detail::FacePlan& plan, const brep::Model& model, Sections& to)
       : plan_(plan), model_(model), to_(to) {}
 
-  /// A B-spline surface (128), or a plane, cylinder, cone, sphere or torus (190 to 198) with its directions.
-  /// Errors (input): another form.
+  /// A B-spline surface (128), or a plane, cylinder, cone, sphere or torus (190 to 198) with its
+  /// directions. Errors (input): another form.
   Expected<int> surface(brep::Index support);
-  /// A line (110), an arc (100) or a B-spline curve (126) over the range of an edge, along its curve.
+  /// A line (110), an arc (100) or a B-spline curve (126) over the range of an edge, along its
+  /// curve.
   Expected<int> curve(brep::Index edge);
 
  private:
@@ -35,8 +36,9 @@ class ModelGeometry {
   std::map<brep::Index, int> surfaces_;
 };
 
-/// A closed clamped curve that starts at this parameter inside its domain, over a range that is a period later where it
-/// was before it. The same points, but for rounding where the knot is inserted.
+/// A closed clamped curve that starts at this parameter inside its domain, over a range that is a
+/// period later where it was before it. The same points, but for rounding where the knot is
+/// inserted.
 [[nodiscard]] Expected<Curve> starting_at(const Curve& curve, double start);
 
 /// The parameters of an entity 124.

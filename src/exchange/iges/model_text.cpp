@@ -17,10 +17,12 @@ constexpr double least_resolution = 1e-7;  // a length
 
 bool self_crossing(const brep::Support& support) {
   const auto* form = std::get_if<brep::ElementarySurface>(&support.form);
-  return form != nullptr && form->kind == brep::ElementarySurface::Kind::torus && form->second > form->radius;
+  return form != nullptr && form->kind == brep::ElementarySurface::Kind::torus &&
+         form->second > form->radius;
 }
 
-/// The model with swept surfaces, and tori that cross themselves, as B-splines. Errors (input): one cannot be made one.
+/// The model with swept surfaces, and tori that cross themselves, as B-splines. Errors (input): one
+/// cannot be made one.
 Expected<brep::Model> in_iges_forms(const brep::Model& model) {
   brep::Model result = model;
   for (std::size_t k = 0; k < model.supports.size(); ++k) {
@@ -38,7 +40,8 @@ Expected<brep::Model> in_iges_forms(const brep::Model& model) {
 /// One part with the lists of its vertices and edges.
 class PartWriter {
  public:
-  PartWriter(const detail::FacePlan& plan, const brep::Model& model, const detail::WrittenPart& part, Sections& to)
+  PartWriter(const detail::FacePlan& plan, const brep::Model& model,
+             const detail::WrittenPart& part, Sections& to)
       : plan_(plan), model_(model), part_(part), to_(to), geometry_(plan, model, to) {}
 
   /// The directory numbers of what a subfigure of it lists. `dependent`: it is part of one.
@@ -55,7 +58,8 @@ class PartWriter {
     }
     if (auto done = add_surfaces(); !done) return std::unexpected(std::move(done.error()));
     for (const NamedCurve& c : part_.curves)
-      members_.push_back(to_.add(126, curve_values(c.curve), {.name = c.name, .dependent = dependent_}));
+      members_.push_back(
+          to_.add(126, curve_values(c.curve), {.name = c.name, .dependent = dependent_}));
     return std::move(members_);
   }
 
@@ -96,13 +100,14 @@ class PartWriter {
         }
         const brep::Edge& own = model_.edges[edge];
         const bool back = plan_.edges[edge]->backwards;
-        entries.push_back(
-            {std::to_string(*curve), place_of(back ? own.end : own.start), place_of(back ? own.start : own.end)});
+        entries.push_back({std::to_string(*curve), place_of(back ? own.end : own.start),
+                           place_of(back ? own.start : own.end)});
       }
     });
     if (!done || vertices_.empty()) return done;
     coordinates_.insert(coordinates_.begin(), std::to_string(vertices_.size()));
-    corner_list_ = std::to_string(to_.add(502, std::move(coordinates_), {.form = 1, .dependent = true}));
+    corner_list_ =
+        std::to_string(to_.add(502, std::move(coordinates_), {.form = 1, .dependent = true}));
     if (entries.empty()) return {};
     Values edges = {std::to_string(entries.size())};
     for (const auto& [curve, from, to] : entries)
@@ -123,7 +128,8 @@ class PartWriter {
       loop = {std::to_string(uses.size())};
       for (const brep::EdgeUse& use : uses) {
         const bool along = (use.forward != back) != plan_.edges[use.edge]->backwards;
-        loop.insert(loop.end(), {"0", edge_list_, std::to_string(edges_.at(use.edge)), along ? "1" : "0", "0"});
+        loop.insert(loop.end(),
+                    {"0", edge_list_, std::to_string(edges_.at(use.edge)), along ? "1" : "0", "0"});
       }
     }
     return to_.add(508, std::move(loop), {.form = 1, .dependent = true});
@@ -133,8 +139,10 @@ class PartWriter {
     const auto surface = geometry_.surface(face.support);
     if (!surface) return surface;
     // Which of several loops is the outer one is not known, and need not be said.
-    Values values = {std::to_string(*surface), std::to_string(face.bounds.size()), face.bounds.size() == 1 ? "1" : "0"};
-    for (const brep::Bound& bound : face.bounds) values.push_back(std::to_string(add_loop(bound, face)));
+    Values values = {std::to_string(*surface), std::to_string(face.bounds.size()),
+                     face.bounds.size() == 1 ? "1" : "0"};
+    for (const brep::Bound& bound : face.bounds)
+      values.push_back(std::to_string(add_loop(bound, face)));
     const brep::SplineSurface* spline = plan_.model->spline_under(face);
     const auto colour = plan_.colour_of(face);
     return to_.add(510, std::move(values),
@@ -170,7 +178,8 @@ class PartWriter {
   Expected<void> add_surfaces() {
     std::vector<int> numbers;
     for (const NamedSurface& s : part_.surfaces)
-      numbers.push_back(to_.add(128, surface_values(s.surface), {.name = s.name, .dependent = true}));
+      numbers.push_back(
+          to_.add(128, surface_values(s.surface), {.name = s.name, .dependent = true}));
     if (numbers.empty()) return {};
     const auto shells = add_shells(part_.surfaces, numbers, to_);
     if (!shells) return std::unexpected(shells.error());
@@ -190,9 +199,11 @@ class PartWriter {
   std::string corner_list_, edge_list_;
 };
 
-/// A subfigure (308), and an instance (408) of it for each place: scaled where units differ, then turned and moved.
+/// A subfigure (308), and an instance (408) of it for each place: scaled where units differ, then
+/// turned and moved.
 void place(const detail::WrittenPart& part, const std::vector<int>& members, Sections& to) {
-  Values values = {"0", hollerith_of(part.name.empty() ? "part" : part.name), std::to_string(members.size())};
+  Values values = {"0", hollerith_of(part.name.empty() ? "part" : part.name),
+                   std::to_string(members.size())};
   for (const int member : members) values.push_back(std::to_string(member));
   const int definition = to.add(308, std::move(values));
   for (const brep::PartPlace& at : part.places) {
@@ -208,8 +219,11 @@ void place(const detail::WrittenPart& part, const std::vector<int>& members, Sec
 
 double largest_coordinate(const detail::FacePlan& plan) {
   double result = 0;
-  const auto extend = [&](const Points& points) { result = std::max(result, points.cwiseAbs().maxCoeff()); };
-  for (const brep::Vertex& vertex : plan.model->vertices) result = std::max(result, vertex.place.cwiseAbs().maxCoeff());
+  const auto extend = [&](const Points& points) {
+    result = std::max(result, points.cwiseAbs().maxCoeff());
+  };
+  for (const brep::Vertex& vertex : plan.model->vertices)
+    result = std::max(result, vertex.place.cwiseAbs().maxCoeff());
   for (const brep::SplineSurface& s : plan.model->surfaces) extend(s.surface.control_points());
   for (const brep::FreeCurve& c : plan.model->curves) extend(c.curve.control_points());
   return result;
@@ -232,7 +246,8 @@ Expected<std::string> model_text(const detail::FacePlan& plan, const SaveOptions
     const double scale = brep::scale_of(part.places[0].to_model.linear()).value_or(1);
     resolution = std::max(resolution, scale * part.uncertainty);
   }
-  return sections.text(options.title, global_section(options.title, **unit, largest_coordinate(plan), resolution));
+  return sections.text(options.title,
+                       global_section(options.title, **unit, largest_coordinate(plan), resolution));
 }
 
 }  // namespace knead::iges

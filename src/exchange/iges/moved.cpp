@@ -18,7 +18,8 @@ int surface_made_of(const File& file, int curve) {
     const int type = file.entities()[k].type;
     if (type != 118 && type != 120 && type != 122) continue;
     const auto parameters = file.parameters(File::number(k));
-    for (std::size_t at = 1; parameters && at < std::min<std::size_t>(3, parameters->values.size()); ++at) {
+    for (std::size_t at = 1; parameters && at < std::min<std::size_t>(3, parameters->values.size());
+         ++at) {
       if (integer(parameters->values[at]) == curve) return File::number(k);
     }
   }
@@ -54,15 +55,17 @@ Expected<void> can_move(const File& file, const EdgeSources& sources, const std:
   if (own == sources.edges.end()) return input_error("only edges of faces can follow", edge);
   for (const EdgeCurve& curve : own->second) {
     if (const int surface = surface_made_of(file, curve.number); surface != 0) {
-      return input_error(
-          fmt::format("its curve D{} makes the surface {} too, which would move", curve.number, file.label(surface)),
-          edge, "hold the edge");
+      return input_error(fmt::format("its curve D{} makes the surface {} too, which would move",
+                                     curve.number, file.label(surface)),
+                         edge, "hold the edge");
     }
     for (const auto& [other, curves] : sources.edges) {
-      if (other == own->first ||
-          !std::ranges::any_of(curves, [&](const EdgeCurve& c) { return c.number == curve.number; }))
+      if (other == own->first || !std::ranges::any_of(curves, [&](const EdgeCurve& c) {
+            return c.number == curve.number;
+          }))
         continue;
-      return input_error(fmt::format("its curve D{} is that of the edge {} too, which would move", curve.number, other),
+      return input_error(fmt::format("its curve D{} is that of the edge {} too, which would move",
+                                     curve.number, other),
                          edge, "hold the edge");
     }
   }
@@ -73,9 +76,11 @@ Expected<MovedEntities> moved_entities(const EdgeSources& sources, const brep::M
   MovedEntities result;
   for (const brep::MovedEdge& edge : moved.edges) {
     const auto found = sources.edges.find(edge.id);
-    if (found == sources.edges.end()) return input_error("no curve of the file is this edge", edge.id);
+    if (found == sources.edges.end())
+      return input_error("no curve of the file is this edge", edge.id);
     for (const EdgeCurve& curve : found->second) {
-      result.curves.push_back({curve.number, curve.turned ? brep::turned(edge.curve) : edge.curve, curve.move});
+      result.curves.push_back(
+          {curve.number, curve.turned ? brep::turned(edge.curve) : edge.curve, curve.move});
     }
   }
   for (const brep::MovedVertex& vertex : moved.vertices) {
@@ -85,7 +90,8 @@ Expected<MovedEntities> moved_entities(const EdgeSources& sources, const brep::M
   return result;
 }
 
-Expected<std::vector<std::string>> curve_values(const File& file, const CurveReplacement& replacement,
+Expected<std::vector<std::string>> curve_values(const File& file,
+                                                const CurveReplacement& replacement,
                                                 const Parameters& parameters) {
   const auto end = end_of(file, replacement.number, parameters);
   if (!end) return std::unexpected(end.error());
@@ -99,12 +105,13 @@ Expected<std::vector<std::string>> curve_values(const File& file, const CurveRep
   if (!own) return std::unexpected(own.error());
   std::vector<std::string> values = curve_values(*own);
   values.insert(values.begin(), "126");
-  for (std::size_t k = *end; k < parameters.values.size(); ++k) values.push_back(parameters.values[k]);
+  for (std::size_t k = *end; k < parameters.values.size(); ++k)
+    values.push_back(parameters.values[k]);
   return values;
 }
 
-Expected<std::map<int, std::vector<std::string>>> vertex_values(const File& file,
-                                                                std::span<const VertexReplacement> vertices) {
+Expected<std::map<int, std::vector<std::string>>> vertex_values(
+    const File& file, std::span<const VertexReplacement> vertices) {
   std::map<int, std::vector<std::string>> result;
   for (const auto& [vertex, place] : vertices) {
     const auto [list, fresh] = result.try_emplace(vertex.list);
@@ -114,12 +121,14 @@ Expected<std::map<int, std::vector<std::string>>> vertex_values(const File& file
       list->second = std::move(parameters->values);
     }
     const std::size_t at = 2 + 3 * static_cast<std::size_t>(vertex.index - 1);
-    if (at + 3 > list->second.size()) return file.error(vertex.list, fmt::format("it has no vertex {}", vertex.index));
+    if (at + 3 > list->second.size())
+      return file.error(vertex.list, fmt::format("it has no vertex {}", vertex.index));
     const bool still = vertex.move.matrix().isIdentity(0);
     const Point p = still ? place : Point(vertex.move.inverse() * place);
     for (std::size_t c = 0; c < 3; ++c) {
       std::string& text = list->second[at + c];
-      if (real(text) != p[static_cast<Eigen::Index>(c)]) text = format_real(p[static_cast<Eigen::Index>(c)]);
+      if (real(text) != p[static_cast<Eigen::Index>(c)])
+        text = format_real(p[static_cast<Eigen::Index>(c)]);
     }
   }
   return result;
@@ -131,7 +140,8 @@ bool reads_back(const File& after, const CurveReplacement& replacement) {
   const auto curve = read_curve(after, replacement.number, replacement.move * own->inverse());
   if (!curve || curve->knots() != replacement.curve.knots()) return false;
   const Points &p = curve->control_points(), &q = replacement.curve.control_points();
-  return p.rows() == q.rows() && (p - q).cwiseAbs().maxCoeff() <= 1e-13 * (1 + q.cwiseAbs().maxCoeff());
+  return p.rows() == q.rows() &&
+         (p - q).cwiseAbs().maxCoeff() <= 1e-13 * (1 + q.cwiseAbs().maxCoeff());
 }
 
 }  // namespace knead::iges

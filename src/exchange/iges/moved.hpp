@@ -12,9 +12,10 @@ namespace knead::iges {
 
 /// Another curve in space for a curve entity, which becomes a B-spline curve (126).
 struct CurveReplacement {
-  int number = 0;                                      ///< directory number
-  Curve curve;                                         ///< in the coordinates of the model
-  Eigen::Affine3d move = Eigen::Affine3d::Identity();  ///< from the entity's own coordinates to the model's
+  int number = 0;  ///< directory number
+  Curve curve;     ///< in the coordinates of the model
+  Eigen::Affine3d move =
+      Eigen::Affine3d::Identity();  ///< from the entity's own coordinates to the model's
 };
 
 /// Other coordinates for entries of vertex lists (502).
@@ -29,16 +30,19 @@ struct MovedEntities {
   std::vector<VertexReplacement> vertices;
 };
 
-/// Whether an edge of the view can be written anew. Error (input): a curve along it belongs to another edge, or makes a
-/// surface, that would move with it.
-[[nodiscard]] Expected<void> can_move(const File& file, const EdgeSources& sources, const std::string& edge);
+/// Whether an edge of the view can be written anew. Error (input): a curve along it belongs to
+/// another edge, or makes a surface, that would move with it.
+[[nodiscard]] Expected<void> can_move(const File& file, const EdgeSources& sources,
+                                      const std::string& edge);
 
-/// The entities that stand for moved edges and vertices of the view: each curve along an edge gets the edge's new one,
-/// in its own direction.
-[[nodiscard]] Expected<MovedEntities> moved_entities(const EdgeSources& sources, const brep::MovedEdges& moved);
+/// The entities that stand for moved edges and vertices of the view: each curve along an edge gets
+/// the edge's new one, in its own direction.
+[[nodiscard]] Expected<MovedEntities> moved_entities(const EdgeSources& sources,
+                                                     const brep::MovedEdges& moved);
 
 /// The parameters that make an entity this curve, with what others add to them.
-[[nodiscard]] Expected<std::vector<std::string>> curve_values(const File& file, const CurveReplacement& replacement,
+[[nodiscard]] Expected<std::vector<std::string>> curve_values(const File& file,
+                                                              const CurveReplacement& replacement,
                                                               const Parameters& parameters);
 
 /// The parameters of the vertex lists with these coordinates, by directory number.

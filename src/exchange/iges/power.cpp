@@ -12,10 +12,12 @@ namespace {
 constexpr int most_patches = 1 << 22;
 constexpr std::size_t coefficients = 16, per_patch = 3 * coefficients;
 
-/// Control points of the polynomial Σ p_ab s^a t^b over 0 ≤ s ≤ width, 0 ≤ t ≤ height: entry a + 4 b.
+/// Control points of the polynomial Σ p_ab s^a t^b over 0 ≤ s ≤ width, 0 ≤ t ≤ height: entry a + 4
+/// b.
 std::array<double, coefficients> bezier(const double* p, double width, double height) {
   // c_k = Σ_a≤k binomial(k, a) / binomial(3, a) p_a h^a
-  constexpr double share[4][4] = {{1, 0, 0, 0}, {1, 1.0 / 3, 0, 0}, {1, 2.0 / 3, 1.0 / 3, 0}, {1, 1, 1, 1}};
+  constexpr double share[4][4] = {
+      {1, 0, 0, 0}, {1, 1.0 / 3, 0, 0}, {1, 2.0 / 3, 1.0 / 3, 0}, {1, 1, 1, 1}};
   std::array<double, coefficients> in_u{}, result{};
   const std::array<double, 4> u = {1, width, width * width, width * width * width},
                               v = {1, height, height * height, height * height * height};
@@ -26,7 +28,8 @@ std::array<double, coefficients> bezier(const double* p, double width, double he
   }
   for (std::size_t a = 0; a < 4; ++a) {
     for (std::size_t k = 0; k < 4; ++k) {
-      for (std::size_t b = 0; b <= k; ++b) result[a + 4 * k] += share[k][b] * in_u[a + 4 * b] * v[b];
+      for (std::size_t b = 0; b <= k; ++b)
+        result[a + 4 * k] += share[k][b] * in_u[a + 4 * b] * v[b];
     }
   }
   return result;
@@ -45,7 +48,8 @@ Expected<KnotVector> knots_of(const std::vector<double>& breaks) {
 Expected<Surface> read_power_surface(const File& file, int number, const Eigen::Affine3d& move) {
   const auto parameters = file.parameters(number);
   if (!parameters) return std::unexpected(parameters.error());
-  const auto head = numbers(file, number, *parameters, 1, 4);  // kind, whether patches are Cartesian products, M, N
+  const auto head = numbers(file, number, *parameters, 1,
+                            4);  // kind, whether patches are Cartesian products, M, N
   if (!head) return std::unexpected(head.error());
   const double rows = (*head)[2], columns = (*head)[3];
   if (!(rows >= 1 && columns >= 1 && rows * columns <= most_patches) || rows != std::floor(rows) ||
@@ -53,14 +57,17 @@ Expected<Surface> read_power_surface(const File& file, int number, const Eigen::
     return file.error(number, "its number of patches is out of range");
   }
   const auto m = static_cast<std::size_t>(rows), n = static_cast<std::size_t>(columns);
-  const auto u = numbers(file, number, *parameters, 5, m + 1), v = numbers(file, number, *parameters, 6 + m, n + 1);
+  const auto u = numbers(file, number, *parameters, 5, m + 1),
+             v = numbers(file, number, *parameters, 6 + m, n + 1);
   if (!u || !v) return std::unexpected(!u ? u.error() : v.error());
   // Of each row of patches, and of the last patch, an additional one without meaning.
   const std::size_t first = 7 + m + n, needed = per_patch * ((m - 1) * (n + 1) + n);
   const auto all = numbers(file, number, *parameters, first, needed);
   if (!all) return std::unexpected(all.error());
   auto in_u = knots_of(*u), in_v = knots_of(*v);
-  if (!in_u || !in_v) return file.error(number, "its breakpoints: " + (!in_u ? in_u.error() : in_v.error()).message());
+  if (!in_u || !in_v)
+    return file.error(number,
+                      "its breakpoints: " + (!in_u ? in_u.error() : in_v.error()).message());
 
   const auto across = static_cast<Eigen::Index>(3 * n + 1);
   Points points = Points::Constant(static_cast<Eigen::Index>(3 * m + 1) * across, 3, NAN);
@@ -69,9 +76,11 @@ Expected<Surface> read_power_surface(const File& file, int number, const Eigen::
     for (std::size_t j = 0; j < n; ++j) {
       const double* patch = &(*all)[per_patch * (i * (n + 1) + j)];
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto own = bezier(patch + coefficients * c, (*u)[i + 1] - (*u)[i], (*v)[j + 1] - (*v)[j]);
+        const auto own =
+            bezier(patch + coefficients * c, (*u)[i + 1] - (*u)[i], (*v)[j + 1] - (*v)[j]);
         for (std::size_t k = 0; k < coefficients; ++k) {
-          const auto row = static_cast<Eigen::Index>(3 * i + k % 4) * across + static_cast<Eigen::Index>(3 * j + k / 4);
+          const auto row = static_cast<Eigen::Index>(3 * i + k % 4) * across +
+                           static_cast<Eigen::Index>(3 * j + k / 4);
           double& x = points(row, static_cast<Eigen::Index>(c));
           if (!std::isnan(x)) apart = std::max(apart, std::abs(x - own[k]));
           if (std::isnan(x)) x = own[k];
@@ -81,7 +90,8 @@ Expected<Surface> read_power_surface(const File& file, int number, const Eigen::
   }
   const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
   if (apart > std::max(file.global().resolution, 1e-9 * size)) {
-    return file.error(number, fmt::format("its patches are {:.2g} apart where they should meet", apart));
+    return file.error(number,
+                      fmt::format("its patches are {:.2g} apart where they should meet", apart));
   }
   for (Eigen::Index k = 0; k < points.rows(); ++k)
     points.row(k) = (move * Point(points.row(k).transpose())).transpose();

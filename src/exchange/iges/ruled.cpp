@@ -11,8 +11,10 @@
 namespace knead::iges {
 namespace {
 
-constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();  // of knots moved to 0 … 1, and of weights
-constexpr const char* remedy = "convert it to a B-spline surface in the program that wrote the file";
+// Of knots moved to 0 … 1, and of weights.
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr const char* remedy =
+    "convert it to a B-spline surface in the program that wrote the file";
 
 /// The part of a curve over `range`, clamped, on the parameters 0 … 1.
 Expected<Curve> over_unit(const Curve& whole, const Interval& range) {
@@ -30,7 +32,9 @@ Expected<Curve> over_unit(const Curve& whole, const Interval& range) {
   std::vector<double> knots = {0};
   for (auto k = first; k < last + p; ++k) {
     const double t = all[static_cast<std::size_t>(k)];
-    knots.push_back(t >= range.upper ? 1 : t <= range.lower ? 0 : (t - range.lower) / range.length());
+    knots.push_back(t >= range.upper   ? 1
+                    : t <= range.lower ? 0
+                                       : (t - range.lower) / range.length());
   }
   knots.push_back(1);
   auto vector = KnotVector::create(p, std::move(knots));
@@ -41,13 +45,15 @@ Expected<Curve> over_unit(const Curve& whole, const Interval& range) {
     const auto own = fine->weights();
     weights.assign(own.begin() + first - 1, own.begin() + first - 1 + count);
   }
-  return Curve::create({*std::move(vector)}, fine->control_points().middleRows(first - 1, count), std::move(weights));
+  return Curve::create({*std::move(vector)}, fine->control_points().middleRows(first - 1, count),
+                       std::move(weights));
 }
 
 /// A line (110) or a B-spline curve (126) over 0 … 1.
 Expected<Curve> side(const File& file, int ruled, int number, const Eigen::Affine3d& outer) {
   const Entity* entity = file.find(number);
-  if (entity == nullptr) return file.error(ruled, "it has no second or no first curve", "get the whole file");
+  if (entity == nullptr)
+    return file.error(ruled, "it has no second or no first curve", "get the whole file");
   const auto parameters = file.parameters(number);
   if (!parameters) return std::unexpected(parameters.error());
   if (entity->type == 110) {
@@ -63,8 +69,10 @@ Expected<Curve> side(const File& file, int ruled, int number, const Eigen::Affin
     return Curve::create({*KnotVector::create(1, {0, 0, 1, 1})}, std::move(points));
   }
   if (entity->type != 126) {
-    return file.error(
-        ruled, fmt::format("a ruled surface at {}, which is no line or B-spline curve", file.label(number)), remedy);
+    return file.error(ruled,
+                      fmt::format("a ruled surface at {}, which is no line or B-spline curve",
+                                  file.label(number)),
+                      remedy);
   }
   const auto curve = read_curve(file, number, outer);
   if (!curve) return curve;
@@ -110,10 +118,12 @@ bool same_weights(const Curve& a, const Curve& b) {
 Expected<Surface> read_ruled_surface(const File& file, int number, const Eigen::Affine3d& move) {
   const auto parameters = file.parameters(number);
   if (!parameters) return std::unexpected(parameters.error());
-  const auto head = numbers(file, number, *parameters, 1, 3);  // curves, and whether the second one is turned
+  // Curves, and whether the second one is turned.
+  const auto head = numbers(file, number, *parameters, 1, 3);
   if (!head) return std::unexpected(head.error());
-  std::array<Curve, 2> sides = {*Curve::create({*KnotVector::create(1, {0, 0, 1, 1})}, Points::Zero(2, 3)),
-                                *Curve::create({*KnotVector::create(1, {0, 0, 1, 1})}, Points::Zero(2, 3))};
+  std::array<Curve, 2> sides = {
+      *Curve::create({*KnotVector::create(1, {0, 0, 1, 1})}, Points::Zero(2, 3)),
+      *Curve::create({*KnotVector::create(1, {0, 0, 1, 1})}, Points::Zero(2, 3))};
   for (std::size_t k = 0; k < 2; ++k) {
     auto own = side(file, number, static_cast<int>((*head)[k]), move);
     if (!own) return std::unexpected(own.error());
@@ -123,7 +133,9 @@ Expected<Surface> read_ruled_surface(const File& file, int number, const Eigen::
   const bool lines = sides[0].size() == 2 && sides[1].size() == 2;
   if (file.find(number)->form != 1 && !lines) {
     return file.error(
-        number, "a ruled surface by equal lengths along its curves (form 0), which is no B-spline surface", remedy);
+        number,
+        "a ruled surface by equal lengths along its curves (form 0), which is no B-spline surface",
+        remedy);
   }
   for (std::size_t k = 0; k < 2; ++k) {
     const int times = sides[1 - k].knots(0).degree() - sides[k].knots(0).degree();
@@ -137,7 +149,9 @@ Expected<Surface> read_ruled_surface(const File& file, int number, const Eigen::
   const auto second = insert_knots<1>(sides[1], {lacking(sides[1], *first)});
   if (!second) return std::unexpected(second.error());
   if (first->size() != second->size() || !same_weights(*first, *second)) {
-    return file.error(number, "a ruled surface at curves with different weights, which is read no further", remedy);
+    return file.error(number,
+                      "a ruled surface at curves with different weights, which is read no further",
+                      remedy);
   }
   const Eigen::Index n = first->size();
   Points points(2 * n, 3);  // u along the curves is slow
@@ -145,10 +159,11 @@ Expected<Surface> read_ruled_surface(const File& file, int number, const Eigen::
   for (Eigen::Index k = 0; k < n; ++k) {
     points.row(2 * k) = first->control_points().row(k);
     points.row(2 * k + 1) = second->control_points().row(k);
-    if (first->rational()) weights.insert(weights.end(), 2, first->weights()[static_cast<std::size_t>(k)]);
+    if (first->rational())
+      weights.insert(weights.end(), 2, first->weights()[static_cast<std::size_t>(k)]);
   }
-  auto surface =
-      Surface::create({first->knots(0), *KnotVector::create(1, {0, 0, 1, 1})}, std::move(points), std::move(weights));
+  auto surface = Surface::create({first->knots(0), *KnotVector::create(1, {0, 0, 1, 1})},
+                                 std::move(points), std::move(weights));
   if (!surface) return file.error(number, surface.error().message());
   return surface;
 }

@@ -34,10 +34,12 @@ int Sections::add(int type, Values values, const Entry& entry) {
   values.insert(values.begin(), std::to_string(type));
   const int number = File::number(entities_++);
   const std::vector<std::string> lines = wrapped(values, global_, "");
-  directory_ += fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}D{:>7}{}", type, records_ + 1, 0, 0, 0, 0,
-                            entry.transform, 0, entry.dependent ? "00010000" : "00000000", number, line_end);
-  directory_ += fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}D{:>7}{}", type, 0, -entry.colour,
-                            lines.size(), entry.form, "", "", name.substr(0, label_columns), 0, number + 1, line_end);
+  directory_ += fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}D{:>7}{}", type,
+                            records_ + 1, 0, 0, 0, 0, entry.transform, 0,
+                            entry.dependent ? "00010000" : "00000000", number, line_end);
+  directory_ += fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}D{:>7}{}", type, 0,
+                            -entry.colour, lines.size(), entry.form, "", "",
+                            name.substr(0, label_columns), 0, number + 1, line_end);
   for (const std::string& line : lines) {
     parameters_ += fmt::format("{:<64}{:>8}P{:>7}{}", line, number, ++records_, line_end);
   }
@@ -53,13 +55,15 @@ int Sections::add_colour(const Colour& colour) {
 }
 
 std::string Sections::text(std::string_view title, const std::string& global) const {
-  std::string result = fmt::format("{:<72}S{:>7}{}", ascii(title).substr(0, letter_column), 1, line_end);
+  std::string result =
+      fmt::format("{:<72}S{:>7}{}", ascii(title).substr(0, letter_column), 1, line_end);
   int globals = 0;
   for (std::size_t at = 0; at < global.size(); at += letter_column) {
     result += fmt::format("{:<72}G{:>7}{}", global.substr(at, letter_column), ++globals, line_end);
   }
   return result + directory_ + parameters_ +
-         fmt::format("S{:>7}G{:>7}D{:>7}P{:>7}{:<40}T{:>7}{}", 1, globals, 2 * entities_, records_, "", 1, line_end);
+         fmt::format("S{:>7}G{:>7}D{:>7}P{:>7}{:<40}T{:>7}{}", 1, globals, 2 * entities_, records_,
+                     "", 1, line_end);
 }
 
 void append(Values& to, std::span<const double> numbers) {
@@ -74,16 +78,19 @@ std::string hollerith_of(std::string_view text) {
 Expected<const KnownLengthUnit*> unit_of_new_file(const std::string& name) {
   const KnownLengthUnit* unit = length_unit_named(name.empty() ? "mm" : name);
   if (unit != nullptr && unit->iges_flag != 0) return unit;
-  return input_error("the unit " + name + " is not known to IGES", "unit",
-                     "use " + list_of_units([](const KnownLengthUnit& u) { return u.iges_flag != 0; }));
+  return input_error(
+      "the unit " + name + " is not known to IGES", "unit",
+      "use " + list_of_units([](const KnownLengthUnit& u) { return u.iges_flag != 0; }));
 }
 
-std::string global_section(std::string_view title, const KnownLengthUnit& unit, double largest, double resolution) {
+std::string global_section(std::string_view title, const KnownLengthUnit& unit, double largest,
+                           double resolution) {
   return fmt::format(
-      "1H,,1H;,{0},{0},5HKnead,5HKnead,32,38,6,308,15,{0},1.,{1},{2},1,0.1,15H20000101.000000,{3},{4},,,11,0,"
+      "1H,,1H;,{0},{0},5HKnead,5HKnead,32,38,6,308,15,{0},1.,{1},{2},1,0.1,15H20000101.000000,{3},{"
+      "4},,,11,0,"
       "15H20000101.000000;",
-      hollerith_of(title), unit.iges_flag, hollerith_of(unit.iges_name), format_shortest_real(resolution),
-      format_real(largest));
+      hollerith_of(title), unit.iges_flag, hollerith_of(unit.iges_name),
+      format_shortest_real(resolution), format_real(largest));
 }
 
 }  // namespace knead::iges

@@ -50,7 +50,7 @@ void append(Values& to, std::span<const double> numbers);
 [[nodiscard]] Expected<const KnownLengthUnit*> unit_of_new_file(const std::string& name);
 
 /// \param largest coordinate
-[[nodiscard]] std::string global_section(std::string_view title, const KnownLengthUnit& unit, double largest,
-                                         double resolution);
+[[nodiscard]] std::string global_section(std::string_view title, const KnownLengthUnit& unit,
+                                         double largest, double resolution);
 
 }  // namespace knead::iges

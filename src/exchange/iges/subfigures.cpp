@@ -38,16 +38,20 @@ class Subfigures {
     const brep::Index root = next;
     for (const auto& [number, definition] : definitions_) {
       graph[definition.part].name = definition.title;
-      for (const int instance : definition.instances) use(graph, definition.part, definition.title, instance);
+      for (const int instance : definition.instances)
+        use(graph, definition.part, definition.title, instance);
     }
     for (std::size_t k = 0; k < file_.entities().size(); ++k) {
       const int number = File::number(k);
-      if (file_.entities()[k].type == 408 && !inside_.contains(number)) use(graph, root, {}, number);
+      if (file_.entities()[k].type == 408 && !inside_.contains(number))
+        use(graph, root, {}, number);
     }
-    for (brep::Index k = 0; k <= root && !model_.units.empty(); ++k) graph[k].unit = model_.units.front();
+    for (brep::Index k = 0; k <= root && !model_.units.empty(); ++k)
+      graph[k].unit = model_.units.front();
     graph[root].product = true;
     brep::Assembly result;
-    if (auto done = graph.place(model_.length_unit(), result); !done) return std::unexpected(done.error());
+    if (auto done = graph.place(model_.length_unit(), result); !done)
+      return std::unexpected(done.error());
     fill(graph, result);
     return result;
   }
@@ -77,8 +81,8 @@ class Subfigures {
     }
   }
 
-  /// The faces of a solid (186: its shell and that of each void, with flags) or a shell (514: their number, and of each
-  /// whether it is turned).
+  /// The faces of a solid (186: its shell and that of each void, with flags) or a shell (514: their
+  /// number, and of each whether it is turned).
   void add_faces(int number, std::vector<int>& faces) {
     const auto parameters = file_.parameters(number);
     if (!parameters) return;
@@ -121,8 +125,10 @@ class Subfigures {
   void use(brep::PartGraph& graph, brep::Index parent, const std::string& title, int instance) {
     const auto parameters = file_.parameters(instance);
     const bool whole = parameters && parameters->values.size() >= 2;
-    const auto definition = whole ? definitions_.find(integer(parameters->values[1]).value_or(0)) : definitions_.end();
-    const auto move = definition != definitions_.end() ? move_of(instance, *parameters) : std::nullopt;
+    const auto definition =
+        whole ? definitions_.find(integer(parameters->values[1]).value_or(0)) : definitions_.end();
+    const auto move =
+        definition != definitions_.end() ? move_of(instance, *parameters) : std::nullopt;
     if (!move) {
       unplaced_.insert(instance);
       return;
@@ -134,7 +140,8 @@ class Subfigures {
     made.child = definition->second.title;
   }
 
-  /// Gives every part the faces of its definition and the surfaces below them, and what is in none to one of its own.
+  /// Gives every part the faces of its definition and the surfaces below them, and what is in none
+  /// to one of its own.
   void fill(brep::PartGraph& graph, brep::Assembly& result) {
     std::map<std::string, brep::Index> faces;
     for (brep::Index f = 0; f < model_.faces.size(); ++f) faces.emplace(model_.faces[f].id, f);

@@ -29,15 +29,18 @@ std::string number(const std::vector<std::string>& old, std::size_t at, double v
 std::string field(std::string_view old, long long value) {
   const auto first = old.find_first_not_of(' ');
   const bool zeros = first != std::string_view::npos && old[first] == '0' && old.size() - first > 1;
-  return zeros ? fmt::format("{:0{}}", value, old.size()) : fmt::format("{:>{}}", value, old.size());
+  return zeros ? fmt::format("{:0{}}", value, old.size())
+               : fmt::format("{:>{}}", value, old.size());
 }
 
 /// The parameters of an entity with another surface.
-Expected<std::vector<std::string>> values_of(const File& file, const Replacement& r, const Parameters& parameters) {
+Expected<std::vector<std::string>> values_of(const File& file, const Replacement& r,
+                                             const Parameters& parameters) {
   const auto at = surface_layout(file, r.number, parameters);
   const auto outer = outer_transform(file, r.number);
   const auto own = transform_of(file, r.number);
-  if (!at || !outer || !own) return std::unexpected(!at ? at.error() : !outer ? outer.error() : own.error());
+  if (!at || !outer || !own)
+    return std::unexpected(!at ? at.error() : !outer ? outer.error() : own.error());
   const Eigen::Affine3d move = *outer * *own, back = move.inverse();
   const auto before = read_surface(file, r.number, *outer);
   if (!before) return std::unexpected(before.error());
@@ -64,18 +67,22 @@ Expected<std::vector<std::string>> values_of(const File& file, const Replacement
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < m; ++i) {
       const std::size_t place = at->weights + (same_net ? static_cast<std::size_t>(i + m * j) : 0);
-      result.push_back(!s.rational() ? old[place]
-                                     : number(old, place, s.weights()[static_cast<std::size_t>(i * n + j)]));
+      result.push_back(!s.rational()
+                           ? old[place]
+                           : number(old, place, s.weights()[static_cast<std::size_t>(i * n + j)]));
     }
   }
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < m; ++i) {
       const Point p = s.control_points().row(i * n + j).transpose();
-      const std::size_t place = same_net ? at->points + 3 * static_cast<std::size_t>(i + m * j) : old.size();
-      const bool kept = same_net && !still && p == Point(before->control_points().row(i * n + j).transpose());
+      const std::size_t place =
+          same_net ? at->points + 3 * static_cast<std::size_t>(i + m * j) : old.size();
+      const bool kept =
+          same_net && !still && p == Point(before->control_points().row(i * n + j).transpose());
       const Point q = still ? p : Point(back * p);
       for (std::size_t c = 0; c < 3; ++c) {
-        result.push_back(kept ? old[place + c] : number(old, place + c, q[static_cast<Eigen::Index>(c)]));
+        result.push_back(kept ? old[place + c]
+                              : number(old, place + c, q[static_cast<Eigen::Index>(c)]));
       }
     }
   }
@@ -83,9 +90,10 @@ Expected<std::vector<std::string>> values_of(const File& file, const Replacement
   return result;
 }
 
-/// The parameters that make a parametric spline surface (114) or a ruled surface (118) a B-spline surface (128), with
-/// what others add to them.
-Expected<std::vector<std::string>> spline_values(const File& file, const Replacement& r, const Parameters& parameters) {
+/// The parameters that make a parametric spline surface (114) or a ruled surface (118) a B-spline
+/// surface (128), with what others add to them.
+Expected<std::vector<std::string>> spline_values(const File& file, const Replacement& r,
+                                                 const Parameters& parameters) {
   const auto outer = outer_transform(file, r.number);
   const auto own = transform_of(file, r.number);
   if (!outer || !own) return std::unexpected(!outer ? outer.error() : own.error());
@@ -102,11 +110,13 @@ Expected<std::vector<std::string>> spline_values(const File& file, const Replace
   // Behind what describes it, as all patches: pointers to associativities and properties.
   std::size_t end = 5;
   if (file.find(r.number)->type == 114) {
-    const auto m = integer(parameters.values[3]).value_or(0), n = integer(parameters.values[4]).value_or(0);
+    const auto m = integer(parameters.values[3]).value_or(0),
+               n = integer(parameters.values[4]).value_or(0);
     end = 7 + static_cast<std::size_t>(m + n) +
           std::size_t{48} * static_cast<std::size_t>(m + 1) * static_cast<std::size_t>(n + 1);
   }
-  for (std::size_t k = end; k < parameters.values.size(); ++k) values.push_back(parameters.values[k]);
+  for (std::size_t k = end; k < parameters.values.size(); ++k)
+    values.push_back(parameters.values[k]);
   return values;
 }
 
@@ -123,7 +133,8 @@ class Surgeon {
     }
     const auto parameters = file_.parameters(r.number);
     if (!parameters) return std::unexpected(parameters.error());
-    const auto values = other ? spline_values(file_, r, *parameters) : values_of(file_, r, *parameters);
+    const auto values =
+        other ? spline_values(file_, r, *parameters) : values_of(file_, r, *parameters);
     if (!values) return std::unexpected(values.error());
     if (*values == parameters->values) return {};
     put(r.number, *parameters, *values);
@@ -194,7 +205,8 @@ class Surgeon {
   }
 
   void put(std::size_t begin, std::size_t width, std::string text) {
-    if (file_.bytes().compare(begin, width, text) != 0) edits_[begin] = {begin + width, std::move(text)};
+    if (file_.bytes().compare(begin, width, text) != 0)
+      edits_[begin] = {begin + width, std::move(text)};
   }
 
   void parameters() {
@@ -216,7 +228,8 @@ class Surgeon {
       }
       const auto& [count, lines] = change->second;
       const std::string_view first = file_.text(records[k]);
-      const std::string_view sequence = first.substr(letter_column + 1, record_columns - letter_column - 1);
+      const std::string_view sequence =
+          first.substr(letter_column + 1, record_columns - letter_column - 1);
       std::string text;
       for (std::size_t n = 0; n < lines.size(); ++n) {
         text += fmt::format("{}{:<64}{}P{}", n == 0 ? "" : eol, lines[n],
@@ -245,7 +258,8 @@ class Surgeon {
         put_field(records[2 * k + 1], 4, 0);
       }
       const auto count = counts_.find(File::number(k));
-      if (count != counts_.end()) put_field(records[2 * k + 1], 3, static_cast<long long>(count->second));
+      if (count != counts_.end())
+        put_field(records[2 * k + 1], 3, static_cast<long long>(count->second));
     }
   }
 
@@ -265,28 +279,32 @@ class Surgeon {
   }
 
   const File& file_;
-  std::map<std::size_t, Change> changes_;     // by first record
-  std::map<int, std::size_t> counts_;         // new counts of the directory
-  std::map<int, int> types_;                  // of entities of another type than before
-  std::map<std::size_t, std::size_t> moved_;  // the new number of each record that is kept or begins an entity
-  std::map<std::size_t, Edit> edits_;         // by first byte
+  std::map<std::size_t, Change> changes_;  // by first record
+  std::map<int, std::size_t> counts_;      // new counts of the directory
+  std::map<int, int> types_;               // of entities of another type than before
+  std::map<std::size_t, std::size_t>
+      moved_;  // the new number of each record that is kept or begins an entity
+  std::map<std::size_t, Edit> edits_;  // by first byte
   std::size_t written_ = 0;
 };
 
 bool same_bits(const Surface& a, const Surface& b) {
-  return a.knots() == b.knots() && std::ranges::equal(a.weights(), b.weights()) && a.net() == b.net() &&
+  return a.knots() == b.knots() && std::ranges::equal(a.weights(), b.weights()) &&
+         a.net() == b.net() &&
          std::memcmp(a.control_points().data(), b.control_points().data(),
                      static_cast<std::size_t>(a.control_points().size()) * sizeof(double)) == 0;
 }
 
-Expected<void> check(const File& before, const std::string& bytes, std::span<const Replacement> replacements,
-                     const MovedEntities& moved) {
+Expected<void> check(const File& before, const std::string& bytes,
+                     std::span<const Replacement> replacements, const MovedEntities& moved) {
   const auto failed = [&](int number, const std::string& what) {
-    return numerical_error("the written file does not read back: " + what, before.label(number), "report this");
+    return numerical_error("the written file does not read back: " + what, before.label(number),
+                           "report this");
   };
   const auto after = File::parse(bytes, before.name());
   if (!after) return failed(1, after.error().message());
-  if (after->entities().size() != before.entities().size()) return failed(1, "another number of entities");
+  if (after->entities().size() != before.entities().size())
+    return failed(1, "another number of entities");
   const auto lists = vertex_values(before, moved.vertices);
   if (!lists) return std::unexpected(lists.error());
   for (std::size_t k = 0; k < before.entities().size(); ++k) {
@@ -309,13 +327,16 @@ Expected<void> check(const File& before, const std::string& bytes, std::span<con
       continue;
     }
     const auto outer = outer_transform(*after, number);
-    const auto surface = outer ? read_surface(*after, number, *outer) : std::unexpected(outer.error());
+    const auto surface =
+        outer ? read_surface(*after, number, *outer) : std::unexpected(outer.error());
     if (!surface) return failed(number, surface.error().message());
     const auto own = transform_of(*after, number);
     const bool still = (*outer * *own).matrix().isIdentity(0);
     const Points &p = surface->control_points(), &q = r->surface.control_points();
-    const bool close = p.rows() == q.rows() && (p - q).cwiseAbs().maxCoeff() <= 1e-13 * (1 + q.cwiseAbs().maxCoeff());
-    if (still ? !same_bits(*surface, r->surface) : !close) return failed(number, "the surface differs");
+    const bool close = p.rows() == q.rows() &&
+                       (p - q).cwiseAbs().maxCoeff() <= 1e-13 * (1 + q.cwiseAbs().maxCoeff());
+    if (still ? !same_bits(*surface, r->surface) : !close)
+      return failed(number, "the surface differs");
   }
   return {};
 }
@@ -326,7 +347,8 @@ std::vector<std::string> wrapped(const std::vector<std::string>& values, const G
                                  const std::string& rest) {
   std::vector<std::string> lines(1);
   const auto put = [&](std::string token) {
-    if (lines.back().size() + token.size() > data_columns && !lines.back().empty()) lines.emplace_back();
+    if (lines.back().size() + token.size() > data_columns && !lines.back().empty())
+      lines.emplace_back();
     while (token.size() > data_columns) {
       lines.back() = token.substr(0, data_columns);
       token.erase(0, data_columns);
@@ -351,7 +373,8 @@ Expected<std::string> with_surfaces(const File& file, std::span<const Replacemen
   }
   if (auto done = surgeon.replace(moved); !done) return std::unexpected(std::move(done.error()));
   std::string bytes = surgeon.bytes();
-  if (auto done = check(file, bytes, replacements, moved); !done) return std::unexpected(std::move(done.error()));
+  if (auto done = check(file, bytes, replacements, moved); !done)
+    return std::unexpected(std::move(done.error()));
   return bytes;
 }
 

@@ -18,18 +18,20 @@ struct Replacement {
 
 /// The bytes of the file with these surfaces, and every other byte as it was.
 ///
-/// The parameter records of a changed entity are written anew in 64 columns; numbers that stay the same keep their
-/// text, others have 17 digits. Where their number changes, the records behind them are numbered anew, and so are the
-/// pointers and the count in the directory and the count in the terminate section. Points of an entity with a
-/// transformation matrix go back through its inverse, to rounding. `moved`: curves become entities 126 in their places,
-/// and vertices move in their lists (502). The result is read again and compared: the surfaces, the curves to 1e-13,
-/// and the parameters of all other entities. Errors: unknown numbers (input); the check fails (numerical). Cost: linear
-/// in the file.
-[[nodiscard]] Expected<std::string> with_surfaces(const File& file, std::span<const Replacement> replacements,
+/// The parameter records of a changed entity are written anew in 64 columns; numbers that stay the
+/// same keep their text, others have 17 digits. Where their number changes, the records behind them
+/// are numbered anew, and so are the pointers and the count in the directory and the count in the
+/// terminate section. Points of an entity with a transformation matrix go back through its inverse,
+/// to rounding. `moved`: curves become entities 126 in their places, and vertices move in their
+/// lists (502). The result is read again and compared: the surfaces, the curves to 1e-13, and the
+/// parameters of all other entities. Errors: unknown numbers (input); the check fails (numerical).
+/// Cost: linear in the file.
+[[nodiscard]] Expected<std::string> with_surfaces(const File& file,
+                                                  std::span<const Replacement> replacements,
                                                   const MovedEntities& moved = {});
 
 /// Parameters in records of 64 columns, and what follows the terminator.
-[[nodiscard]] std::vector<std::string> wrapped(const std::vector<std::string>& values, const Global& global,
-                                               const std::string& rest);
+[[nodiscard]] std::vector<std::string> wrapped(const std::vector<std::string>& values,
+                                               const Global& global, const std::string& rest);
 
 }  // namespace knead::iges

@@ -13,8 +13,10 @@ namespace knead::detail {
 namespace {
 
 // glTF 2.0 (Khronos Group), binary container: a header, a chunk of JSON and a chunk of numbers.
-constexpr std::uint32_t magic = 0x46546C67, version = 2, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
-constexpr int component_float = 5126, component_unsigned_int = 5125, target_vertices = 34962, target_indices = 34963;
+constexpr std::uint32_t magic = 0x46546C67, version = 2, json_chunk = 0x4E4F534A,
+                        binary_chunk = 0x004E4942;
+constexpr int component_float = 5126, component_unsigned_int = 5125, target_vertices = 34962,
+              target_indices = 34963;
 
 using Json = nlohmann::ordered_json;
 
@@ -32,12 +34,16 @@ struct Buffer {
   /// Ends a view that began at byte `begin`; returns the index of an accessor for all of it.
   int finish(std::size_t begin, int target, Json accessor) {
     accessor["bufferView"] = views.size();
-    views.push_back({{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size() - begin}, {"target", target}});
+    views.push_back({{"buffer", 0},
+                     {"byteOffset", begin},
+                     {"byteLength", bytes.size() - begin},
+                     {"target", target}});
     accessors.push_back(std::move(accessor));
     return static_cast<int>(accessors.size()) - 1;
   }
 
-  /// Vectors in single precision with the bounds of the numbers written, by which viewers place their camera.
+  /// Vectors in single precision with the bounds of the numbers written, by which viewers place
+  /// their camera.
   int vectors(const Points& points) {
     const std::size_t begin = bytes.size();
     for (Eigen::Index k = 0; k < points.rows(); ++k) append_point<float>(bytes, points.row(k));
@@ -60,11 +66,14 @@ struct Buffer {
       for (const std::uint32_t corner : t) append(bytes, corner);
     }
     return finish(begin, target_indices,
-                  {{"componentType", component_unsigned_int}, {"count", 3 * triangles.size()}, {"type", "SCALAR"}});
+                  {{"componentType", component_unsigned_int},
+                   {"count", 3 * triangles.size()},
+                   {"type", "SCALAR"}});
   }
 };
 
-/// One material per colour. Colours of CAD files are taken for sRGB, which screens show; glTF's are linear.
+/// One material per colour. Colours of CAD files are taken for sRGB, which screens show; glTF's are
+/// linear.
 struct Materials {
   Json list = Json::array();
 
@@ -74,8 +83,11 @@ struct Materials {
     Json surface = {{"metallicFactor", 0}, {"roughnessFactor", 0.6}};
     std::string name = "surface";
     if (colour) {
-      const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
-      surface["baseColorFactor"] = {linear((*colour)[0]), linear((*colour)[1]), linear((*colour)[2]), 1};
+      const auto linear = [](double c) {
+        return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+      };
+      surface["baseColorFactor"] = {linear((*colour)[0]), linear((*colour)[1]),
+                                    linear((*colour)[2]), 1};
       name = fmt::format("colour {:.3g} {:.3g} {:.3g}", (*colour)[0], (*colour)[1], (*colour)[2]);
     }
     list.push_back({{"name", name}, {"doubleSided", true}, {"pbrMetallicRoughness", surface}});
@@ -99,8 +111,10 @@ Expected<std::string> save_gltf(std::span<const NamedMesh> all, const SaveOption
   Json meshes = Json::array(), nodes = Json::array(), children = Json::array();
   for (const NamedMesh& mesh : all) {
     if (mesh.triangles.empty()) continue;  // accessors must not be empty
-    if (auto fits = fits_single_precision(mesh, "glTF"); !fits) return std::unexpected(fits.error());
-    Points unit = mesh.normals;  // glTF requires unit vectors even at points of no triangle, as beside a pole
+    if (auto fits = fits_single_precision(mesh, "glTF"); !fits)
+      return std::unexpected(fits.error());
+    Points unit =
+        mesh.normals;  // glTF requires unit vectors even at points of no triangle, as beside a pole
     for (Eigen::Index k = 0; k < unit.rows(); ++k) {
       if (unit.row(k).isZero(0)) unit.row(k) << 0, 0, 1;
     }
@@ -115,24 +129,26 @@ Expected<std::string> save_gltf(std::span<const NamedMesh> all, const SaveOption
     nodes.push_back({{"name", mesh.name}, {"mesh", meshes.size() - 1}});
   }
   if (meshes.empty()) return numerical_error("the surfaces have no area", {}, "write STEP");
-  // A parent node of the surfaces converts z up to y up and units to metres, so that coordinates stay those of the
-  // file.
+  // A parent node of the surfaces converts z up to y up and units to metres, so that coordinates
+  // stay those of the file.
   const double scale = metres(options.unit);
   nodes.insert(nodes.begin(), Json{{"name", options.title},
                                    {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},
                                    {"scale", {scale, scale, scale}},
                                    {"children", children}});
-  const Json document = {{"asset", {{"version", "2.0"}, {"generator", "Knead" + lengths_in(options.unit)}}},
-                         {"scene", 0},
-                         {"scenes", {{{"nodes", {0}}}}},
-                         {"nodes", nodes},
-                         {"meshes", meshes},
-                         {"materials", materials.list},
-                         {"accessors", buffer.accessors},
-                         {"bufferViews", buffer.views},
-                         {"buffers", {{{"byteLength", buffer.bytes.size()}}}}};
+  const Json document = {
+      {"asset", {{"version", "2.0"}, {"generator", "Knead" + lengths_in(options.unit)}}},
+      {"scene", 0},
+      {"scenes", {{{"nodes", {0}}}}},
+      {"nodes", nodes},
+      {"meshes", meshes},
+      {"materials", materials.list},
+      {"accessors", buffer.accessors},
+      {"bufferViews", buffer.views},
+      {"buffers", {{{"byteLength", buffer.bytes.size()}}}}};
   std::string chunks;
-  append_chunk(chunks, json_chunk, document.dump(-1, ' ', false, Json::error_handler_t::replace), ' ');
+  append_chunk(chunks, json_chunk, document.dump(-1, ' ', false, Json::error_handler_t::replace),
+               ' ');
   append_chunk(chunks, binary_chunk, std::move(buffer.bytes), '\0');
   constexpr std::size_t header = 12;
   std::string text;
@@ -147,14 +163,15 @@ constexpr std::string_view gltf_endings[] = {".glb"};
 }  // namespace
 
 Format gltf_format() {
-  return {
-      .id = "gltf",
-      .name = "glTF",
-      .endings = gltf_endings,
-      .media_type = "model/gltf-binary",
-      .content = FormatContent::triangles,
-      .holds = "triangles with normals at the points, binary, single precision, a mesh per surface; shown in metres",
-      .save_meshes = save_gltf};
+  return {.id = "gltf",
+          .name = "glTF",
+          .endings = gltf_endings,
+          .media_type = "model/gltf-binary",
+          .content = FormatContent::triangles,
+          .holds =
+              "triangles with normals at the points, binary, single precision, a mesh per surface; "
+              "shown in metres",
+          .save_meshes = save_gltf};
 }
 
 }  // namespace knead::detail

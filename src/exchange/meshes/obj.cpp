@@ -22,10 +22,12 @@ Expected<std::string> save_obj(std::span<const NamedMesh> all, const SaveOptions
       fmt::format_to(out, "v {} {} {}\n", mesh.points(k, 0), mesh.points(k, 1), mesh.points(k, 2));
     }
     for (Eigen::Index k = 0; k < mesh.normals.rows(); ++k) {
-      fmt::format_to(out, "vn {:.6g} {:.6g} {:.6g}\n", mesh.normals(k, 0), mesh.normals(k, 1), mesh.normals(k, 2));
+      fmt::format_to(out, "vn {:.6g} {:.6g} {:.6g}\n", mesh.normals(k, 0), mesh.normals(k, 1),
+                     mesh.normals(k, 2));
     }
     for (const auto& t : mesh.triangles) {
-      fmt::format_to(out, "f {0}//{0} {1}//{1} {2}//{2}\n", first + t[0], first + t[1], first + t[2]);
+      fmt::format_to(out, "f {0}//{0} {1}//{1} {2}//{2}\n", first + t[0], first + t[1],
+                     first + t[2]);
     }
     first += static_cast<std::size_t>(mesh.points.rows());
   }

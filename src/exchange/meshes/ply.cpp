@@ -10,8 +10,10 @@ Expected<std::string> save_ply(std::span<const NamedMesh> all, const SaveOptions
   Eigen::Index vertices = 0;
   for (const NamedMesh& mesh : all) vertices += mesh.points.rows();
   std::string text = fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment Knead{}\nelement vertex {}\nproperty double x\nproperty double y\n"
-      "property double z\nproperty float nx\nproperty float ny\nproperty float nz\nelement face {}\n"
+      "ply\nformat binary_little_endian 1.0\ncomment Knead{}\nelement vertex {}\nproperty double "
+      "x\nproperty double y\n"
+      "property double z\nproperty float nx\nproperty float ny\nproperty float nz\nelement face "
+      "{}\n"
       "property list uchar uint vertex_indices\nend_header\n",
       lengths_in(options.unit), vertices, number_of_triangles(all));
   for (const NamedMesh& mesh : all) {

@@ -7,10 +7,12 @@
 namespace knead::detail {
 namespace {
 
-/// Whether two corners of a triangle are one in single precision: it would have no area and no normal. What shares them
-/// collapses along the same side, so that a closed mesh stays closed.
+/// Whether two corners of a triangle are one in single precision: it would have no area and no
+/// normal. What shares them collapses along the same side, so that a closed mesh stays closed.
 bool collapses(const Points& points, const std::array<std::uint32_t, 3>& triangle) {
-  const auto corner = [&](std::size_t k) -> Eigen::Vector3f { return points.row(triangle[k]).cast<float>(); };
+  const auto corner = [&](std::size_t k) -> Eigen::Vector3f {
+    return points.row(triangle[k]).cast<float>();
+  };
   return corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0);
 }
 

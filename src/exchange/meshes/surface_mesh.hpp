@@ -18,7 +18,8 @@ namespace knead::detail {
 [[nodiscard]] Expected<std::vector<NamedMesh>> meshes_of(std::span<const NamedSurface> surfaces,
                                                          const SaveOptions& options);
 /// Those of one, between these lines.
-[[nodiscard]] Expected<NamedMesh> mesh_of(const NamedSurface& item, const std::array<GridLines, 2>& lines);
+[[nodiscard]] Expected<NamedMesh> mesh_of(const NamedSurface& item,
+                                          const std::array<GridLines, 2>& lines);
 
 using brep::facet;
 
@@ -28,7 +29,8 @@ using brep::facet;
   return count;
 }
 
-/// Whether all coordinates can be written in single precision; if not, an error that names the surface and the format.
+/// Whether all coordinates can be written in single precision; if not, an error that names the
+/// surface and the format.
 [[nodiscard]] Expected<void> fits_single_precision(const NamedMesh& mesh, std::string_view format);
 
 /// ", lengths in mm", or nothing if the unit is unknown.

@@ -12,8 +12,9 @@ namespace {
 constexpr int spline_curve = 100, spline_surface = 200, spline_volume = 700;
 constexpr int most_coordinates = 3;
 
-/// The body of a surface: dimension, whether rational; of each direction the number of control points, the order and
-/// the knots; control points, multiplied by their weights where there are any, u fast.
+/// The body of a surface: dimension, whether rational; of each direction the number of control
+/// points, the order and the knots; control points, multiplied by their weights where there are
+/// any, u fast.
 Expected<ListedSurface> read_g2_surface(WordReader& words) {
   ListedSurface surface;
   surface.block.begin = words.begin();
@@ -23,16 +24,20 @@ Expected<ListedSurface> read_g2_surface(WordReader& words) {
   const auto rational = words.integer(0, 1, "mark of a rational surface");
   if (!rational) return std::unexpected(rational.error());
   for (int d = 0; d < 2; ++d) {
-    if (auto read = read_sizes(words, surface, d, true, true); !read) return std::unexpected(read.error());
+    if (auto read = read_sizes(words, surface, d, true, true); !read)
+      return std::unexpected(read.error());
     if (auto read = read_knots(words, surface, d); !read) return std::unexpected(read.error());
   }
   const auto at = words.place();
   if (*dimension != 3) {  // read, to find what follows
-    const auto skipped = words.numbers(surface.points() * static_cast<std::size_t>(*dimension + *rational));
+    const auto skipped =
+        words.numbers(surface.points() * static_cast<std::size_t>(*dimension + *rational));
     if (!skipped) return std::unexpected(skipped.error());
-    return std::unexpected(words.error(at, fmt::format("its points have {} coordinates, not 3", *dimension)));
+    return std::unexpected(
+        words.error(at, fmt::format("its points have {} coordinates, not 3", *dimension)));
   }
-  if (auto read = read_points(words, surface, 3 + *rational); !read) return std::unexpected(read.error());
+  if (auto read = read_points(words, surface, 3 + *rational); !read)
+    return std::unexpected(read.error());
   surface.block.end = words.place();
   return surface;
 }
@@ -49,7 +54,8 @@ Expected<void> skip_spline(WordReader& words, int directions) {
     if (auto read = read_sizes(words, sizes, 0, true, true); !read) return read;
     if (auto read = read_knots(words, sizes, 0); !read) return read;
     points *= static_cast<std::size_t>(sizes.count[0]);
-    if (points > words.rest()) return std::unexpected(words.error(words.place(), "the file ends too early"));
+    if (points > words.rest())
+      return std::unexpected(words.error(words.place(), "the file ends too early"));
   }
   const auto skipped = words.numbers(points * static_cast<std::size_t>(*dimension + *rational));
   if (!skipped) return std::unexpected(skipped.error());
@@ -88,8 +94,8 @@ Expected<int> read_header(WordReader& words) {
 bool is_g2(std::string_view bytes) {
   WordReader words(bytes.substr(0, 200), {}, {0, std::min<std::size_t>(bytes.size(), 200)});
   const auto type = words.integer(100, 799, "class");
-  return type && *type % 10 < 5 && words.integer(1, 1, "version") && words.integer(0, 0, "version") &&
-         words.integer(0, 4, "number");
+  return type && *type % 10 < 5 && words.integer(1, 1, "version") &&
+         words.integer(0, 0, "version") && words.integer(0, 4, "number");
 }
 
 Expected<std::shared_ptr<const Source>> open_g2(std::string bytes, std::string name) {
@@ -115,14 +121,16 @@ Expected<std::shared_ptr<const Source>> open_g2(std::string bytes, std::string n
     if (*type == spline_curve || *type == spline_volume) {
       if (skip_spline(words, *type == spline_curve ? 1 : 3)) continue;
     }
-    text.remarks.push_back(words
-                               .error(begin, fmt::format("an object of class {} is not known; all from there on is "
-                                                         "kept as it is",
-                                                         *type))
-                               .message());
+    text.remarks.push_back(
+        words
+            .error(begin, fmt::format("an object of class {} is not known; all from there on is "
+                                      "kept as it is",
+                                      *type))
+            .message());
     break;
   }
-  for (const auto& [type, count] : others) text.remarks.push_back(fmt::format("{} x class {}", count, type));
+  for (const auto& [type, count] : others)
+    text.remarks.push_back(fmt::format("{} x class {}", count, type));
   if (text.surfaces.empty() && text.unreadable.empty()) {
     return std::unexpected(Error{ErrorKind::input,
                                  "this GoTools file has no spline surface (class 200)",

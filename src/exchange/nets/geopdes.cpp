@@ -10,7 +10,8 @@ namespace {
 
 /// All weights 1 means that there are none: the format cannot leave them out.
 void drop_unit_weights(ListedSurface& surface) {
-  if (std::ranges::all_of(surface.weights, [](double w) { return w == 1; })) surface.weights.clear();
+  if (std::ranges::all_of(surface.weights, [](double w) { return w == 1; }))
+    surface.weights.clear();
 }
 
 /// Both degrees, both numbers of control points, both knot vectors.
@@ -34,8 +35,8 @@ Expected<ListedSurface> read_spaces(WordReader& words) {
   return surface;
 }
 
-/// A patch of GeoPDEs, Bembel and the NURBS toolbox: degrees, numbers of control points, knots, then x, y, z and the
-/// weight of all control points, coordinates multiplied by the weight, u fast.
+/// A patch of GeoPDEs, Bembel and the NURBS toolbox: degrees, numbers of control points, knots,
+/// then x, y, z and the weight of all control points, coordinates multiplied by the weight, u fast.
 /// https://github.com/rafavzqz/geopdes/blob/master/geopdes/doc/geo_specs_mp_v21.txt
 Expected<ListedSurface> read_patch(WordReader& words, int coordinates) {
   auto read = read_spaces(words);
@@ -61,7 +62,8 @@ Expected<ListedSurface> read_patch(WordReader& words, int coordinates) {
   surface.block.end = words.place();
   drop_unit_weights(surface);
   if (coordinates != 3) {
-    return std::unexpected(words.error(first, fmt::format("its points have {} coordinates, not 3", coordinates)));
+    return std::unexpected(
+        words.error(first, fmt::format("its points have {} coordinates, not 3", coordinates)));
   }
   return surface;
 }
@@ -69,15 +71,19 @@ Expected<ListedSurface> read_patch(WordReader& words, int coordinates) {
 /// What `read_spaces` reads.
 std::string print_spaces(const Surface& surface) {
   const auto [rows, columns] = surface.net();
-  return fmt::format("{} {}\n{} {}\n{}\n{}\n", surface.knots(0).degree(), surface.knots(1).degree(), rows, columns,
-                     list_knots(surface.knots(0)), list_knots(surface.knots(1)));
+  return fmt::format("{} {}\n{} {}\n{}\n{}\n", surface.knots(0).degree(), surface.knots(1).degree(),
+                     rows, columns, list_knots(surface.knots(0)), list_knots(surface.knots(1)));
 }
 
 Expected<std::string> print_patch(const Surface& surface) {
   std::string text = print_spaces(surface);
-  const auto weight = [&](int k) { return surface.rational() ? surface.weights()[static_cast<std::size_t>(k)] : 1.0; };
+  const auto weight = [&](int k) {
+    return surface.rational() ? surface.weights()[static_cast<std::size_t>(k)] : 1.0;
+  };
   for (Eigen::Index c = 0; c < 3; ++c) {
-    each_u_fast(surface, [&](int k) { text += digits_17(surface.control_points()(k, c) * weight(k)) + " "; });
+    each_u_fast(surface, [&](int k) {
+      text += digits_17(surface.control_points()(k, c) * weight(k)) + " ";
+    });
     text.back() = '\n';
   }
   each_u_fast(surface, [&](int k) { text += shortest(weight(k)) + " "; });
@@ -86,10 +92,12 @@ Expected<std::string> print_patch(const Surface& surface) {
 }
 
 bool is_word(std::string_view word) {
-  return !word.empty() && (('A' <= word[0] && word[0] <= 'Z') || ('a' <= word[0] && word[0] <= 'z'));
+  return !word.empty() &&
+         (('A' <= word[0] && word[0] <= 'Z') || ('a' <= word[0] && word[0] <= 'z'));
 }
 
-/// Leaves the reader at the next line whose first letter is one: the name of a patch or an interface.
+/// Leaves the reader at the next line whose first letter is one: the name of a patch or an
+/// interface.
 std::string name_line(WordReader& words, std::string_view text) {
   const std::size_t begin = words.begin();
   const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
@@ -99,7 +107,8 @@ std::string name_line(WordReader& words, std::string_view text) {
   return name;
 }
 
-/// Dimensions of parameters and space (one number if they are the same), numbers of patches and others.
+/// Dimensions of parameters and space (one number if they are the same), numbers of patches and
+/// others.
 Expected<std::vector<int>> read_header(WordReader& words, std::string_view text) {
   const std::size_t begin = words.begin();
   const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -123,12 +132,13 @@ Expected<std::shared_ptr<const Source>> open_patches(SurfaceText file) {
   if (!header) return std::unexpected(header.error());
   // Version 2.1: parameters, space, patches, interfaces, subdomains; before: dimension, patches, ….
   const bool two = header->size() >= 5;
-  const int parameters = header->empty() ? 0 : (*header)[0], space = two ? (*header)[1] : parameters;
+  const int parameters = header->empty() ? 0 : (*header)[0],
+            space = two ? (*header)[1] : parameters;
   const int patches = two ? (*header)[2] : header->size() > 1 ? (*header)[1] : 1;
   if (parameters != 2) {
-    return std::unexpected(words.error(begin,
-                                       fmt::format("its patches have {} parameters: they are no surfaces", parameters),
-                                       "open a file of surfaces"));
+    return std::unexpected(words.error(
+        begin, fmt::format("its patches have {} parameters: they are no surfaces", parameters),
+        "open a file of surfaces"));
   }
   for (int k = 1; k <= patches && !words.done(); ++k) {
     std::string label = is_word(words.peek()) ? name_line(words, text) : std::string();
@@ -140,8 +150,8 @@ Expected<std::shared_ptr<const Source>> open_patches(SurfaceText file) {
   return source_of(std::move(file));
 }
 
-/// The list that IGA codes call smesh: dimension, degrees, numbers of control points, knots, and x, y, z, weight of
-/// each control point, u fast; weights other than 1 are refused.
+/// The list that IGA codes call smesh: dimension, degrees, numbers of control points, knots, and x,
+/// y, z, weight of each control point, u fast; weights other than 1 are refused.
 Expected<std::shared_ptr<const Source>> open_smesh(SurfaceText file) {
   file.print = [](const Surface& surface) -> Expected<std::string> {
     std::string text = print_spaces(surface);
@@ -154,17 +164,20 @@ Expected<std::shared_ptr<const Source>> open_smesh(SurfaceText file) {
   };
   WordReader words(file.bytes, file.name, {0, file.bytes.size()}, '#');
   const auto read = [&]() -> Expected<ListedSurface> {
-    if (const auto three = words.integer(3, 3, "number of coordinates"); !three) return std::unexpected(three.error());
+    if (const auto three = words.integer(3, 3, "number of coordinates"); !three)
+      return std::unexpected(three.error());
     auto surface = read_spaces(words);
     if (!surface) return surface;
     const std::size_t first = words.place();
-    if (auto points = read_points(words, *surface, 4); !points) return std::unexpected(points.error());
+    if (auto points = read_points(words, *surface, 4); !points)
+      return std::unexpected(points.error());
     surface->block.end = words.place();
     drop_unit_weights(*surface);
     if (surface->weights.empty()) return surface;
     // Nothing says whether coordinates are multiplied by them.
-    return std::unexpected(words.error(first, "it has weights, whose meaning in this format is not settled",
-                                       "write the surface as a patch of GeoPDEs"));
+    return std::unexpected(
+        words.error(first, "it has weights, whose meaning in this format is not settled",
+                    "write the surface as a patch of GeoPDEs"));
   };
   auto surface = read();
   if (!surface) return std::unexpected(surface.error());
@@ -189,8 +202,11 @@ Expected<std::shared_ptr<const Source>> open_geopdes(std::string bytes, std::str
   const bool list = text.starts_with("3\n") || text.starts_with("3\r\n");
   auto source = list ? open_smesh(std::move(file)) : open_patches(std::move(file));
   if (source && (*source)->surfaces().empty() && (*source)->unreadable().empty()) {
-    return std::unexpected(
-        Error{ErrorKind::input, "this file has no patch", {}, "open one that holds a surface", (*source)->name()});
+    return std::unexpected(Error{ErrorKind::input,
+                                 "this file has no patch",
+                                 {},
+                                 "open one that holds a surface",
+                                 (*source)->name()});
   }
   return source;
 }

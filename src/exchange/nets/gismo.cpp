@@ -67,7 +67,8 @@ std::string_view attribute(const XmlTag& tag, std::string_view key) {
     const std::size_t begin = rest.find_first_not_of(" \t\r\n");
     const std::size_t equals = rest.find('=');
     if (begin == rest.npos || equals == rest.npos || equals < begin) return {};
-    const std::string_view name = rest.substr(begin, rest.find_last_not_of(" \t\r\n", equals - 1) + 1 - begin);
+    const std::string_view name =
+        rest.substr(begin, rest.find_last_not_of(" \t\r\n", equals - 1) + 1 - begin);
     const std::size_t open = rest.find_first_of("\"'", equals);
     const std::size_t close = open == rest.npos ? open : rest.find(rest[open], open + 1);
     if (close == rest.npos) return {};
@@ -94,9 +95,10 @@ std::size_t count_words(WordReader words) {
   return count;
 }
 
-/// A TensorBSpline2 or TensorNurbs2: knots of both directions, weights, and control points, which are not multiplied by
-/// them; the first direction is fast.
-Expected<ListedSurface> read_geometry(std::string_view text, std::string_view file, TextRange inside) {
+/// A TensorBSpline2 or TensorNurbs2: knots of both directions, weights, and control points, which
+/// are not multiplied by them; the first direction is fast.
+Expected<ListedSurface> read_geometry(std::string_view text, std::string_view file,
+                                      TextRange inside) {
   ListedSurface surface;
   surface.block = inside;
   const auto reader = [&](TextRange range) { return WordReader(text, file, range); };
@@ -121,7 +123,8 @@ Expected<ListedSurface> read_geometry(std::string_view text, std::string_view fi
       if (!knots) return std::unexpected(knots.error());
       surface.count[d] = static_cast<int>(knots->size()) - surface.degree[d] - 1;
       if (surface.degree[d] < 1 || surface.count[d] < 2) {
-        return fail(tag->range.begin, "its knots do not fit its degree", "give at least 2 (degree + 1) knots");
+        return fail(tag->range.begin, "its knots do not fit its degree",
+                    "give at least 2 (degree + 1) knots");
       }
       surface.knots[d] = *std::move(knots);
     } else if (tag->name == "weights") {
@@ -136,30 +139,35 @@ Expected<ListedSurface> read_geometry(std::string_view text, std::string_view fi
       auto kept = std::move(surface.weights);
       if (auto read = read_points(words, surface, 3); !read) return std::unexpected(read.error());
       surface.weights = std::move(kept);
-      if (!words.done()) return fail(words.place(), "it has more control points than its knots stand for");
+      if (!words.done())
+        return fail(words.place(), "it has more control points than its knots stand for");
       points = true;
     }
   }
-  if (directions != 2 || !points) return fail(inside.begin, "it has no two knot vectors followed by control points");
+  if (directions != 2 || !points)
+    return fail(inside.begin, "it has no two knot vectors followed by control points");
   return surface;
 }
 
 Expected<std::string> print_gismo(const Surface& surface) {
   std::string bases;
   for (int d = 0; d < 2; ++d) {
-    bases +=
-        fmt::format("<Basis type=\"BSplineBasis\" index=\"{}\"><KnotVector degree=\"{}\">{}</KnotVector></Basis>\n", d,
-                    surface.knots(d).degree(), list_knots(surface.knots(d)));
+    bases += fmt::format(
+        "<Basis type=\"BSplineBasis\" index=\"{}\"><KnotVector "
+        "degree=\"{}\">{}</KnotVector></Basis>\n",
+        d, surface.knots(d).degree(), list_knots(surface.knots(d)));
   }
   bases = "<Basis type=\"TensorBSplineBasis2\">\n" + bases + "</Basis>\n";
   std::string weights, points;
   each_u_fast(surface, [&](int k) {
-    if (surface.rational()) weights += shortest(surface.weights()[static_cast<std::size_t>(k)]) + "\n";
+    if (surface.rational())
+      weights += shortest(surface.weights()[static_cast<std::size_t>(k)]) + "\n";
     const auto p = surface.control_points().row(k);
     points += digits_17(p[0]) + " " + digits_17(p[1]) + " " + digits_17(p[2]) + "\n";
   });
   if (surface.rational()) {
-    bases = "<Basis type=\"TensorNurbsBasis2\">\n" + bases + "<weights>" + weights + "</weights>\n</Basis>\n";
+    bases = "<Basis type=\"TensorNurbsBasis2\">\n" + bases + "<weights>" + weights +
+            "</weights>\n</Basis>\n";
   }
   return "\n" + bases + "<coefs geoDim=\"3\">\n" + points + "</coefs>\n";
 }
@@ -185,13 +193,15 @@ Expected<std::shared_ptr<const Source>> open_gismo(std::string bytes, std::strin
     if (type == "TensorBSpline2" || type == "TensorNurbs2") {
       const std::size_t number = file.surfaces.size() + file.unreadable.size();
       file.add(id.empty() ? fmt::format("#s{}", number) : fmt::format("#{}", printable(id, 40)),
-               printable(attribute(*tag, "label")), read_geometry(text, file.name, {tag->range.end, end}));
+               printable(attribute(*tag, "label")),
+               read_geometry(text, file.name, {tag->range.end, end}));
     } else {
       ++others[printable(type, 40)];
     }
     tag->range.end = end;
   }
-  for (const auto& [type, count] : others) file.remarks.push_back(fmt::format("{} x {}", count, type));
+  for (const auto& [type, count] : others)
+    file.remarks.push_back(fmt::format("{} x {}", count, type));
   if (file.surfaces.empty() && file.unreadable.empty()) {
     return std::unexpected(Error{ErrorKind::input,
                                  "this G+Smo file has no TensorBSpline2 and no TensorNurbs2",

@@ -13,9 +13,11 @@ namespace knead::detail {
 namespace {
 
 constexpr std::string_view json_net_shape =
-    R"(write [[[x, y, z], …], …], a row of the net after the other, or {"net": …, "degree": [p, q], "knots": [[…], […]], "weights": [[…], …]})";
+    R"(write [[[x, y, z], …], …], a row of the net after the other, or {"net": …, )"
+    R"("degree": [p, q], "knots": [[…], […]], "weights": [[…], …]})";
 
-/// The plain net of JSON: lists of rows of points, alone or in an object that also has degrees, knots and weights.
+/// The plain net of JSON: lists of rows of points, alone or in an object that also has degrees,
+/// knots and weights.
 struct JsonNetReader {
   std::string_view text, file;
   std::size_t at = 0;
@@ -36,13 +38,14 @@ struct JsonNetReader {
 
  private:
   [[nodiscard]] std::unexpected<Error> wrong(std::string what) const {
-    return std::unexpected(
-        WordReader(text, file, {0, text.size()}).error(at, std::move(what), std::string(json_net_shape)));
+    return std::unexpected(WordReader(text, file, {0, text.size()})
+                               .error(at, std::move(what), std::string(json_net_shape)));
   }
   [[nodiscard]] char peek() const { return at < text.size() ? text[at] : '\0'; }
   void skip() {
     if (at == 0 && text.starts_with("\xEF\xBB\xBF")) at = 3;
-    while (at < text.size() && std::string_view(" \t\r\n").find(text[at]) != std::string_view::npos) ++at;
+    while (at < text.size() && std::string_view(" \t\r\n").find(text[at]) != std::string_view::npos)
+      ++at;
   }
   /// Whether this character comes next; then it is behind us.
   bool take(char c) {
@@ -73,7 +76,8 @@ struct JsonNetReader {
     double value = 0;
     const auto [stop, problem] = read_double(word.data(), word.data() + word.size(), value);
     const bool tiny = problem == std::errc::result_out_of_range && is_tiny(word);
-    if ((problem != std::errc() && !tiny) || stop != word.data() + word.size() || !std::isfinite(value)) {
+    if ((problem != std::errc() && !tiny) || stop != word.data() + word.size() ||
+        !std::isfinite(value)) {
       return wrong(fmt::format("\"{}\" is not a number", printable(word, 40)));
     }
     if (place != nullptr) *place = {at, end};
@@ -101,7 +105,8 @@ struct JsonNetReader {
       return {};
     });
     if (!coordinates) return std::unexpected(coordinates.error());
-    if (*coordinates != 3) return wrong(fmt::format("a control point has {} coordinates, not 3", *coordinates));
+    if (*coordinates != 3)
+      return wrong(fmt::format("a control point has {} coordinates, not 3", *coordinates));
     return {};
   }
 
@@ -115,7 +120,8 @@ struct JsonNetReader {
       if (!items) return std::unexpected(items.error());
       ++row;
       if (width && *items != *width) {
-        return wrong(fmt::format("row {} of {} has {} items, the first row has {}", row, what, *items, *width));
+        return wrong(fmt::format("row {} of {} has {} items, the first row has {}", row, what,
+                                 *items, *width));
       }
       width = *items;
       return {};
@@ -137,7 +143,8 @@ struct JsonNetReader {
     std::vector<double> degrees;
     if (auto done = numbers("the degree", degrees); !done) return done;
     for (const double d : degrees) {
-      if (d != std::floor(d) || d < 1 || d > 1000) return wrong("a degree is not a whole number from 1 on");
+      if (d != std::floor(d) || d < 1 || d > 1000)
+        return wrong("a degree is not a whole number from 1 on");
     }
     if (degrees.size() != 2) return wrong("there are not two degrees");
     surface.degree = {static_cast<int>(degrees[0]), static_cast<int>(degrees[1])};
@@ -168,7 +175,8 @@ struct JsonNetReader {
     }
     if (name == "commands" || name == "knead") {
       Error error = wrong("it is a script of commands, not a net").error();
-      error.remedy = "open a STEP file or another one with surfaces, and give the script by --script";
+      error.remedy =
+          "open a STEP file or another one with surfaces, and give the script by --script";
       return std::unexpected(std::move(error));
     }
     return wrong(fmt::format("a net has no field \"{}\"", printable(name, 40)));
@@ -191,13 +199,15 @@ struct JsonNetReader {
     } while (take(','));
     if (!take('}')) return wrong("the net goes on without a comma, or does not end");
     if (std::ranges::find(seen, "net") == seen.end()) return wrong("there is no field \"net\"");
-    if (!has_degree && !surface.knots[0].empty()) return wrong("there are knots, but no field \"degree\"");
+    if (!has_degree && !surface.knots[0].empty())
+      return wrong("there are knots, but no field \"degree\"");
     return {};
   }
 
   Expected<void> shape() {
     if (surface.count[0] < 2 || surface.count[1] < 2) {
-      return wrong(fmt::format("a net of {} x {} control points is no surface", surface.count[0], surface.count[1]));
+      return wrong(fmt::format("a net of {} x {} control points is no surface", surface.count[0],
+                               surface.count[1]));
     }
     for (std::size_t d = 0; d < 2; ++d) {
       if (!has_degree) surface.degree[d] = std::min(3, surface.count[d] - 1);
@@ -220,19 +230,22 @@ Expected<std::string> print_json_net(const Surface& surface) {
     for (int j = 0; j < columns; ++j) {
       const int k = i * columns + j;
       const auto p = surface.control_points().row(k);
-      net += (j == 0 ? "[" : ",[") + digits_17(p[0]) + "," + digits_17(p[1]) + "," + digits_17(p[2]) + "]";
-      if (surface.rational()) weights += (j == 0 ? "" : ",") + shortest(surface.weights()[static_cast<std::size_t>(k)]);
+      net += (j == 0 ? "[" : ",[") + digits_17(p[0]) + "," + digits_17(p[1]) + "," +
+             digits_17(p[2]) + "]";
+      if (surface.rational())
+        weights += (j == 0 ? "" : ",") + shortest(surface.weights()[static_cast<std::size_t>(k)]);
     }
     net += "]";
     weights += "]";
   }
   for (int d = 0; d < 2; ++d) {
     std::string list;
-    for (const double knot : surface.knots(d).knots()) list += (list.empty() ? "" : ",") + shortest(knot);
+    for (const double knot : surface.knots(d).knots())
+      list += (list.empty() ? "" : ",") + shortest(knot);
     knots += (d == 0 ? "[" : ",\n[") + list + "]";
   }
-  return fmt::format("{{\"degree\": [{}, {}],\n\"knots\": [{}],\n{}\"net\": [{}]}}", surface.knots(0).degree(),
-                     surface.knots(1).degree(), knots,
+  return fmt::format("{{\"degree\": [{}, {}],\n\"knots\": [{}],\n{}\"net\": [{}]}}",
+                     surface.knots(0).degree(), surface.knots(1).degree(), knots,
                      surface.rational() ? "\"weights\": [" + weights + "],\n" : std::string(), net);
 }
 
@@ -245,7 +258,9 @@ Expected<std::shared_ptr<const Source>> open_json_net(std::string bytes, std::st
   JsonNetReader net{file.bytes, file.name};
   if (auto read = net.read(); !read) return std::unexpected(read.error());
   if (!net.has_degree) {
-    file.remarks = {"it states no degrees: they are Knead's, cubic where there are enough points, on uniform knots"};
+    file.remarks = {
+        "it states no degrees: they are Knead's, cubic where there are enough points, on uniform "
+        "knots"};
   }
   file.add("#1", {}, std::move(net.surface));
   return source_of(std::move(file));
@@ -261,7 +276,9 @@ Format json_net_format() {
           .endings = json_net_endings,
           .media_type = "application/json",
           .content = FormatContent::surfaces,
-          .holds = "the control points of one surface as lists, with degrees, knots and weights if they are stated",
+          .holds =
+              "the control points of one surface as lists, with degrees, knots and weights if they "
+              "are stated",
           .recognises = [](std::string_view) { return false; },
           .open = open_json_net};
 }

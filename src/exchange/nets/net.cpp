@@ -10,7 +10,9 @@ namespace knead::detail {
 namespace {
 
 /// What stands for the knots that a plain net does not have.
-Expected<KnotVector> plain_knots(int count) { return KnotVector::clamped_uniform(std::min(3, count - 1), count); }
+Expected<KnotVector> plain_knots(int count) {
+  return KnotVector::clamped_uniform(std::min(3, count - 1), count);
+}
 
 /// A row of a net: its points, in a line apart or in one line with semicolons between them.
 struct NetReader {
@@ -57,8 +59,9 @@ struct NetReader {
         surface.places.push_back({place, words.place()});
       }
       if (!words.done()) {
-        return std::unexpected(words.error(words.place(), "a point has more than three coordinates",
-                                           "a plain net has no weights; one point per line, or semicolons between"));
+        return std::unexpected(
+            words.error(words.place(), "a point has more than three coordinates",
+                        "a plain net has no weights; one point per line, or semicolons between"));
       }
       ++points;
     }
@@ -70,15 +73,18 @@ struct NetReader {
     const std::size_t points = surface.coordinates.size() / 3;
     if (points == 0) return std::unexpected(words.error(0, "this file has no control points"));
     if (rows.size() < 2 || rows.front() < 2) {
-      undivided = words.error(0, fmt::format("{} control points, but how many make a row is not said", points),
-                              "put an empty line after each row, or each row in one line with semicolons");
+      undivided = words.error(
+          0, fmt::format("{} control points, but how many make a row is not said", points),
+          "put an empty line after each row, or each row in one line with semicolons");
       return {};
     }
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (rows[k] == rows.front()) continue;
-      return std::unexpected(words.error(
-          0, fmt::format("row {} has {} control points, the first row has {}", k + 1, rows[k], rows.front()),
-          "give all rows the same number"));
+      return std::unexpected(
+          words.error(0,
+                      fmt::format("row {} has {} control points, the first row has {}", k + 1,
+                                  rows[k], rows.front()),
+                      "give all rows the same number"));
     }
     surface.u_fast = false;
     surface.count = {static_cast<int>(rows.size()), static_cast<int>(rows.front())};
@@ -99,7 +105,8 @@ Expected<std::string> print_net_rows(const Surface& surface) {
   for (int d = 0; d < 2; ++d) {
     const KnotVector& knots = surface.knots(d);
     const auto own = plain_knots(knots.count());
-    plain = plain && own && own->degree() == knots.degree() && std::ranges::equal(own->knots(), knots.knots());
+    plain = plain && own && own->degree() == knots.degree() &&
+            std::ranges::equal(own->knots(), knots.knots());
   }
   if (!plain) {
     return input_error("a plain net cannot say which knots a refined surface has", {},
@@ -127,7 +134,8 @@ Expected<std::shared_ptr<const Source>> open_net(std::string bytes, std::string 
     return source_of(std::move(file));
   }
   file.remarks = {
-      "it has points alone: degrees and knots are Knead's, clamped and uniform, cubic where there are enough"};
+      "it has points alone: degrees and knots are Knead's, clamped and uniform, cubic where there "
+      "are enough"};
   file.add("#1", {}, std::move(net.surface));
   return source_of(std::move(file));
 }
@@ -137,14 +145,15 @@ constexpr std::string_view net_endings[] = {".csv", ".ctrlpts"};
 }  // namespace
 
 Format net_format() {
-  return {.id = "net",
-          .name = "plain net",
-          .endings = net_endings,
-          .media_type = "text/csv",
-          .content = FormatContent::surfaces,
-          .holds = "the control points of one surface: a row of the net, an empty line, the next row",
-          .recognises = [](std::string_view) { return false; },
-          .open = open_net};
+  return {
+      .id = "net",
+      .name = "plain net",
+      .endings = net_endings,
+      .media_type = "text/csv",
+      .content = FormatContent::surfaces,
+      .holds = "the control points of one surface: a row of the net, an empty line, the next row",
+      .recognises = [](std::string_view) { return false; },
+      .open = open_net};
 }
 
 }  // namespace knead::detail

@@ -24,16 +24,21 @@ class TextSource final : public Source {
   std::string_view format() const override { return text_.format; }
   std::vector<std::string> remarks() const override { return text_.remarks; }
   const std::vector<SourceSurface>& surfaces() const override { return text_.surfaces; }
-  const std::vector<brep::UnreadableSurface>& unreadable() const override { return text_.unreadable; }
+  const std::vector<brep::UnreadableSurface>& unreadable() const override {
+    return text_.unreadable;
+  }
 
-  Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
-                             std::span<const std::string> followed,
-                             std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
-    if (!followed.empty()) return input_error("this file has no edges that could follow", followed.front());
+  Expected<std::string> save(
+      std::span<const std::shared_ptr<const Surface>> surfaces,
+      std::span<const std::string> followed,
+      std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
+    if (!followed.empty())
+      return input_error("this file has no edges that could follow", followed.front());
     TextChanges changes;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       if (surfaces[k] == text_.surfaces[k].surface) continue;
-      auto done = add_changes(text_.listed[k], *text_.surfaces[k].surface, *surfaces[k], text_.print, changes);
+      auto done = add_changes(text_.listed[k], *text_.surfaces[k].surface, *surfaces[k],
+                              text_.print, changes);
       if (!done) return std::unexpected(std::move(done.error()));
     }
     return with_changes(text_.bytes, std::move(changes));
@@ -57,7 +62,9 @@ void WordReader::skip() {
   }
 }
 
-bool is_tiny(std::string_view number) { return std::abs(std::strtod(std::string(number).c_str(), nullptr)) < 1; }
+bool is_tiny(std::string_view number) {
+  return std::abs(std::strtod(std::string(number).c_str(), nullptr)) < 1;
+}
 
 bool WordReader::done() {
   skip();
@@ -94,13 +101,17 @@ Expected<double> WordReader::number() {
   const TextRange range = next();
   std::string_view word = words(range);
   if (word.empty())
-    return std::unexpected(error(range.begin, "the file ends where a number should be", "get all of it"));
-  const std::string_view digits = word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
+    return std::unexpected(
+        error(range.begin, "the file ends where a number should be", "get all of it"));
+  const std::string_view digits =
+      word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
   double value = 0;
   const auto [end, problem] = read_double(digits.data(), digits.data() + digits.size(), value);
   const bool tiny = problem == std::errc::result_out_of_range && is_tiny(digits);
-  if ((problem != std::errc() && !tiny) || end != digits.data() + digits.size() || !std::isfinite(value)) {
-    return std::unexpected(error(range.begin, fmt::format("\"{}\" is not a number", printable(word)), "correct it"));
+  if ((problem != std::errc() && !tiny) || end != digits.data() + digits.size() ||
+      !std::isfinite(value)) {
+    return std::unexpected(
+        error(range.begin, fmt::format("\"{}\" is not a number", printable(word)), "correct it"));
   }
   return value;
 }
@@ -130,15 +141,18 @@ Expected<std::vector<double>> WordReader::numbers(std::size_t count) {
 
 std::size_t ListedSurface::listed(std::size_t k) const {
   if (!u_fast) return k;
-  const auto rows = static_cast<std::size_t>(count[0]), columns = static_cast<std::size_t>(count[1]);
+  const auto rows = static_cast<std::size_t>(count[0]),
+             columns = static_cast<std::size_t>(count[1]);
   return k / columns + rows * (k % columns);
 }
 
-Expected<void> read_sizes(WordReader& words, ListedSurface& surface, int direction, bool count_first, bool order) {
+Expected<void> read_sizes(WordReader& words, ListedSurface& surface, int direction,
+                          bool count_first, bool order) {
   const auto d = static_cast<std::size_t>(direction);
   for (int k = 0; k < 2; ++k) {
     if ((k == 0) == count_first) {
-      const auto count = words.integer(2, static_cast<int>(max_spline_size), "number of control points");
+      const auto count =
+          words.integer(2, static_cast<int>(max_spline_size), "number of control points");
       if (!count) return std::unexpected(count.error());
       surface.count[d] = *count;
     } else {
@@ -153,7 +167,8 @@ Expected<void> read_sizes(WordReader& words, ListedSurface& surface, int directi
 Expected<void> check_size(WordReader& words, const ListedSurface& surface) {
   const auto size = product_of(surface.count);
   if (size && 2 * static_cast<std::size_t>(*size) <= words.rest()) return {};
-  return std::unexpected(words.error(words.place(), "the file ends before its last control point", "get all of it"));
+  return std::unexpected(
+      words.error(words.place(), "the file ends before its last control point", "get all of it"));
 }
 
 Expected<void> read_knots(WordReader& words, ListedSurface& surface, int direction) {
@@ -190,8 +205,8 @@ Expected<Surface> surface_of(const ListedSurface& listed) {
   if (u->count() != listed.count[0] || v->count() != listed.count[1] ||
       listed.coordinates.size() != 3 * listed.points() ||
       (!listed.weights.empty() && listed.weights.size() != listed.points())) {
-    return input_error(fmt::format("its knots stand for {} x {} control points, and {} are listed", u->count(),
-                                   v->count(), listed.coordinates.size() / 3));
+    return input_error(fmt::format("its knots stand for {} x {} control points, and {} are listed",
+                                   u->count(), v->count(), listed.coordinates.size() / 3));
   }
   Points points(static_cast<Eigen::Index>(listed.points()), 3);
   std::vector<double> weights(listed.weights.size());
@@ -199,9 +214,11 @@ Expected<Surface> surface_of(const ListedSurface& listed) {
     const std::size_t at = listed.listed(k);
     if (!weights.empty()) weights[k] = listed.weights[at];
     const double divisor = listed.homogeneous && !weights.empty() ? weights[k] : 1;
-    if (divisor == 0) return input_error("a weight is zero", fmt::format("control point {}", at + 1));
+    if (divisor == 0)
+      return input_error("a weight is zero", fmt::format("control point {}", at + 1));
     for (std::size_t c = 0; c < 3; ++c) {
-      points(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c)) = listed.coordinates[3 * at + c] / divisor;
+      points(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c)) =
+          listed.coordinates[3 * at + c] / divisor;
     }
   }
   return Surface::create({*std::move(u), *std::move(v)}, std::move(points), std::move(weights));
@@ -222,7 +239,8 @@ void SurfaceText::add(std::string id, std::string label, Expected<ListedSurface>
     unreadable.push_back({std::move(id), std::move(made.error())});
     return;
   }
-  surfaces.push_back({std::move(id), std::move(label), "unknown", std::make_shared<const Surface>(*std::move(made))});
+  surfaces.push_back({std::move(id), std::move(label), "unknown",
+                      std::make_shared<const Surface>(*std::move(made))});
   listed.push_back(*std::move(surface));
   listed.back().coordinates = {};
   listed.back().weights = {};
@@ -234,8 +252,8 @@ std::shared_ptr<const Source> source_of(SurfaceText text) {
 }
 
 Expected<void> add_changes(const ListedSurface& listed, const Surface& before, const Surface& now,
-                           Expected<std::string> (*print)(const Surface& surface), TextChanges& changes,
-                           const Eigen::Affine3d& back) {
+                           Expected<std::string> (*print)(const Surface& surface),
+                           TextChanges& changes, const Eigen::Affine3d& back) {
   const bool moved = !back.matrix().isIdentity(0);
   bool same = std::ranges::equal(now.weights(), before.weights());
   for (int d = 0; d < 2; ++d) {
@@ -250,7 +268,8 @@ Expected<void> add_changes(const ListedSurface& listed, const Surface& before, c
     Points points = now.control_points();
     for (Eigen::Index p = 0; p < points.rows(); ++p) points.row(p) = own(p).transpose();
     const auto surface = now.with_control_points(std::move(points));
-    auto block = surface ? print(*surface) : Expected<std::string>(std::unexpected(surface.error()));
+    auto block =
+        surface ? print(*surface) : Expected<std::string>(std::unexpected(surface.error()));
     if (!block) return std::unexpected(std::move(block.error()));
     changes.emplace_back(listed.block, *std::move(block));
     return {};

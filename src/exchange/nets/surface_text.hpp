@@ -64,7 +64,7 @@ struct ListedSurface {
   std::vector<double> coordinates;  ///< 3 per control point
   std::vector<TextRange> places;    ///< of them
   std::vector<double> weights;      ///< one per control point, or none
-  TextRange block;                  ///< all that describes degrees, knots, weights and control points
+  TextRange block;  ///< all that describes degrees, knots, weights and control points
 
   [[nodiscard]] std::size_t points() const {
     return static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]);
@@ -73,20 +73,22 @@ struct ListedSurface {
   [[nodiscard]] std::size_t listed(std::size_t k) const;
 };
 
-/// Reads degree + 1 (`order`) or the degree, and the number of control points. Errors (input): out of range, or more
-/// control points than the rest of the text can hold.
-[[nodiscard]] Expected<void> read_sizes(WordReader& words, ListedSurface& surface, int direction, bool count_first,
-                                        bool order);
+/// Reads degree + 1 (`order`) or the degree, and the number of control points. Errors (input): out
+/// of range, or more control points than the rest of the text can hold.
+[[nodiscard]] Expected<void> read_sizes(WordReader& words, ListedSurface& surface, int direction,
+                                        bool count_first, bool order);
 [[nodiscard]] Expected<void> check_size(WordReader& words, const ListedSurface& surface);
 /// The knots of a direction: count + degree + 1.
 [[nodiscard]] Expected<void> read_knots(WordReader& words, ListedSurface& surface, int direction);
 /// The control points with `width` numbers each: x, y, z and, if there are four, the weight.
 [[nodiscard]] Expected<void> read_points(WordReader& words, ListedSurface& surface, int width);
 
-/// Errors (input): what `KnotVector` and `Surface` refuse; a weight of zero where coordinates are homogeneous.
+/// Errors (input): what `KnotVector` and `Surface` refuse; a weight of zero where coordinates are
+/// homogeneous.
 [[nodiscard]] Expected<Surface> surface_of(const ListedSurface& listed);
 
-/// A number with the fewest digits that restore its bits; 17 significant digits for those of control points.
+/// A number with the fewest digits that restore its bits; 17 significant digits for those of
+/// control points.
 [[nodiscard]] std::string shortest(double value);
 [[nodiscard]] std::string digits_17(double value);
 /// "0 0 1 1".
@@ -100,8 +102,9 @@ void each_u_fast(const Surface& surface, const F& f) {
   }
 }
 
-/// A file whose surfaces are lists of numbers in a text. A surface whose degrees, knots and weights stay keeps its text
-/// but for the coordinates that change, which get 17 digits; another one is written anew by `print`.
+/// A file whose surfaces are lists of numbers in a text. A surface whose degrees, knots and weights
+/// stay keeps its text but for the coordinates that change, which get 17 digits; another one is
+/// written anew by `print`.
 struct SurfaceText {
   std::string bytes, name;
   std::string_view format;
@@ -120,10 +123,13 @@ struct SurfaceText {
 /// What replaces bytes.
 using TextChanges = std::vector<std::pair<TextRange, std::string>>;
 
-/// The changes that make a listed surface another one: of single coordinates, with 17 digits, where degrees, knots and
-/// weights stay; else the block, by `print`. `back`: from the coordinates of the surfaces to those of the file.
-[[nodiscard]] Expected<void> add_changes(const ListedSurface& listed, const Surface& before, const Surface& now,
-                                         Expected<std::string> (*print)(const Surface& surface), TextChanges& changes,
+/// The changes that make a listed surface another one: of single coordinates, with 17 digits, where
+/// degrees, knots and weights stay; else the block, by `print`. `back`: from the coordinates of the
+/// surfaces to those of the file.
+[[nodiscard]] Expected<void> add_changes(const ListedSurface& listed, const Surface& before,
+                                         const Surface& now,
+                                         Expected<std::string> (*print)(const Surface& surface),
+                                         TextChanges& changes,
                                          const Eigen::Affine3d& back = Eigen::Affine3d::Identity());
 [[nodiscard]] std::string with_changes(std::string_view bytes, TextChanges changes);
 

@@ -14,17 +14,19 @@ constexpr int most = 1 << 26;
 
 class Parser {
  public:
-  Parser(std::string_view bytes, std::string_view name) : text_(bytes), words_(bytes, name, {0, bytes.size()}) {}
+  Parser(std::string_view bytes, std::string_view name)
+      : text_(bytes), words_(bytes, name, {0, bytes.size()}) {}
 
   Expected<BrepFile> parse() {
     const std::size_t title = text_.find("CASCADE Topology V");
-    if (title == text_.npos || title + 18 >= text_.size()) return fail("this is no file of Open CASCADE's shapes");
+    if (title == text_.npos || title + 18 >= text_.size())
+      return fail("this is no file of Open CASCADE's shapes");
     version_ = text_[title + 18] - '0';
     if (version_ < 1 || version_ > 3) return fail("versions 1 to 3 can be read");
     words_.go_to(std::min(text_.find('\n', title), text_.size()));
     for (const auto section :
-         {&Parser::locations, &Parser::flat_curves, &Parser::curves, &Parser::polygons, &Parser::polygons_on_triangles,
-          &Parser::surfaces, &Parser::triangles, &Parser::shapes}) {
+         {&Parser::locations, &Parser::flat_curves, &Parser::curves, &Parser::polygons,
+          &Parser::polygons_on_triangles, &Parser::surfaces, &Parser::triangles, &Parser::shapes}) {
       if (auto done = (this->*section)(); !done) return std::unexpected(std::move(done.error()));
     }
     return std::move(file_);
@@ -34,17 +36,21 @@ class Parser {
   using Done = Expected<void>;
 
   std::unexpected<Error> fail(std::string what) const {
-    return std::unexpected(words_.error(words_.place(), std::move(what), "write the file again as text"));
+    return std::unexpected(
+        words_.error(words_.place(), std::move(what), "write the file again as text"));
   }
 
   /// The word that begins a section, and the number of its entries.
   Expected<int> section(std::string_view word) {
-    if (words_.peek() != word) return fail(fmt::format("\"{}\" should stand here in an Open CASCADE file", word));
+    if (words_.peek() != word)
+      return fail(fmt::format("\"{}\" should stand here in an Open CASCADE file", word));
     words_.next();
     return words_.integer(0, most, "number of entries");
   }
 
-  Expected<int> integer(int least, int largest) { return words_.integer(least, largest, "number that can stand here"); }
+  Expected<int> integer(int least, int largest) {
+    return words_.integer(least, largest, "number that can stand here");
+  }
 
   Done skip(std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {
@@ -70,7 +76,8 @@ class Parser {
   }
 
   Expected<Eigen::Affine3d> place(int index) const {
-    if (index < 0 || static_cast<std::size_t>(index) >= places_.size()) return fail("there is no such location");
+    if (index < 0 || static_cast<std::size_t>(index) >= places_.size())
+      return fail("there is no such location");
     return places_[static_cast<std::size_t>(index)];
   }
   Expected<Eigen::Affine3d> place() {
@@ -87,8 +94,10 @@ class Parser {
       if (*type == 1) {
         const auto rows = words_.numbers(12);
         if (!rows) return std::unexpected(rows.error());
-        for (int k = 0; k < 12; ++k) result.matrix()(k / 4, k % 4) = (*rows)[static_cast<std::size_t>(k)];
-        if (!(std::abs(result.linear().determinant()) > 1e-12)) return fail("a location is not invertible");
+        for (int k = 0; k < 12; ++k)
+          result.matrix()(k / 4, k % 4) = (*rows)[static_cast<std::size_t>(k)];
+        if (!(std::abs(result.linear().determinant()) > 1e-12))
+          return fail("a location is not invertible");
       } else {
         while (true) {
           const auto index = integer(0, most);
@@ -97,19 +106,22 @@ class Parser {
           const auto own = place(*index);
           const auto power = integer(-1000, 1000);
           if (!own || !power) return std::unexpected(!own ? own.error() : power.error());
-          // The list begins with what is applied first (TopLoc_Location): each goes to the left of those before.
+          // The list begins with what is applied first (TopLoc_Location): each goes to the left of
+          // those before.
           const Eigen::Affine3d factor = *power > 0 ? *own : own->inverse();
           for (int k = 0; k < std::abs(*power); ++k) result = factor * result;
         }
       }
-      if (!(result.matrix().cwiseAbs().maxCoeff() <= largest_number)) return fail("a location is too large");
+      if (!(result.matrix().cwiseAbs().maxCoeff() <= largest_number))
+        return fail("a location is too large");
       places_.push_back(result);
       return {};
     });
   }
 
   Done flat_curves() {
-    return each("Curve2ds", [&]() -> Done { return keep(read_brep_curve(words_, 2), file_.flat_curves); });
+    return each("Curve2ds",
+                [&]() -> Done { return keep(read_brep_curve(words_, 2), file_.flat_curves); });
   }
 
   Done curves() {
@@ -145,7 +157,8 @@ class Parser {
     });
   }
 
-  /// Numbers of nodes and triangles, whether nodes have parameters and (version 3) normals, deflection, all of them.
+  /// Numbers of nodes and triangles, whether nodes have parameters and (version 3) normals,
+  /// deflection, all of them.
   Done triangles() {
     return each("Triangulations", [&]() -> Done {
       const auto nodes = integer(0, most), count = nodes ? integer(0, most) : nodes,
@@ -153,17 +166,20 @@ class Parser {
       const auto normals = flat && version_ == 3 ? integer(0, 1) : flat ? Expected<int>(0) : flat;
       if (!normals) return std::unexpected(normals.error());
       const std::size_t each_node = 3 + (*flat != 0 ? 2 : 0) + (*normals != 0 ? 3 : 0);
-      return skip(1 + each_node * static_cast<std::size_t>(*nodes) + 3 * static_cast<std::size_t>(*count));
+      return skip(1 + each_node * static_cast<std::size_t>(*nodes) +
+                  3 * static_cast<std::size_t>(*count));
     });
   }
 
   Done surfaces() {
-    return each("Surfaces", [&]() -> Done { return keep(read_brep_surface(words_), file_.surfaces); });
+    return each("Surfaces",
+                [&]() -> Done { return keep(read_brep_surface(words_), file_.surfaces); });
   }
 
   /// Seven digits: free, modified, checked, orientable, closed, infinite, convex.
   static bool are_flags(std::string_view word) {
-    return word.size() == 7 && std::ranges::all_of(word, [](char c) { return c == '0' || c == '1'; });
+    return word.size() == 7 &&
+           std::ranges::all_of(word, [](char c) { return c == '0' || c == '1'; });
   }
 
   /// Whether the flags of a shape come next: no parameter is followed by "*" or a use of a shape.
@@ -172,8 +188,9 @@ class Parser {
     const bool flags = are_flags(words_.words(words_.next()));
     const std::string_view after = words_.peek();
     words_.go_to(here);
-    return flags && (after == "*" || (after.size() > 1 && std::string_view("+-ie").find(after[0]) != after.npos &&
-                                      after.find('.') == after.npos));
+    return flags && (after == "*" ||
+                     (after.size() > 1 && std::string_view("+-ie").find(after[0]) != after.npos &&
+                      after.find('.') == after.npos));
   }
 
   Done vertex(BrepShape& shape) {
@@ -202,7 +219,8 @@ class Parser {
     const auto tolerance = words_.number();
     if (!tolerance) return std::unexpected(tolerance.error());
     shape.tolerance = *tolerance;
-    const auto same_parameter = integer(0, 1), same_range = same_parameter ? integer(0, 1) : same_parameter,
+    const auto same_parameter = integer(0, 1),
+               same_range = same_parameter ? integer(0, 1) : same_parameter,
                degenerated = same_range ? integer(0, 1) : same_range;
     if (!degenerated) return std::unexpected(degenerated.error());
     shape.same_parameter = *same_parameter != 0;
@@ -212,7 +230,8 @@ class Parser {
       const auto type = integer(0, 7);
       if (!type) return std::unexpected(type.error());
       if (*type == 0) continue;
-      constexpr std::size_t words_of_polygons[] = {2, 3, 4};  // polygons, a triangulation, a location
+      constexpr std::size_t words_of_polygons[] = {2, 3,
+                                                   4};  // polygons, a triangulation, a location
       Done done;
       if (*type == 1) {
         done = edge_curve(shape);
@@ -242,7 +261,8 @@ class Parser {
     return {};
   }
 
-  /// Curves, of a seam also the continuity across it, surface, its location, range, in version 2 the end points.
+  /// Curves, of a seam also the continuity across it, surface, its location, range, in version 2
+  /// the end points.
   Done flat_curve(BrepShape& shape, bool seam) {
     const auto count = static_cast<int>(file_.flat_curves.size());
     BrepFlatCurve flat;
@@ -252,7 +272,8 @@ class Parser {
     if (seam) {  // the second and the continuity, as "2CN" or "2 CN"
       const std::string_view word = words_.words(words_.next());
       const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), flat.other);
-      if (fault != std::errc() || flat.other < 1 || flat.other > count) return fail("there is no such curve");
+      if (fault != std::errc() || flat.other < 1 || flat.other > count)
+        return fail("there is no such curve");
       if (auto done = skip(end == word.data() + word.size() ? 1 : 0); !done) return done;
     }
     const auto surface = integer(0, static_cast<int>(file_.surfaces.size()));
@@ -332,7 +353,8 @@ class Parser {
         return fail(fmt::format("\"{}\" is no kind of shape", printable(kind)));
       }
       if (!done) return done;
-      if (!are_flags(words_.words(words_.next()))) return fail("the flags of a shape should stand here");
+      if (!are_flags(words_.words(words_.next())))
+        return fail("the flags of a shape should stand here");
       while (words_.peek() != "*") {
         const auto read = use(k, total);
         if (!read) return std::unexpected(read.error());

@@ -11,7 +11,8 @@
 namespace knead::detail {
 namespace {
 
-/// Type 9: flags, degrees, numbers of poles and knots, poles with v fast, knots with multiplicities.
+/// Type 9: flags, degrees, numbers of poles and knots, poles with v fast, knots with
+/// multiplicities.
 Expected<std::string> print_brep(const Surface& surface) {
   const auto [rows, columns] = surface.net();
   std::array<std::string, 2> knots;
@@ -25,8 +26,9 @@ Expected<std::string> print_brep(const Surface& surface) {
     }
   }
   const int rational = surface.rational() ? 1 : 0;
-  std::string text = fmt::format("9 {} {} 0 0 {} {} {} {} {} {}\n", rational, rational, surface.knots(0).degree(),
-                                 surface.knots(1).degree(), rows, columns, distinct[0], distinct[1]);
+  std::string text =
+      fmt::format("9 {} {} 0 0 {} {} {} {} {} {}\n", rational, rational, surface.knots(0).degree(),
+                  surface.knots(1).degree(), rows, columns, distinct[0], distinct[1]);
   for (int k = 0; k < surface.size(); ++k) {
     const auto p = surface.control_points().row(k);
     text += digits_17(p[0]) + " " + digits_17(p[1]) + " " + digits_17(p[2]);
@@ -47,7 +49,8 @@ class BrepSource final : public Source {
         left_out_(occt::left_out(file_, read.again)) {
     for (std::size_t k = 0; k < listed_.size(); ++k) {
       const brep::SplineSurface& s = model_->surfaces[k];
-      surfaces_.push_back({s.id, {}, "unknown", std::shared_ptr<const Surface>(model_, &s.surface)});
+      surfaces_.push_back(
+          {s.id, {}, "unknown", std::shared_ptr<const Surface>(model_, &s.surface)});
       back_.push_back(read.places[listed_[k]].inverse());
     }
   }
@@ -56,13 +59,18 @@ class BrepSource final : public Source {
   std::string_view format() const override { return "Open CASCADE"; }
   std::vector<LeftOut> left_out() const override { return left_out_; }
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
-  const std::vector<brep::UnreadableSurface>& unreadable() const override { return model_->unreadable; }
+  const std::vector<brep::UnreadableSurface>& unreadable() const override {
+    return model_->unreadable;
+  }
   std::shared_ptr<const brep::Model> model() const override { return model_; }
-  Expected<void> can_move_edge(const std::string& id) const override { return occt::can_move(file_, sources_, id); }
+  Expected<void> can_move_edge(const std::string& id) const override {
+    return occt::can_move(file_, sources_, id);
+  }
 
-  Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
-                             std::span<const std::string> followed,
-                             std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
+  Expected<std::string> save(
+      std::span<const std::shared_ptr<const Surface>> surfaces,
+      std::span<const std::string> followed,
+      std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
     TextChanges changes;
     std::vector<brep::Replacement> changed;
     std::set<int> changed_surfaces;
@@ -71,13 +79,18 @@ class BrepSource final : public Source {
       if (!followed.empty()) changed.push_back({surfaces_[k].id, *surfaces[k]});
       const auto& listed = **file_.surfaces[listed_[k]].spline;
       const std::size_t before = changes.size();
-      auto done = add_changes(listed, *surfaces_[k].surface, *surfaces[k], print_brep, changes, back_[k]);
+      auto done =
+          add_changes(listed, *surfaces_[k].surface, *surfaces[k], print_brep, changes, back_[k]);
       if (!done) return std::unexpected(std::move(done.error()));
       if (changes.size() == before) continue;
       changed_surfaces.insert(static_cast<int>(listed_[k]) + 1);
-      for (const occt::BrepShape& face : file_.shapes) {  // its triangles are those of the surface before
-        if (face.kind != occt::Shape::face || static_cast<std::size_t>(face.geometry) != listed_[k] + 1) continue;
-        if (face.triangulation.end > face.triangulation.begin) changes.emplace_back(face.triangulation, std::string());
+      for (const occt::BrepShape& face :
+           file_.shapes) {  // its triangles are those of the surface before
+        if (face.kind != occt::Shape::face ||
+            static_cast<std::size_t>(face.geometry) != listed_[k] + 1)
+          continue;
+        if (face.triangulation.end > face.triangulation.begin)
+          changes.emplace_back(face.triangulation, std::string());
       }
     }
     const auto moved = brep::moved_edges(*model_, changed, followed);
@@ -89,7 +102,8 @@ class BrepSource final : public Source {
     // Read again: how far apart the curves of the edges are now.
     const auto written = occt::BrepFile::parse(with_changes(bytes_, changes), name());
     if (!written) return std::unexpected(written.error());
-    const auto tolerances = occt::tolerance_changes(file_, *written, changed_surfaces, *moved, sources_);
+    const auto tolerances =
+        occt::tolerance_changes(file_, *written, changed_surfaces, *moved, sources_);
     changes.insert(changes.end(), tolerances.begin(), tolerances.end());
     return with_changes(bytes_, std::move(changes));
   }

@@ -24,7 +24,8 @@ Point inside(const Spline<D>& spline, std::array<double, D> at) {
 
 std::optional<Point> point_of(const BrepCurve& curve, int dimension, double t) {
   if (curve.type == 8) return point_of(*curve.basis, dimension, t);
-  if (curve.type > 5) return curve.spline ? std::optional(inside<1>(*curve.spline, {t})) : std::nullopt;
+  if (curve.type > 5)
+    return curve.spline ? std::optional(inside<1>(*curve.spline, {t})) : std::nullopt;
   const auto& v = curve.numbers;
   // Origin, in space the axis, x and y: of a line only the direction.
   const auto at = [&](std::size_t k) {
@@ -32,7 +33,8 @@ std::optional<Point> point_of(const BrepCurve& curve, int dimension, double t) {
     return Point(v[n], v[n + 1], dimension == 3 ? v[n + 2] : 0);
   };
   if (curve.type == 1) return at(0) + t * at(1);
-  const std::size_t x = dimension == 3 ? 2 : 1, sizes = static_cast<std::size_t>(dimension) * (x + 2);
+  const std::size_t x = dimension == 3 ? 2 : 1,
+                    sizes = static_cast<std::size_t>(dimension) * (x + 2);
   const double a = v[sizes];
   switch (curve.type) {
     case 2:

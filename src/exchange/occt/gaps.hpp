@@ -10,19 +10,20 @@ namespace knead::occt {
 
 /// How far what describes an edge lies apart, in the file's coordinates.
 struct EdgeGap {
-  double along = 0;               ///< of its curve in space from its points on surfaces, at equal parameters
+  double along = 0;  ///< of its curve in space from its points on surfaces, at equal parameters
   std::vector<double> at_vertex;  ///< of the ends of all its curves from each of the edge's `uses`
-  double rounding = 0;            ///< what the distances may differ by alone: 1e-13 of the largest coordinate
+  double rounding = 0;  ///< what the distances may differ by alone: 1e-13 of the largest coordinate
 };
 
-/// Measures the edges of one file, as Open CASCADE's BRepCheck does: between curves at equal parameters, and at their
-/// ends. Surfaces are read when an edge needs them first.
+/// Measures the edges of one file, as Open CASCADE's BRepCheck does: between curves at equal
+/// parameters, and at their ends. Surfaces are read when an edge needs them first.
 class GapMeter {
  public:
   explicit GapMeter(const BrepFile& file) : file_(file), surfaces_(file.surfaces.size()) {}
 
-  /// At 201 parameters. None: one of its curves or surfaces is of a form that is not evaluated here: periodic, an
-  /// offset, another surface than a B-spline; or its curves have different parameters. Cost: 201 points of each curve.
+  /// At 201 parameters. None: one of its curves or surfaces is of a form that is not evaluated
+  /// here: periodic, an offset, another surface than a B-spline; or its curves have different
+  /// parameters. Cost: 201 points of each curve.
   [[nodiscard]] std::optional<EdgeGap> gap(const BrepShape& edge);
 
  private:

@@ -23,7 +23,8 @@ class GeometryReader {
     const auto poles = bezier ? Expected<int>(*degree + 1) : integer(2, most_poles);
     const auto count = bezier ? Expected<int>(2) : integer(2, most_poles);
     if (!poles || !count) return fail("a B-spline curve has no poles or no knots");
-    const auto width = static_cast<std::size_t>(dimension + *rational), n = static_cast<std::size_t>(*poles);
+    const auto width = static_cast<std::size_t>(dimension + *rational),
+               n = static_cast<std::size_t>(*poles);
     if (n > words_.rest()) return fail("the file ends too early");
     const auto numbers = words_.numbers(n * width);
     if (!numbers) return std::unexpected(numbers.error());
@@ -53,7 +54,8 @@ class GeometryReader {
     std::vector<double> flat;
     for (int k = 0; k < count; ++k) {
       const auto knot = words_.number();
-      const auto multiplicity = knot ? integer(1, 64) : Expected<int>(std::unexpected(knot.error()));
+      const auto multiplicity =
+          knot ? integer(1, 64) : Expected<int>(std::unexpected(knot.error()));
       if (!multiplicity) return std::unexpected(multiplicity.error());
       flat.insert(flat.end(), static_cast<std::size_t>(*multiplicity), *knot);
     }
@@ -85,8 +87,8 @@ class GeometryReader {
     return result;
   }
 
-  /// Whether u and v are rational, periodic (B-splines), degrees, numbers of poles and of knots (B-splines), poles with
-  /// v fast and their weights, knots of u and v.
+  /// Whether u and v are rational, periodic (B-splines), degrees, numbers of poles and of knots
+  /// (B-splines), poles with v fast and their weights, knots of u and v.
   Expected<Expected<ListedSurface>> spline_surface(std::size_t begin, bool bezier) {
     std::array<int, 10> head = {};
     const std::size_t count = bezier ? 4 : 10;
@@ -102,7 +104,8 @@ class GeometryReader {
     s.count = bezier ? std::array{head[2] + 1, head[3] + 1} : std::array{head[6], head[7]};
     if (s.degree[0] > 64 || s.degree[1] > 64) return fail("a degree is out of range");
     const bool rational = head[0] != 0 || head[1] != 0;
-    if (auto done = detail::read_points(words_, s, rational ? 4 : 3); !done) return std::unexpected(done.error());
+    if (auto done = detail::read_points(words_, s, rational ? 4 : 3); !done)
+      return std::unexpected(done.error());
     for (std::size_t d = 0; d < 2; ++d) {
       auto flat = bezier ? bezier_knots(s.degree[d]) : knots(head[8 + d]);
       if (!flat) return std::unexpected(flat.error());
@@ -110,8 +113,8 @@ class GeometryReader {
     }
     s.block = {begin, words_.place()};
     if (!bezier && (head[2] != 0 || head[3] != 0)) {
-      return Expected<ListedSurface>(std::unexpected(
-          words_.error(begin, "it is periodic", "make it a surface with ends before writing the file")));
+      return Expected<ListedSurface>(std::unexpected(words_.error(
+          begin, "it is periodic", "make it a surface with ends before writing the file")));
     }
     return Expected<ListedSurface>(std::move(s));
   }
@@ -137,7 +140,8 @@ class GeometryReader {
       if (!spline) return std::unexpected(spline.error());
       result.spline = *std::move(spline);
     } else {
-      if (auto done = words_.numbers(*type == 10 ? 4 : 1); !done) return std::unexpected(done.error());
+      if (auto done = words_.numbers(*type == 10 ? 4 : 1); !done)
+        return std::unexpected(done.error());
       auto basis = surface(depth + 1);
       return *type == 10 || !basis ? basis : Expected<BrepSurface>(std::move(result));
     }
@@ -146,17 +150,24 @@ class GeometryReader {
 
  private:
   std::unexpected<Error> fail(std::string what) const {
-    return std::unexpected(words_.error(words_.place(), std::move(what), "write the file again as text"));
+    return std::unexpected(
+        words_.error(words_.place(), std::move(what), "write the file again as text"));
   }
-  Expected<int> integer(int least, int largest) { return words_.integer(least, largest, "number that can stand here"); }
+  Expected<int> integer(int least, int largest) {
+    return words_.integer(least, largest, "number that can stand here");
+  }
 
   WordReader& words_;
 };
 
 }  // namespace
 
-Expected<BrepCurve> read_brep_curve(WordReader& words, int dimension) { return GeometryReader(words).curve(dimension); }
+Expected<BrepCurve> read_brep_curve(WordReader& words, int dimension) {
+  return GeometryReader(words).curve(dimension);
+}
 
-Expected<BrepSurface> read_brep_surface(WordReader& words) { return GeometryReader(words).surface(); }
+Expected<BrepSurface> read_brep_surface(WordReader& words) {
+  return GeometryReader(words).surface();
+}
 
 }  // namespace knead::occt

@@ -12,7 +12,8 @@ using detail::LeftOutKind;
 
 class Unread {
  public:
-  Unread(const BrepFile& file, std::size_t again) : file_(file), again_(again), seen_(file.shapes.size(), false) {}
+  Unread(const BrepFile& file, std::size_t again)
+      : file_(file), again_(again), seen_(file.shapes.size(), false) {}
 
   std::vector<LeftOut> list() {
     surface_used_.assign(file_.surfaces.size(), false);
@@ -41,7 +42,8 @@ class Unread {
       seen_[index] = true;
       const BrepShape& shape = file_.shapes[index];
       if (shape.kind == Shape::group) {
-        for (auto use = shape.uses.rbegin(); use != shape.uses.rend(); ++use) stack.push_back(use->shape);
+        for (auto use = shape.uses.rbegin(); use != shape.uses.rend(); ++use)
+          stack.push_back(use->shape);
         continue;
       }
       if (shape.kind == Shape::face)
@@ -69,10 +71,13 @@ class Unread {
     });
     constexpr std::string_view one = "face that cannot be read", many = "faces that cannot be read";
     if (face.geometry == 0)
-      list_.add({one, many, "it has no surface, but triangles at most", "write the file with exact geometry"},
+      list_.add({one, many, "it has no surface, but triangles at most",
+                 "write the file with exact geometry"},
                 name_of(index));
     else if (!bounded)
-      list_.add({one, many, "it has no edges", "bound it by edges in the program that wrote the file"}, name_of(index));
+      list_.add(
+          {one, many, "it has no edges", "bound it by edges in the program that wrote the file"},
+          name_of(index));
   }
 
   void add_unused() {
@@ -84,12 +89,14 @@ class Unread {
     }
     std::vector<bool> used(file_.curves.size(), false);
     for (const BrepShape& shape : file_.shapes) {
-      if (shape.kind == Shape::edge && shape.geometry > 0 && static_cast<std::size_t>(shape.geometry) <= used.size())
+      if (shape.kind == Shape::edge && shape.geometry > 0 &&
+          static_cast<std::size_t>(shape.geometry) <= used.size())
         used[static_cast<std::size_t>(shape.geometry) - 1] = true;
     }
     if (const auto unused = std::ranges::count(used, false); unused > 0) {
-      list_.add({"curve without an edge", "curves without edges", "curves are read where they bound faces"}, {},
-                static_cast<std::size_t>(unused));
+      list_.add({"curve without an edge", "curves without edges",
+                 "curves are read where they bound faces"},
+                {}, static_cast<std::size_t>(unused));
     }
   }
 
@@ -101,6 +108,8 @@ class Unread {
 
 }  // namespace
 
-std::vector<LeftOut> left_out(const BrepFile& file, std::size_t again) { return Unread(file, again).list(); }
+std::vector<LeftOut> left_out(const BrepFile& file, std::size_t again) {
+  return Unread(file, again).list();
+}
 
 }  // namespace knead::occt

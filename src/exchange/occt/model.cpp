@@ -13,8 +13,9 @@
 namespace knead::occt {
 namespace {
 
-constexpr std::size_t most_uses = 1'000'000;  // of faces in groups, which may be used again and again
-constexpr std::size_t most_mapped = 50'000;   // of faces that are used again, together
+// Of faces in groups, which may be used again and again.
+constexpr std::size_t most_uses = 1'000'000;
+constexpr std::size_t most_mapped = 50'000;  // of faces that are used again, together
 constexpr std::size_t most_chained = 4000;
 
 using brep::Index;
@@ -22,7 +23,8 @@ using brep::Index;
 class ModelReader {
  public:
   ModelReader(const BrepFile& file, std::string name)
-      : file_(file), builder_(std::move(name), static_cast<int>(file.surfaces.size() + file.shapes.size())) {}
+      : file_(file),
+        builder_(std::move(name), static_cast<int>(file.surfaces.size() + file.shapes.size())) {}
 
   ReadModel read() {
     const std::size_t count = file_.surfaces.size();
@@ -30,7 +32,8 @@ class ModelReader {
     supports_.assign(count, brep::none);
     for (const Use& root : file_.roots) visit(root, Eigen::Affine3d::Identity(), false);
     for (std::size_t k = 0; k < count; ++k) {  // those without a face
-      if (supports_[k] == brep::none && file_.surfaces[k].spline) put_surface(k, Eigen::Affine3d::Identity());
+      if (supports_[k] == brep::none && file_.surfaces[k].spline)
+        put_surface(k, Eigen::Affine3d::Identity());
     }
     read_.model = std::move(builder_).complete("unknown", 0);
     add_parts(read_.model);
@@ -38,9 +41,12 @@ class ModelReader {
   }
 
  private:
-  int name_of(std::size_t shape) const { return static_cast<int>(file_.surfaces.size() + shape) + 1; }
+  int name_of(std::size_t shape) const {
+    return static_cast<int>(file_.surfaces.size() + shape) + 1;
+  }
 
-  /// `again`: 0, or the number of the way from where a part that this belongs to was first to where it is now.
+  /// `again`: 0, or the number of the way from where a part that this belongs to was first to where
+  /// it is now.
   void visit(const Use& use, const Eigen::Affine3d& outer, bool turned, int again = 0) {
     if (++uses_ > most_uses) return;
     const BrepShape& shape = file_.shapes[use.shape];
@@ -61,8 +67,8 @@ class ModelReader {
     }
   }
 
-  /// Faces that are used again elsewhere, together with those that are used again in the same places: the parts of an
-  /// assembly, beside one of everything else.
+  /// Faces that are used again elsewhere, together with those that are used again in the same
+  /// places: the parts of an assembly, beside one of everything else.
   void add_parts(brep::Model& model) {
     std::map<std::vector<int>, std::vector<Index>> groups;  // faces
     std::map<std::string, Index> faces;
@@ -72,7 +78,8 @@ class ModelReader {
       std::vector<int> ways;
       for (const int k : all) {
         const Eigen::Affine3d& way = ways_[static_cast<std::size_t>(k) - 1];
-        const bool elsewhere = !way.isApprox(Eigen::Affine3d::Identity(), 1e-9) && brep::scale_of(way.linear());
+        const bool elsewhere =
+            !way.isApprox(Eigen::Affine3d::Identity(), 1e-9) && brep::scale_of(way.linear());
         if (elsewhere && ++places <= most_mapped)
           ways.push_back(k);
         else
@@ -107,7 +114,8 @@ class ModelReader {
       if (file_.shapes[wire.shape].kind != Shape::wire) continue;
       brep::Bound bound = read_loop(wire, move * wire.place);
       if (bound.kind == brep::Bound::Kind::unknown) continue;
-      bound.forward = !turned;  // loops run about the normal of the surface here, and about that of the face there
+      bound.forward = !turned;  // loops run about the normal of the surface here, and about that of
+                                // the face there
       face.bounds.push_back(std::move(bound));
     }
     const std::size_t below = static_cast<std::size_t>(shape.geometry) - 1;
@@ -116,14 +124,16 @@ class ModelReader {
     if (!face.bounds.empty()) builder_.add_face(std::move(face));
   }
 
-  /// The axes of a plane, cylinder, cone, sphere or torus may be left-handed: its normal is then the other one.
+  /// The axes of a plane, cylinder, cone, sphere or torus may be left-handed: its normal is then
+  /// the other one.
   static bool mirrored(const BrepSurface& surface, const Eigen::Affine3d& move) {
     if (surface.type > 5) return false;
     const auto axis = [&](std::size_t k) { return Point(move.linear() * at(surface.numbers, k)); };
     return axis(2).cross(axis(3)).dot(axis(1)) < 0;
   }
 
-  /// A surface at this place; another one than the first is a surface of its own, that is not sculpted.
+  /// A surface at this place; another one than the first is a surface of its own, that is not
+  /// sculpted.
   Index support_of(std::size_t k, const Eigen::Affine3d& move) {
     if (supports_[k] == brep::none) {
       put_surface(k, move);
@@ -131,7 +141,8 @@ class ModelReader {
     }
     if (read_.places[k].isApprox(move, 1e-12)) return supports_[k];
     const int name = builder_.fresh();
-    if (!file_.surfaces[k].spline) return builder_.add_support(elementary(name, file_.surfaces[k], move));
+    if (!file_.surfaces[k].spline)
+      return builder_.add_support(elementary(name, file_.surfaces[k], move));
     brep::Support elsewhere;
     elsewhere.id = brep::ModelBuilder::name(name);
     elsewhere.kind = "BREP_SURFACE_ELSEWHERE";
@@ -148,7 +159,8 @@ class ModelReader {
     }
     auto made = *surface.spline ? detail::surface_of(**surface.spline)
                                 : Expected<Surface>(std::unexpected(surface.spline->error()));
-    if (made && !move.matrix().isIdentity(0)) made = made->with_control_points(moved(made->control_points(), move));
+    if (made && !move.matrix().isIdentity(0))
+      made = made->with_control_points(moved(made->control_points(), move));
     if (!made) {
       brep::Support support;
       support.id = brep::ModelBuilder::name(name);
@@ -162,10 +174,15 @@ class ModelReader {
     read_.surfaces.push_back(k);
   }
 
-  static Point at(const std::vector<double>& v, std::size_t k) { return {v[3 * k], v[3 * k + 1], v[3 * k + 2]}; }
-  static double scale_of(const Eigen::Affine3d& move) { return std::cbrt(std::abs(move.linear().determinant())); }
+  static Point at(const std::vector<double>& v, std::size_t k) {
+    return {v[3 * k], v[3 * k + 1], v[3 * k + 2]};
+  }
+  static double scale_of(const Eigen::Affine3d& move) {
+    return std::cbrt(std::abs(move.linear().determinant()));
+  }
   /// Location, axis, x, y.
-  static std::optional<brep::Frame> frame_of(const std::vector<double>& v, const Eigen::Affine3d& move) {
+  static std::optional<brep::Frame> frame_of(const std::vector<double>& v,
+                                             const Eigen::Affine3d& move) {
     return brep::frame_of(move * at(v, 0), move.linear() * at(v, 1), move.linear() * at(v, 2));
   }
   static Points moved(Points points, const Eigen::Affine3d& move) {
@@ -174,13 +191,15 @@ class ModelReader {
     return points;
   }
 
-  static brep::Support elementary(int name, const BrepSurface& surface, const Eigen::Affine3d& move) {
+  static brep::Support elementary(int name, const BrepSurface& surface,
+                                  const Eigen::Affine3d& move) {
     using Kind = brep::ElementarySurface::Kind;
-    constexpr std::array<std::pair<const char*, Kind>, 5> kinds = {{{"PLANE", Kind::plane},
-                                                                    {"CYLINDRICAL_SURFACE", Kind::cylinder},
-                                                                    {"CONICAL_SURFACE", Kind::cone},
-                                                                    {"SPHERICAL_SURFACE", Kind::sphere},
-                                                                    {"TOROIDAL_SURFACE", Kind::torus}}};
+    constexpr std::array<std::pair<const char*, Kind>, 5> kinds = {
+        {{"PLANE", Kind::plane},
+         {"CYLINDRICAL_SURFACE", Kind::cylinder},
+         {"CONICAL_SURFACE", Kind::cone},
+         {"SPHERICAL_SURFACE", Kind::sphere},
+         {"TOROIDAL_SURFACE", Kind::torus}}};
     brep::Support support;
     support.id = brep::ModelBuilder::name(name);
     const auto& v = surface.numbers;
@@ -204,7 +223,8 @@ class ModelReader {
     return support;
   }
 
-  static brep::SweptSurface swept(const BrepSurface& surface, const Eigen::Affine3d& move, bool revolution) {
+  static brep::SweptSurface swept(const BrepSurface& surface, const Eigen::Affine3d& move,
+                                  bool revolution) {
     const auto& v = surface.numbers;
     const Point origin = revolution ? Point(move * at(v, 0)) : Point(Point::Zero());
     const Point axis = move.linear() * at(v, revolution ? 1 : 0);
@@ -213,7 +233,8 @@ class ModelReader {
     if (profile && axis.norm() > 0)
       result.curve = std::make_shared<const brep::CurveGeometry>(*std::move(profile));
     else
-      result.wrong = brep::fault(profile ? input_error("its axis has no length").error() : profile.error());
+      result.wrong =
+          brep::fault(profile ? input_error("its axis has no length").error() : profile.error());
     return result;
   }
 
@@ -225,7 +246,8 @@ class ModelReader {
       const double a = v[12] * scale_of(move), b = own.type == 2 ? a : v[13] * scale_of(move);
       return brep::conic_of(brep::Conic::Form::ellipse, frame_of(v, move), a, b);
     }
-    if (!own.spline) return input_error(fmt::format("it lies on a curve of type {}, which is not read", own.type));
+    if (!own.spline)
+      return input_error(fmt::format("it lies on a curve of type {}, which is not read", own.type));
     auto spline = own.spline->with_control_points(moved(own.spline->control_points(), move));
     if (!spline) return std::unexpected(std::move(spline.error()));
     return brep::spline_of(*std::move(spline));
@@ -238,8 +260,9 @@ class ModelReader {
     Index from = brep::none, to = brep::none;
   };
 
-  /// Wires list their edges in any order: puts each behind one that ends where it begins, and the way back along a seam
-  /// behind what else begins there. Cost: quadratic in the edges of a wire, for at most `most_chained`.
+  /// Wires list their edges in any order: puts each behind one that ends where it begins, and the
+  /// way back along a seam behind what else begins there. Cost: quadratic in the edges of a wire,
+  /// for at most `most_chained`.
   static void chain(std::vector<Turn>& turns) {
     if (turns.size() > most_chained) return;
     for (std::size_t k = 1; k < turns.size(); ++k) {
@@ -252,7 +275,8 @@ class ModelReader {
         if (!returns) break;
       }
       if (next < turns.size())
-        std::rotate(turns.begin() + static_cast<std::ptrdiff_t>(k), turns.begin() + static_cast<std::ptrdiff_t>(next),
+        std::rotate(turns.begin() + static_cast<std::ptrdiff_t>(k),
+                    turns.begin() + static_cast<std::ptrdiff_t>(next),
                     turns.begin() + static_cast<std::ptrdiff_t>(next) + 1);
     }
   }
@@ -313,10 +337,14 @@ class ModelReader {
       }
       const bool whole = from != brep::none && to != brep::none && shape.geometry != 0;
       const int name = first ? name_of(index) : builder_.fresh();
-      Expected<brep::CurveGeometry> geometry = input_error("the edge has no curve in space, or no vertices");
-      if (whole) geometry = curve(file_.curves[static_cast<std::size_t>(shape.geometry) - 1], move * shape.place);
+      Expected<brep::CurveGeometry> geometry =
+          input_error("the edge has no curve in space, or no vertices");
+      if (whole)
+        geometry =
+            curve(file_.curves[static_cast<std::size_t>(shape.geometry) - 1], move * shape.place);
       if (!geometry) geometry.error().where = brep::ModelBuilder::name(name);
-      if (from == brep::none) from = to != brep::none ? to : builder_.add_vertex(builder_.fresh(), move.translation());
+      if (from == brep::none)
+        from = to != brep::none ? to : builder_.add_vertex(builder_.fresh(), move.translation());
       if (to == brep::none) to = from;
       if (whole) read_.sources.edges[brep::ModelBuilder::name(name)] = {index, move * shape.place};
       return builder_.add_edge(name, from, to, std::move(geometry));
@@ -326,7 +354,7 @@ class ModelReader {
   const BrepFile& file_;
   brep::ModelBuilder builder_;
   ReadModel read_;
-  std::vector<Index> supports_;                      // of the surfaces of the file, where they are first used
+  std::vector<Index> supports_;  // of the surfaces of the file, where they are first used
   std::map<std::size_t, Eigen::Affine3d> first_;     // where faces and groups are first used
   std::vector<Eigen::Affine3d> ways_;                // from there to where they are used again
   std::map<std::size_t, std::vector<int>> ways_of_;  // of faces: numbers of those, from 1
@@ -336,6 +364,8 @@ class ModelReader {
 
 }  // namespace
 
-ReadModel read_model(const BrepFile& file, std::string name) { return ModelReader(file, std::move(name)).read(); }
+ReadModel read_model(const BrepFile& file, std::string name) {
+  return ModelReader(file, std::move(name)).read();
+}
 
 }  // namespace knead::occt

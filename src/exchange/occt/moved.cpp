@@ -14,13 +14,16 @@ using detail::digits_17;
 using detail::shortest;
 using detail::TextChanges;
 
-const ReadModel::Source* find(const std::map<std::string, ReadModel::Source>& sources, const std::string& id) {
+const ReadModel::Source* find(const std::map<std::string, ReadModel::Source>& sources,
+                              const std::string& id) {
   const auto found = sources.find(id);
   return found == sources.end() ? nullptr : &found->second;
 }
 
-/// Type 7, over these parameters: rational, periodic, degree, numbers of poles and knots, poles, knots.
-std::string print(const Curve& curve, const std::array<double, 2>& range, const Eigen::Affine3d& back) {
+/// Type 7, over these parameters: rational, periodic, degree, numbers of poles and knots, poles,
+/// knots.
+std::string print(const Curve& curve, const std::array<double, 2>& range,
+                  const Eigen::Affine3d& back) {
   const auto own = curve.knots(0).knots();
   std::string knots;
   int distinct = 0;
@@ -31,7 +34,8 @@ std::string print(const Curve& curve, const std::array<double, 2>& range, const 
     knots += fmt::format(" {} {}", digits_17(t), next - k);
     ++distinct;
   }
-  std::string text = fmt::format("7 0 0  {} {} {} ", curve.knots(0).degree(), curve.size(), distinct);
+  std::string text =
+      fmt::format("7 0 0  {} {} {} ", curve.knots(0).degree(), curve.size(), distinct);
   for (Eigen::Index k = 0; k < curve.size(); ++k) {
     const Point p = back * Point(curve.control_points().row(k).transpose());
     text += fmt::format(" {} {} {} ", digits_17(p.x()), digits_17(p.y()), digits_17(p.z()));
@@ -41,26 +45,33 @@ std::string print(const Curve& curve, const std::array<double, 2>& range, const 
 
 }  // namespace
 
-Expected<void> can_move(const BrepFile& file, const ReadModel::Sources& sources, const std::string& edge) {
+Expected<void> can_move(const BrepFile& file, const ReadModel::Sources& sources,
+                        const std::string& edge) {
   const ReadModel::Source* own = find(sources.edges, edge);
   if (own == nullptr) return input_error("only edges of faces can follow", edge);
   const BrepShape& shape = file.shapes[own->shape];
   if (!shape.same_parameter) {
-    return input_error("its curves are at the same points at different parameters, which Open CASCADE would find open",
-                       edge, "hold it, or write the file after BRepLib::SameParameter");
+    return input_error(
+        "its curves are at the same points at different parameters, which Open CASCADE would find "
+        "open",
+        edge, "hold it, or write the file after BRepLib::SameParameter");
   }
   const auto unknown = [&](const BrepFlatCurve& flat) {
     const auto read = [&](int k) {
-      return k == 0 || point_of(file.flat_curves[static_cast<std::size_t>(k) - 1], 2, flat.range[0]).has_value();
+      return k == 0 || point_of(file.flat_curves[static_cast<std::size_t>(k) - 1], 2, flat.range[0])
+                           .has_value();
     };
     return !read(flat.curve) || !read(flat.other);
   };
   if (std::ranges::any_of(shape.flat, unknown)) {
-    return input_error("a curve in the parameters of a surface is periodic or an offset", edge, "hold it");
+    return input_error("a curve in the parameters of a surface is periodic or an offset", edge,
+                       "hold it");
   }
-  const auto uses = std::ranges::count_if(sources.edges, [&](const auto& e) { return e.second.shape == own->shape; });
+  const auto uses = std::ranges::count_if(
+      sources.edges, [&](const auto& e) { return e.second.shape == own->shape; });
   if (uses == 1) return {};
-  return input_error("the edge stands in several places, and would move in all of them", edge, "hold it");
+  return input_error("the edge stands in several places, and would move in all of them", edge,
+                     "hold it");
 }
 
 Expected<TextChanges> edge_changes(const BrepFile& file, const ReadModel::Sources& sources,
@@ -102,8 +113,9 @@ Expected<TextChanges> edge_changes(const BrepFile& file, const ReadModel::Source
   return changes;
 }
 
-TextChanges tolerance_changes(const BrepFile& file, const BrepFile& after, const std::set<int>& changed,
-                              const brep::MovedEdges& moved, const ReadModel::Sources& sources) {
+TextChanges tolerance_changes(const BrepFile& file, const BrepFile& after,
+                              const std::set<int>& changed, const brep::MovedEdges& moved,
+                              const ReadModel::Sources& sources) {
   std::set<std::size_t> edges, vertices;
   for (const auto& edge : moved.edges) edges.insert(find(sources.edges, edge.id)->shape);
   for (const auto& vertex : moved.vertices) {
@@ -113,16 +125,20 @@ TextChanges tolerance_changes(const BrepFile& file, const BrepFile& after, const
   std::map<std::size_t, double> wanted;  // by shape
   const auto want = [&](std::size_t shape, double before, double now, double rounding) {
     const double tolerance = file.shapes[shape].tolerance;
-    // A held edge is measured beside a surface whose points differ by roundings: that is no reason for the sum.
-    if (now > std::max(tolerance, before) + rounding) wanted[shape] = std::max(wanted[shape], tolerance + now);
+    // A held edge is measured beside a surface whose points differ by roundings: that is no reason
+    // for the sum.
+    if (now > std::max(tolerance, before) + rounding)
+      wanted[shape] = std::max(wanted[shape], tolerance + now);
   };
   for (std::size_t k = 0; k < file.shapes.size(); ++k) {
     const BrepShape& edge = file.shapes[k];
     if (edge.kind != Shape::edge || edge.degenerated) continue;
     const bool moves =
         edges.contains(k) ||
-        std::ranges::any_of(edge.flat, [&](const BrepFlatCurve& flat) { return changed.contains(flat.surface); }) ||
-        std::ranges::any_of(edge.uses, [&](const Use& use) { return vertices.contains(use.shape); });
+        std::ranges::any_of(
+            edge.flat, [&](const BrepFlatCurve& flat) { return changed.contains(flat.surface); }) ||
+        std::ranges::any_of(edge.uses,
+                            [&](const Use& use) { return vertices.contains(use.shape); });
     if (!moves) continue;
     const auto now = is.gap(after.shapes[k]), before = was.gap(edge);
     if (!now || !before) continue;
@@ -130,7 +146,8 @@ TextChanges tolerance_changes(const BrepFile& file, const BrepFile& after, const
     for (std::size_t v = 0; v < edge.uses.size(); ++v) {
       want(edge.uses[v].shape, before->at_vertex[v], now->at_vertex[v], now->rounding);
       // A vertex is not known better than its edges.
-      if (const auto own = wanted.find(k); own != wanted.end()) want(edge.uses[v].shape, 0, own->second, 0);
+      if (const auto own = wanted.find(k); own != wanted.end())
+        want(edge.uses[v].shape, 0, own->second, 0);
     }
   }
   TextChanges changes;

@@ -15,11 +15,16 @@ Expected<Part21File> Part21File::parse(std::string bytes, std::string name) {
   file.bytes_ = std::move(bytes);
   file.name_ = std::move(name);
   if (file.bytes_.size() > std::numeric_limits<std::uint32_t>::max() - 16) {
-    return std::unexpected(
-        Error{ErrorKind::input, "the file is larger than 4 GB", {}, "split it into parts", file.name_, 0});
+    return std::unexpected(Error{ErrorKind::input,
+                                 "the file is larger than 4 GB",
+                                 {},
+                                 "split it into parts",
+                                 file.name_,
+                                 0});
   }
   file.reserve();
-  if (auto parsed = Part21Parser(file).parse(); !parsed) return std::unexpected(std::move(parsed.error()));
+  if (auto parsed = Part21Parser(file).parse(); !parsed)
+    return std::unexpected(std::move(parsed.error()));
   return file;
 }
 
@@ -50,12 +55,14 @@ std::string Part21Parser::place() const {
 bool Part21Parser::fail_at(std::uint32_t byte, std::string what, std::string remedy) {
   if (failed_) return false;
   failed_ = true;
-  error_ = Error{ErrorKind::input, std::move(what), place(), std::move(remedy), file_.name_, file_.line(byte)};
+  error_ = Error{ErrorKind::input,  std::move(what), place(),
+                 std::move(remedy), file_.name_,     file_.line(byte)};
   return false;
 }
 
 bool Part21Parser::fail_expected(const std::string& expected) {
-  if (token_.kind == Kind::bad) return fail(token_.problem, "correct the text of the file at this place");
+  if (token_.kind == Kind::bad)
+    return fail(token_.problem, "correct the text of the file at this place");
   if (token_.kind == Kind::end)
     return fail("the file ends in the middle", expected + " is missing; get the whole file");
   auto found = std::string(text().substr(0, 40));
@@ -67,7 +74,8 @@ bool Part21Parser::fail_expected(const std::string& expected) {
 
 std::uint32_t Part21Parser::push(Part21Kind kind, ByteRange bytes) {
   const auto index = static_cast<std::uint32_t>(file_.values_.size());
-  const auto length = kind == Part21Kind::reference ? Part21File::too_much : bytes.end - bytes.begin;
+  const auto length =
+      kind == Part21Kind::reference ? Part21File::too_much : bytes.end - bytes.begin;
   file_.values_.push_back({bytes.begin, static_cast<std::uint32_t>(kind) & 15U,
                            std::min(length, Part21File::too_much) & Part21File::too_much});
   return index;
@@ -75,13 +83,15 @@ std::uint32_t Part21Parser::push(Part21Kind kind, ByteRange bytes) {
 
 void Part21Parser::close(std::uint32_t value) {
   const auto next = static_cast<std::uint32_t>(file_.values_.size());
-  file_.values_[value].content = std::min(next - value, Part21File::too_much) & Part21File::too_much;
+  file_.values_[value].content =
+      std::min(next - value, Part21File::too_much) & Part21File::too_much;
   if (next - value >= Part21File::too_much) file_.wide_[value] = next;
 }
 
 bool Part21Parser::define(const Part21Token& name, std::uint32_t index) {
   const auto id = parse_instance_name(file_.text({name.begin, name.end}));
-  if (!id) return fail_at(name.begin, "an instance name above 2^63 - 1", "number the entities from 1");
+  if (!id)
+    return fail_at(name.begin, "an instance name above 2^63 - 1", "number the entities from 1");
   if (names_only_) {
     file_.index_.push_back({*id, no_instance, name.begin});
     if (index != no_instance) file_.instances_[index].id = *id;
@@ -103,8 +113,11 @@ void Part21Parser::note_part() {
   const auto bytes = ByteRange{token_.begin, token_.end};
   const auto written = file_.text(bytes);
   const std::size_t size = written.size();
-  const auto byte = [&](std::size_t k) { return static_cast<std::size_t>(static_cast<unsigned char>(written[k])); };
-  const std::size_t slot = (size + 7 * byte(0) + 31 * byte(size / 2) + 127 * byte(size - 1)) % recent_.size();
+  const auto byte = [&](std::size_t k) {
+    return static_cast<std::size_t>(static_cast<unsigned char>(written[k]));
+  };
+  const std::size_t slot =
+      (size + 7 * byte(0) + 31 * byte(size / 2) + 127 * byte(size - 1)) % recent_.size();
   auto& [text, number] = recent_[slot];
   if (text != written) {
     const auto [known, fresh] =
@@ -134,7 +147,8 @@ void Part21Parser::sort_parts() {
     const std::span own(file_.named_.begin() + keyword.first, file_.named_.begin() + keyword.last);
     if (!std::ranges::is_sorted(own)) std::ranges::sort(own);
   }
-  std::ranges::sort(keywords, KeywordOrder(), [this](const auto& keyword) { return file_.text(keyword.bytes); });
+  std::ranges::sort(keywords, KeywordOrder(),
+                    [this](const auto& keyword) { return file_.text(keyword.bytes); });
 }
 
 bool Part21Parser::sort_names() {
@@ -146,17 +160,19 @@ bool Part21Parser::sort_names() {
   // Of all names defined again, the first in the file.
   const Part21File::Name* again = nullptr;
   for (std::size_t k = 1; k < names.size(); ++k) {
-    if (names[k].id == names[k - 1].id && (again == nullptr || names[k].byte < again->byte)) again = &names[k];
+    if (names[k].id == names[k - 1].id && (again == nullptr || names[k].byte < again->byte))
+      again = &names[k];
   }
   if (again == nullptr) return true;
   const auto& first = *std::ranges::lower_bound(names, again->id, {}, &Part21File::Name::id);
   current_ = again->instance;
   if (current_ == no_instance) section_ = "REFERENCE section";
-  return fail_at(
-      again->byte,
-      "#" + std::to_string(again->id) + " is defined twice" +
-          (first.instance == no_instance ? std::string() : ", first in line " + std::to_string(file_.line(first.byte))),
-      "give one of them another name");
+  return fail_at(again->byte,
+                 "#" + std::to_string(again->id) + " is defined twice" +
+                     (first.instance == no_instance
+                          ? std::string()
+                          : ", first in line " + std::to_string(file_.line(first.byte))),
+                 "give one of them another name");
 }
 
 bool Part21Parser::resolve() {
@@ -177,15 +193,18 @@ bool Part21Parser::resolve_range(std::uint32_t first, std::uint32_t last, std::u
     const auto id = parse_instance_name(file_.text(k));
     if (!id) {
       current_ = owner;
-      return fail_at(value.begin,
-                     "it refers to " + std::string(file_.text(k).substr(0, 40)) + ", a name above 2^63 - 1",
-                     "correct the name");
+      return fail_at(
+          value.begin,
+          "it refers to " + std::string(file_.text(k).substr(0, 40)) + ", a name above 2^63 - 1",
+          "correct the name");
     }
     const auto found = file_.lookup(*id);
     if (!found) {
       current_ = owner;
-      if (file_.dangling_count_++ < Part21File::most_dangling) file_.dangling_.push_back({place(), *id, value.begin});
-      file_.largest_id_ = std::max(file_.largest_id_, *id);  // no new record must become what is missing
+      if (file_.dangling_count_++ < Part21File::most_dangling)
+        file_.dangling_.push_back({place(), *id, value.begin});
+      file_.largest_id_ =
+          std::max(file_.largest_id_, *id);  // no new record must become what is missing
       continue;
     }
     if (*found == no_instance) continue;

@@ -38,12 +38,14 @@ enum class Part21Kind : std::uint8_t {
 
 inline constexpr std::uint32_t no_instance = 0xFFFFFFFF;
 
-/// One parameter. Parameters lie in one array in reading order: the children of a list or typed parameter k are k + 1
-/// and onwards, each at the `next` of the one before it, up to the `next` of k.
+/// One parameter. Parameters lie in one array in reading order: the children of a list or typed
+/// parameter k are k + 1 and onwards, each at the `next` of the one before it, up to the `next` of
+/// k.
 struct Part21Value {
   Part21Kind kind = Part21Kind::unset;
   std::uint32_t next = 0;
-  std::uint32_t target = no_instance;  ///< reference: index of the instance, `no_instance` if outside the file
+  /// Reference: index of the instance, `no_instance` if outside the file.
+  std::uint32_t target = no_instance;
 };
 
 /// One entity instance, "#12=…;".
@@ -54,8 +56,9 @@ struct Part21Instance {
   std::uint32_t first = 0;  ///< its parts (kind `typed`) are values first … last
   std::uint32_t last = 0;
   std::uint32_t scope = no_instance;  ///< the instance whose &SCOPE contains it
-  std::uint32_t uses : 31 = 0;        ///< number of references to it, ANCHOR section included, export lists not
-  std::uint32_t complex : 1 = 0;      ///< external mapping: several parts
+  /// Number of references to it, ANCHOR section included, export lists not.
+  std::uint32_t uses : 31 = 0;
+  std::uint32_t complex : 1 = 0;  ///< external mapping: several parts
 };
 
 /// A reference to a name that the file does not define.
@@ -65,16 +68,19 @@ struct Part21Dangling {
   std::uint32_t byte = 0;
 };
 
-/// A parsed exchange structure (ISO 10303-21, editions 1 to 3): every record and parameter with its bytes.
+/// A parsed exchange structure (ISO 10303-21, editions 1 to 3): every record and parameter with its
+/// bytes.
 ///
-/// Comments, print control directives and line breaks may occur between any two tokens; &SCOPE (edition 1), several
-/// DATA sections (edition 2) and ANCHOR, REFERENCE and SIGNATURE sections (edition 3) are read. Beyond the standard,
-/// these common deviations are accepted, since the bytes are kept as they are: a byte order mark, lower-case keywords,
-/// reals without a digit before the point or with an exponent letter D or e, bytes above 127 in strings, NUL or ^Z at
-/// the end. Errors (input), with line and entity: anything else outside the grammar; unterminated strings and comments;
-/// names defined twice; names above 2^63 − 1; more than 200 nested lists; more than 2^28 − 2 entities; more than 4
-/// GB. References to names that are not defined are `dangling`. Cost: linear in the size of the file; besides the
-/// bytes, 8 bytes per parameter and 52 per entity, and 16 more where their names do not ascend. Immutable.
+/// Comments, print control directives and line breaks may occur between any two tokens; &SCOPE
+/// (edition 1), several DATA sections (edition 2) and ANCHOR, REFERENCE and SIGNATURE sections
+/// (edition 3) are read. Beyond the standard, these common deviations are accepted, since the bytes
+/// are kept as they are: a byte order mark, lower-case keywords, reals without a digit before the
+/// point or with an exponent letter D or e, bytes above 127 in strings, NUL or ^Z at the end.
+/// Errors (input), with line and entity: anything else outside the grammar; unterminated strings
+/// and comments; names defined twice; names above 2^63 − 1; more than 200 nested lists; more than
+/// 2^28 − 2 entities; more than 4 GB. References to names that are not defined are `dangling`.
+/// Cost: linear in the size of the file; besides the bytes, 8 bytes per parameter and 52 per
+/// entity, and 16 more where their names do not ascend. Immutable.
 class Part21File {
  public:
   [[nodiscard]] static Expected<Part21File> parse(std::string bytes, std::string name);
@@ -83,17 +89,25 @@ class Part21File {
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
   /// In the order of their '#' in the file.
   [[nodiscard]] const std::vector<Part21Instance>& instances() const { return instances_; }
-  [[nodiscard]] Part21Value value(std::uint32_t k) const { return {kind(k), next_of(k), target(k)}; }
-  [[nodiscard]] Part21Kind kind(std::uint32_t value) const { return static_cast<Part21Kind>(values_[value].kind); }
-  /// The instance that a reference leads to; `no_instance` for one outside the file, and for all other values.
+  [[nodiscard]] Part21Value value(std::uint32_t k) const {
+    return {kind(k), next_of(k), target(k)};
+  }
+  [[nodiscard]] Part21Kind kind(std::uint32_t value) const {
+    return static_cast<Part21Kind>(values_[value].kind);
+  }
+  /// The instance that a reference leads to; `no_instance` for one outside the file, and for all
+  /// other values.
   [[nodiscard]] std::uint32_t target(std::uint32_t value) const {
     const Stored& stored = values_[value];
-    const bool leads = static_cast<Part21Kind>(stored.kind) == Part21Kind::reference && stored.content != too_much;
+    const bool leads =
+        static_cast<Part21Kind>(stored.kind) == Part21Kind::reference && stored.content != too_much;
     return leads ? stored.content : no_instance;
   }
-  /// The values that a list or typed parameter holds itself, of which no more than the `Most` first are told.
+  /// The values that a list or typed parameter holds itself, of which no more than the `Most` first
+  /// are told.
   template <std::size_t Most>
-  [[nodiscard]] std::array<std::uint32_t, Most> first_children(std::uint32_t value, std::size_t& count) const {
+  [[nodiscard]] std::array<std::uint32_t, Most> first_children(std::uint32_t value,
+                                                               std::size_t& count) const {
     std::array<std::uint32_t, Most> result{};
     count = 0;
     const auto end = next_of(value);
@@ -103,14 +117,18 @@ class Part21File {
     return result;
   }
   /// Of a list or typed parameter in time linear in what it holds.
-  [[nodiscard]] ByteRange range(std::uint32_t value) const { return {values_[value].begin, end_of(value)}; }
+  [[nodiscard]] ByteRange range(std::uint32_t value) const {
+    return {values_[value].begin, end_of(value)};
+  }
   [[nodiscard]] const Part21Instance& instance(std::uint32_t k) const { return instances_[k]; }
 
   /// Whether a value of kind `typed` has this keyword, in upper or lower case.
   [[nodiscard]] bool is_named(std::uint32_t value, std::string_view keyword) const;
-  /// The instances with a part of one of these names, in the order of the file. Cost: linear in their number.
+  /// The instances with a part of one of these names, in the order of the file. Cost: linear in
+  /// their number.
   [[nodiscard]] std::vector<std::uint32_t> named(std::span<const std::string_view> keywords) const;
-  [[nodiscard]] std::vector<std::uint32_t> named(std::initializer_list<std::string_view> keywords) const {
+  [[nodiscard]] std::vector<std::uint32_t> named(
+      std::initializer_list<std::string_view> keywords) const {
     return named(std::span(keywords.begin(), keywords.size()));
   }
   /// Names of parts that occur, as first written, in no particular order.
@@ -125,8 +143,8 @@ class Part21File {
   /// The largest name taken; 0 if there is none.
   [[nodiscard]] std::uint64_t largest_id() const { return largest_id_; }
 
-  /// The first references to nothing, in the order of the file, and the number of all. Their targets are `no_instance`;
-  /// `largest_id` is no less than their names.
+  /// The first references to nothing, in the order of the file, and the number of all. Their
+  /// targets are `no_instance`; `largest_id` is no less than their names.
   [[nodiscard]] const std::vector<Part21Dangling>& dangling() const { return dangling_; }
   [[nodiscard]] std::size_t dangling_count() const { return dangling_count_; }
   static constexpr std::size_t most_dangling = 10;
@@ -162,8 +180,9 @@ class Part21File {
   /// Room for what the bytes can hold at most, and the lines before each block of them.
   void reserve(bool names_only = false);
 
-  /// A parameter in 8 bytes. `content` is, by kind, the instance a reference leads to, the number of values that a list
-  /// or typed parameter takes, itself included, or else the number of bytes; `too_much` where that is more.
+  /// A parameter in 8 bytes. `content` is, by kind, the instance a reference leads to, the number
+  /// of values that a list or typed parameter takes, itself included, or else the number of bytes;
+  /// `too_much` where that is more.
   struct Stored {
     std::uint32_t begin = 0;
     std::uint32_t kind : 4 = 0;
@@ -193,16 +212,17 @@ class Part21File {
   std::vector<Part21Dangling> dangling_;
   std::size_t dangling_count_ = 0;
   std::vector<std::uint32_t> lines_before_;  // before each block of bytes
-  // Sorted by id, which no choice of names makes slow as it would a hash table; empty where those of the instances
-  // ascend.
+  // Sorted by id, which no choice of names makes slow as it would a hash table; empty where those
+  // of the instances ascend.
   std::vector<Name> index_;
   std::vector<Keyword> keywords_;     // sorted, whatever their case
   std::vector<std::uint32_t> named_;  // the instances with each of them
   std::uint64_t largest_id_ = 0;
 };
 
-/// The names in an exchange structure, and nothing else of it; but its whole grammar has been checked, as by
-/// `Part21File::parse`, except that references may lead anywhere. Memory: 16 bytes per entity.
+/// The names in an exchange structure, and nothing else of it; but its whole grammar has been
+/// checked, as by `Part21File::parse`, except that references may lead anywhere. Memory: 16 bytes
+/// per entity.
 class Part21Names {
  public:
   /// \param bytes are referred to for as long as the object lives, and must not move

@@ -11,7 +11,8 @@ namespace knead {
 namespace {
 
 constexpr std::uint32_t count_block = 128;
-constexpr std::uint32_t line_block = 32 * count_block;  // bytes, at the beginnings of which the lines are known
+// Bytes, at the beginnings of which the lines are known.
+constexpr std::uint32_t line_block = 32 * count_block;
 
 bool holds_others(Part21Kind kind) { return kind == Part21Kind::list || kind == Part21Kind::typed; }
 
@@ -19,7 +20,8 @@ bool holds_others(Part21Kind kind) { return kind == Part21Kind::list || kind == 
 std::uint32_t line_ends(const char* bytes, std::size_t count) {
   std::uint32_t result = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    result += static_cast<std::uint32_t>((bytes[k] == '\n') | ((bytes[k] == '\r') & (bytes[k + 1] != '\n')));
+    result += static_cast<std::uint32_t>((bytes[k] == '\n') |
+                                         ((bytes[k] == '\r') & (bytes[k + 1] != '\n')));
   }
   return result;
 }
@@ -36,7 +38,8 @@ void count_marks(const char* bytes, std::size_t count, Marks& marks) {
     commas = static_cast<std::uint8_t>(commas + (c == ','));
     lists = static_cast<std::uint8_t>(lists + (c == '('));
     records = static_cast<std::uint8_t>(records + (c == '='));
-    lines = static_cast<std::uint8_t>(lines + ((c == '\n') | ((c == '\r') & (bytes[k + 1] != '\n'))));
+    lines =
+        static_cast<std::uint8_t>(lines + ((c == '\n') | ((c == '\r') & (bytes[k + 1] != '\n'))));
   }
   marks.commas += commas;
   marks.lists += lists;
@@ -56,7 +59,8 @@ void Part21File::reserve(bool names_only) {
   }
   const std::size_t records = std::min(marks.records, size / 12);
   if (names_only) return detail::reserve_large(index_, records);
-  // In front of every value but the first of a list there is a comma; strings may hold any number of those.
+  // In front of every value but the first of a list there is a comma; strings may hold any number
+  // of those.
   detail::reserve_large(values_, std::min(marks.commas + 2 * marks.lists, size / 3));
   detail::reserve_large(instances_, records);
 }
@@ -121,7 +125,8 @@ std::optional<std::uint32_t> Part21File::lookup(std::uint64_t id) const {
       const auto guess = static_cast<std::size_t>(id - names.front().id);
       if (names[guess].id == id) return guess;
     }
-    const auto found = std::ranges::lower_bound(names, id, {}, [](const auto& name) { return name.id; });
+    const auto found =
+        std::ranges::lower_bound(names, id, {}, [](const auto& name) { return name.id; });
     const auto place = static_cast<std::size_t>(found - names.begin());
     return place < names.size() && found->id == id ? place : names.size();
   };
@@ -152,7 +157,8 @@ std::optional<std::string_view> Part21Names::record(std::uint64_t id) const {
   if (found == names_.end() || found->id != id) return std::nullopt;
   Part21Lexer lexer(bytes_);
   lexer.set_position(found->byte);
-  for (auto token = lexer.next(); token.kind != Part21Token::Kind::end && token.kind != Part21Token::Kind::bad;
+  for (auto token = lexer.next();
+       token.kind != Part21Token::Kind::end && token.kind != Part21Token::Kind::bad;
        token = lexer.next()) {
     if (token.kind == Part21Token::Kind::symbol && bytes_[token.begin] == ';')
       return bytes_.substr(found->byte, token.end - found->byte);
@@ -170,8 +176,8 @@ std::vector<std::uint32_t> Part21File::children(std::uint32_t value) const {
 int Part21File::line(std::uint32_t byte) const {
   if (lines_before_.empty()) return 1;
   const auto known = std::min<std::size_t>(byte / line_block, lines_before_.size() - 1);
-  return static_cast<int>(lines_before_[known] +
-                          line_ends(bytes_.data() + known * line_block, byte - known * line_block)) +
+  return static_cast<int>(lines_before_[known] + line_ends(bytes_.data() + known * line_block,
+                                                           byte - known * line_block)) +
          1;
 }
 

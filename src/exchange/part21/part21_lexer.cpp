@@ -18,7 +18,8 @@ bool Part21Lexer::skip_separators() {
       const auto close = bytes_.find("*/", position_ + 2);
       if (close == std::string_view::npos) return false;
       position_ = static_cast<std::uint32_t>(close + 2);
-    } else if (c == '\\' && (at(position_ + 1) == 'N' || at(position_ + 1) == 'F') && at(position_ + 2) == '\\') {
+    } else if (c == '\\' && (at(position_ + 1) == 'N' || at(position_ + 1) == 'F') &&
+               at(position_ + 2) == '\\') {
       position_ += 3;  // print control directive (ISO 10303-21, 6.6)
     } else {
       return true;
@@ -140,8 +141,11 @@ Part21Token Part21Lexer::instance_name() {
 
 Part21Token Part21Lexer::delimited(Part21Token::Kind kind, char last, const char* problem) {
   std::uint32_t k = position_ + 1;
-  // None of these may continue past the end of a line, except a binary, which is wrapped like a string.
-  while (k < bytes_.size() && at(k) != last && (kind == Part21Token::Kind::binary || !is_space(at(k)))) ++k;
+  // None of these may continue past the end of a line, except a binary, which is wrapped like a
+  // string.
+  while (k < bytes_.size() && at(k) != last &&
+         (kind == Part21Token::Kind::binary || !is_space(at(k))))
+    ++k;
   if (at(k) != last || k >= bytes_.size()) return bad(problem);
   return token(kind, k + 1);
 }

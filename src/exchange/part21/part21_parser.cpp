@@ -29,7 +29,8 @@ bool Part21Parser::file_structure() {
   if (file_.bytes_.starts_with("\xEF\xBB\xBF")) lexer_.set_position(3);
   advance();
   if (!at_keyword(start_mark)) {
-    if (auto foreign = detail::foreign_format(file_.bytes_)) return fail(foreign->what, foreign->remedy);
+    if (auto foreign = detail::foreign_format(file_.bytes_))
+      return fail(foreign->what, foreign->remedy);
     return fail("not a STEP file: it does not begin with the line ISO-10303-21",
                 "give a file in the form of ISO 10303-21");
   }
@@ -118,7 +119,8 @@ bool Part21Parser::anchor_section() {
       advance();
       if (token_.kind != Kind::keyword) return fail_expected("a tag name");
       advance();
-      if (!expect_symbol(':', "a tag name") || !parameter(0) || !expect_symbol('}', "a tag")) return false;
+      if (!expect_symbol(':', "a tag name") || !parameter(0) || !expect_symbol('}', "a tag"))
+        return false;
     }
     if (!expect_symbol(';', "an anchor")) return false;
   }
@@ -151,7 +153,8 @@ bool Part21Parser::signature_section() {
   section_ = "SIGNATURE section";
   // Its content is base 64 text, not tokens.
   const auto end = file_.bytes_.find("ENDSEC", token_.end);
-  if (end == std::string::npos) return fail("the SIGNATURE section is not closed", "put ENDSEC; behind it");
+  if (end == std::string::npos)
+    return fail("the SIGNATURE section is not closed", "put ENDSEC; behind it");
   lexer_.set_position(static_cast<std::uint32_t>(end));
   advance();
   advance();
@@ -161,7 +164,8 @@ bool Part21Parser::signature_section() {
 bool Part21Parser::instance(std::uint32_t scope_owner) {
   if (token_.kind != Kind::name) return fail_expected("an entity #…= or ENDSEC;");
   const auto index = static_cast<std::uint32_t>(file_.instances_.size());
-  if (index >= Part21File::too_much) return fail("too many entities", "at most 2^28 - 2 can be read: split the file");
+  if (index >= Part21File::too_much)
+    return fail("too many entities", "at most 2^28 - 2 can be read: split the file");
   const std::size_t values_before = file_.values_.size();
   file_.instances_.emplace_back();
   file_.instances_[index].bytes.begin = token_.begin;
@@ -185,7 +189,8 @@ bool Part21Parser::instance(std::uint32_t scope_owner) {
 bool Part21Parser::scope(std::uint32_t owner) {
   int depth = 0;
   for (auto k = owner; k != no_instance; k = file_.instances_[k].scope) ++depth;
-  if (depth > max_depth) return fail("scopes are nested too deeply", "at most 200 levels can be read");
+  if (depth > max_depth)
+    return fail("scopes are nested too deeply", "at most 200 levels can be read");
   advance();
   while (!at_keyword("ENDSCOPE")) {
     if (token_.kind == Kind::end || at_keyword("ENDSEC")) {
@@ -255,7 +260,8 @@ bool Part21Parser::typed(int depth) {
 
 // Leaves the token at the closing parenthesis.
 bool Part21Parser::parameter_list(int depth) {
-  if (depth > max_depth) return fail("lists are nested too deeply", "at most 200 levels can be read");
+  if (depth > max_depth)
+    return fail("lists are nested too deeply", "at most 200 levels can be read");
   advance();
   if (at_symbol(')')) return true;
   for (;;) {

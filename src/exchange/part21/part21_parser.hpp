@@ -18,8 +18,8 @@ namespace knead {
 /// Functions return false after `fail` has stored the first error.
 class Part21Parser {
  public:
-  /// \param names_only entities are forgotten once they have been read, except for their names; their references are
-  /// not followed
+  /// \param names_only entities are forgotten once they have been read, except for their names;
+  /// their references are not followed
   explicit Part21Parser(Part21File& file, bool names_only = false)
       : file_(file), lexer_(file.bytes_), names_only_(names_only) {}
 
@@ -50,7 +50,9 @@ class Part21Parser {
 
   void advance() { token_ = lexer_.next(); }
   [[nodiscard]] std::string_view text() const { return file_.text({token_.begin, token_.end}); }
-  [[nodiscard]] bool at_symbol(char c) const { return token_.kind == Kind::symbol && file_.bytes_[token_.begin] == c; }
+  [[nodiscard]] bool at_symbol(char c) const {
+    return token_.kind == Kind::symbol && file_.bytes_[token_.begin] == c;
+  }
   [[nodiscard]] bool at_keyword(std::string_view keyword) const;
   bool expect_symbol(char c, const char* after);
   bool expect_keyword(std::string_view keyword, const char* remedy);

@@ -25,7 +25,9 @@ int hex_digit(char c) {
 
 void append_utf8(std::string& out, char32_t code) {
   if (code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) code = 0xFFFD;
-  const auto byte = [&out](char32_t value) { out += static_cast<char>(static_cast<unsigned char>(value)); };
+  const auto byte = [&out](char32_t value) {
+    out += static_cast<char>(static_cast<unsigned char>(value));
+  };
   if (code < 0x80) {
     byte(code);
   } else if (code < 0x800) {
@@ -45,7 +47,9 @@ void append_utf8(std::string& out, char32_t code) {
 
 // Length of the well-formed UTF-8 sequence at k, 0 if there is none (Unicode Standard, table 3-7).
 std::size_t utf8_length(std::string_view text, std::size_t k) {
-  const auto at = [text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const auto at = [text](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
   const auto lead = at(k);
   const std::size_t length = lead < 0x80   ? 1
                              : lead < 0xC2 ? 0
@@ -57,15 +61,15 @@ std::size_t utf8_length(std::string_view text, std::size_t k) {
     if ((at(k + i) & 0xC0) != 0x80) return 0;
   }
   const auto second = at(k + 1);
-  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) || (lead == 0xF0 && second < 0x90) ||
-      (lead == 0xF4 && second > 0x8F)) {
+  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
+      (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F)) {
     return 0;
   }
   return length;
 }
 
-// The power of ten just above a non-zero unsigned number, precise enough to tell a number too large for a double from
-// one too small.
+// The power of ten just above a non-zero unsigned number, precise enough to tell a number too large
+// for a double from one too small.
 std::int64_t decimal_magnitude(std::string_view text) {
   const auto mark = std::min(text.find_first_of("eE"), text.size());
   const auto mantissa = text.substr(0, mark);
@@ -128,13 +132,15 @@ class Decoder {
       extended(4);
     } else if (rest.starts_with("\\X4\\")) {
       extended(8);
-    } else if (rest.starts_with("\\X\\") && rest.size() >= 5 && hex_digit(rest[3]) >= 0 && hex_digit(rest[4]) >= 0) {
+    } else if (rest.starts_with("\\X\\") && rest.size() >= 5 && hex_digit(rest[3]) >= 0 &&
+               hex_digit(rest[4]) >= 0) {
       append_utf8(out_, static_cast<char32_t>(16 * hex_digit(rest[3]) + hex_digit(rest[4])));
       k_ += 5;
     } else if (rest.starts_with("\\S\\") && rest.size() >= 4) {
       shifted(rest[3]);
       k_ += 4;
-    } else if (rest.size() >= 4 && rest[1] == 'P' && rest[2] >= 'A' && rest[2] <= 'I' && rest[3] == '\\') {
+    } else if (rest.size() >= 4 && rest[1] == 'P' && rest[2] >= 'A' && rest[2] <= 'I' &&
+               rest[3] == '\\') {
       alphabet_ = static_cast<std::size_t>(rest[2] - 'A');
       k_ += 4;
     } else if (rest.starts_with("\\N\\") || rest.starts_with("\\F\\")) {
@@ -188,19 +194,21 @@ class Decoder {
 }  // namespace
 
 bool same_keyword(std::string_view a, std::string_view b) {
-  return a.size() == b.size() &&
-         std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return upper(x) == upper(y); });
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(),
+                                            [](char x, char y) { return upper(x) == upper(y); });
 }
 
 bool KeywordOrder::operator()(std::string_view a, std::string_view b) const {
-  return std::ranges::lexicographical_compare(a, b, [](char x, char y) { return upper(x) < upper(y); });
+  return std::ranges::lexicographical_compare(a, b,
+                                              [](char x, char y) { return upper(x) < upper(y); });
 }
 
 std::optional<std::uint64_t> parse_instance_name(std::string_view text) {
   std::uint64_t id = 0;
   const auto digits = text.substr(1);
   const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
-  if (error != std::errc() || last != digits.data() + digits.size() || id > std::numeric_limits<std::int64_t>::max())
+  if (error != std::errc() || last != digits.data() + digits.size() ||
+      id > std::numeric_limits<std::int64_t>::max())
     return std::nullopt;
   return id;
 }
@@ -217,7 +225,8 @@ std::optional<double> parse_real(std::string_view text) {
   }
   double value = 0;
   const auto [last, error] = read_double(text.data(), text.data() + text.size(), value);
-  if (last != text.data() + text.size() || error == std::errc::invalid_argument) return std::nullopt;
+  if (last != text.data() + text.size() || error == std::errc::invalid_argument)
+    return std::nullopt;
   if (error == std::errc::result_out_of_range) {
     if (decimal_magnitude(text) > 0) return std::nullopt;
     value = 0;
@@ -231,11 +240,12 @@ std::string format_real(double value) {
   return text;
 }
 
-// As std::to_chars does: fixed notation, or scientific if shorter. Its tables alone would be an eighth of the studio
-// module's download size.
+// As std::to_chars does: fixed notation, or scientific if shorter. Its tables alone would be an
+// eighth of the studio module's download size.
 std::string format_shortest_real(double value) {
   if (!std::isfinite(value)) return fmt::format("{}", value);
-  const std::string shortest = fmt::format("{}", std::abs(value)), sign = std::signbit(value) ? "-" : "";
+  const std::string shortest = fmt::format("{}", std::abs(value)),
+                    sign = std::signbit(value) ? "-" : "";
   const std::size_t marker = std::min(shortest.find('e'), shortest.size());
   int exponent = marker < shortest.size() ? std::atoi(shortest.c_str() + marker + 1) : 0;
   std::string digits = shortest.substr(0, marker);
@@ -250,18 +260,24 @@ std::string format_shortest_real(double value) {
 
   const auto count = static_cast<int>(digits.size());
   const std::string scientific = fmt::format("{}.{}E{:+03}", digits[0], digits.substr(1), exponent);
-  const int scientific_length = static_cast<int>(scientific.size()) - (count == 1 ? 1 : 0);  // without a bare point
-  const int fixed_length = exponent < 0 ? count - exponent + 1 : exponent + 1 < count ? count + 1 : exponent + 1;
+  // Without a bare point.
+  const int scientific_length = static_cast<int>(scientific.size()) - (count == 1 ? 1 : 0);
+  const int fixed_length = exponent < 0           ? count - exponent + 1
+                           : exponent + 1 < count ? count + 1
+                                                  : exponent + 1;
   if (scientific_length < fixed_length) return sign + scientific;
-  if (exponent < 0) return sign + "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
-  if (exponent + 1 > count) return sign + fmt::format("{:.0f}.", std::abs(value));  // all digits of the integer
+  if (exponent < 0)
+    return sign + "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
+  if (exponent + 1 > count)
+    return sign + fmt::format("{:.0f}.", std::abs(value));  // all digits of the integer
   return sign + digits.insert(static_cast<std::size_t>(exponent) + 1, ".");
 }
 
 std::string encode_string(std::string_view text) {
   std::string out = "'";
   const auto hex = [&out](char32_t code, int digits) {
-    for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) out += "0123456789ABCDEF"[(code >> shift) & 0xF];
+    for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4)
+      out += "0123456789ABCDEF"[(code >> shift) & 0xF];
   };
   for (std::size_t k = 0; k < text.size();) {
     const auto byte = static_cast<unsigned char>(text[k]);
@@ -272,7 +288,8 @@ std::string encode_string(std::string_view text) {
       continue;
     }
     char32_t code = length == 0 ? 0xFFFD : length == 1 ? byte : byte & (0xFFU >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i) code = (code << 6) | (static_cast<unsigned char>(text[k + i]) & 0x3FU);
+    for (std::size_t i = 1; i < length; ++i)
+      code = (code << 6) | (static_cast<unsigned char>(text[k + i]) & 0x3FU);
     out += code < 0x10000 ? "\\X2\\" : "\\X4\\";
     hex(code, code < 0x10000 ? 4 : 8);
     out += "\\X0\\";

@@ -59,7 +59,8 @@ class Builder {
   Expected<brep::Assembly> build(const Structure& structure) {
     join(structure);
     connect(structure);
-    if (auto done = graph_->place(model_.length_unit(), result_); !done) return std::unexpected(done.error());
+    if (auto done = graph_->place(model_.length_unit(), result_); !done)
+      return std::unexpected(done.error());
     if (auto done = fill(); !done) return std::unexpected(done.error());
     std::vector<Index> in_order;
     for (Index k = 0; k < graph_->size(); ++k) {
@@ -71,8 +72,8 @@ class Builder {
       if (c.surfaces.empty() && c.faces.empty() && c.curves.empty()) continue;
       brep::PartGraph::Node& node = (*graph_)[k];
       const std::string unit = node.unit.name.empty() ? "unknown" : node.unit.name;
-      result_.parts.push_back(
-          {node.name, unit, names(c.surfaces), names(c.faces), names(c.curves), std::move(node.places)});
+      result_.parts.push_back({node.name, unit, names(c.surfaces), names(c.faces), names(c.curves),
+                               std::move(node.places)});
     }
     brep::add_rest(model_, result_);
     return std::move(result_);
@@ -88,7 +89,8 @@ class Builder {
   }
 
   void join(const Structure& structure) {
-    for (const auto& [representation, name] : structure.product_of) products_.emplace(representation, name);
+    for (const auto& [representation, name] : structure.product_of)
+      products_.emplace(representation, name);
     for (const auto& [representation, name] : products_) groups_.add(representation);
     for (const Component& c : structure.components) {
       if (c.parent != no_instance) groups_.add(c.parent);
@@ -136,21 +138,23 @@ class Builder {
   }
 
   void warn(const brep::Instance& i, const char* what) {
-    result_.warnings.push_back(fmt::format("{}: \"{}\" {}", i.id, printable(i.child.empty() ? i.name : i.child), what));
+    result_.warnings.push_back(
+        fmt::format("{}: \"{}\" {}", i.id, printable(i.child.empty() ? i.name : i.child), what));
   }
 
   /// Gives every part what the items of its representations refer to.
   Expected<void> fill() {
     const std::size_t records = reader_.file().instances().size();
-    // 1: a face or tessellated item, 2: a B-spline surface without faces (others are also referred to by the curves of
-    // their neighbours), 3: a representation, 4: a curve that stands for itself
+    // 1: a face or tessellated item, 2: a B-spline surface without faces (others are also referred
+    // to by the curves of their neighbours), 3: a representation, 4: a curve that stands for itself
     std::vector<std::uint8_t> kind(records, 0);
     std::vector<bool> spline(records, false);
     std::unordered_map<Index, Index> below;  // the surface of each face
     for (const Index k : records_.surfaces) spline[k] = true;
     for (const FaceRecord& face : records_.faces) {
       kind[face.instance] = 1;
-      if (face.surface != no_instance && spline[face.surface]) below.emplace(face.instance, face.surface);
+      if (face.surface != no_instance && spline[face.surface])
+        below.emplace(face.instance, face.surface);
     }
     for (std::size_t k = 0; k < model_.surfaces.size(); ++k) {
       if (model_.surfaces[k].faces == 0) kind[records_.surfaces[k]] = 2;
@@ -170,7 +174,8 @@ class Builder {
         mark[target] = group;
         if (kind[target] == 1) {
           c.faces.push_back(target);
-          if (const auto on = below.find(target); on != below.end()) c.surfaces.push_back(on->second);
+          if (const auto on = below.find(target); on != below.end())
+            c.surfaces.push_back(on->second);
         }
         if (kind[target] == 2) c.surfaces.push_back(target);
         if (kind[target] == 4) c.curves.push_back(target);
@@ -186,7 +191,8 @@ class Builder {
         }
       }
       if (!stack.empty())
-        return input_error("too many parts share the same geometry", {}, "open the files of its parts");
+        return input_error("too many parts share the same geometry", {},
+                           "open the files of its parts");
     }
     return {};
   }
@@ -203,8 +209,8 @@ class Builder {
 
 }  // namespace
 
-Expected<brep::Assembly> read_assembly(const Reader& reader, const Structure& structure, const brep::Model& model,
-                                       const ModelRecords& records) {
+Expected<brep::Assembly> read_assembly(const Reader& reader, const Structure& structure,
+                                       const brep::Model& model, const ModelRecords& records) {
   auto result = Builder(reader, model, records).build(structure);
   if (!result) result.error().file = model.name;
   return result;

@@ -31,10 +31,12 @@ std::optional<Colour> named_colour(std::string_view name) {
 
 class Styles {
  public:
-  Styles(const Reader& reader, const std::vector<FaceRecord>& faces) : reader_(reader), faces_(faces) {}
+  Styles(const Reader& reader, const std::vector<FaceRecord>& faces)
+      : reader_(reader), faces_(faces) {}
 
   std::unordered_map<std::string, Colour> colours() {
-    for (const Instance k : reader_.file().named({"STYLED_ITEM", "OVER_RIDING_STYLED_ITEM"})) add(k);
+    for (const Instance k : reader_.file().named({"STYLED_ITEM", "OVER_RIDING_STYLED_ITEM"}))
+      add(k);
     std::unordered_map<std::string, Colour> result;
     for (const auto& [face, found] : found_) result.emplace(name_of(reader_, face), found.second);
     for (const FaceRecord& face : faces_) {
@@ -50,7 +52,9 @@ class Styles {
   void add(Instance styled) {
     const bool over = reader_.is(styled, "OVER_RIDING_STYLED_ITEM");
     const auto own = reader_.attributes(
-        styled, over && !reader_.is(styled, "STYLED_ITEM") ? "OVER_RIDING_STYLED_ITEM" : "STYLED_ITEM", 1, 2);
+        styled,
+        over && !reader_.is(styled, "STYLED_ITEM") ? "OVER_RIDING_STYLED_ITEM" : "STYLED_ITEM", 1,
+        2);
     if (own.empty() || !reader_.is_list(own[0])) return;
     const auto item = reader_.reference(own[1]);
     std::optional<Colour> colour;
@@ -72,15 +76,16 @@ class Styles {
 
   std::optional<Colour> colour_below(Instance style, int depth) const {
     if (depth > most_nesting) return std::nullopt;
-    for (const char* other :
-         {"CURVE_STYLE", "POINT_STYLE", "SURFACE_STYLE_BOUNDARY", "SURFACE_STYLE_PARAMETER_LINE",
-          "SURFACE_STYLE_CONTROL_GRID", "SURFACE_STYLE_SEGMENTATION_CURVE", "SURFACE_STYLE_SILHOUETTE"}) {
+    for (const char* other : {"CURVE_STYLE", "POINT_STYLE", "SURFACE_STYLE_BOUNDARY",
+                              "SURFACE_STYLE_PARAMETER_LINE", "SURFACE_STYLE_CONTROL_GRID",
+                              "SURFACE_STYLE_SEGMENTATION_CURVE", "SURFACE_STYLE_SILHOUETTE"}) {
       if (reader_.is(style, other)) return std::nullopt;
     }
     if (const auto own = reader_.attributes(style, "COLOUR_RGB", 1, 3);
         reader_.is(style, "COLOUR_RGB") && !own.empty()) {
       Colour colour{};
-      for (std::size_t c = 0; c < 3; ++c) colour[c] = std::clamp(reader_.real(own[c]).value_or(0), 0.0, 1.0);
+      for (std::size_t c = 0; c < 3; ++c)
+        colour[c] = std::clamp(reader_.real(own[c]).value_or(0), 0.0, 1.0);
       return colour;
     }
     for (const char* kind : {"DRAUGHTING_PRE_DEFINED_COLOUR", "PRE_DEFINED_COLOUR"}) {
@@ -94,17 +99,19 @@ class Styles {
   }
 
   [[nodiscard]] bool is_face(Instance k) const {
-    return reader_.is(k, "ADVANCED_FACE") || reader_.is(k, "FACE_SURFACE") || reader_.is(k, "FACE") ||
-           is_bounded_surface(reader_, k);
+    return reader_.is(k, "ADVANCED_FACE") || reader_.is(k, "FACE_SURFACE") ||
+           reader_.is(k, "FACE") || is_bounded_surface(reader_, k);
   }
   [[nodiscard]] bool is_shell(Instance k) const {
-    return reader_.is(k, "CLOSED_SHELL") || reader_.is(k, "OPEN_SHELL") || reader_.is(k, "CONNECTED_FACE_SET") ||
-           reader_.is(k, "ORIENTED_CLOSED_SHELL") || reader_.is(k, "ORIENTED_OPEN_SHELL");
+    return reader_.is(k, "CLOSED_SHELL") || reader_.is(k, "OPEN_SHELL") ||
+           reader_.is(k, "CONNECTED_FACE_SET") || reader_.is(k, "ORIENTED_CLOSED_SHELL") ||
+           reader_.is(k, "ORIENTED_OPEN_SHELL");
   }
   [[nodiscard]] bool is_body(Instance k) const {
-    return reader_.is(k, "MANIFOLD_SOLID_BREP") || reader_.is(k, "BREP_WITH_VOIDS") || reader_.is(k, "FACETED_BREP") ||
-           reader_.is(k, "SHELL_BASED_SURFACE_MODEL") || reader_.is(k, "FACE_BASED_SURFACE_MODEL") ||
-           reader_.is(k, "GEOMETRIC_SET") || reader_.is(k, "ADVANCED_BREP_SHAPE_REPRESENTATION") ||
+    return reader_.is(k, "MANIFOLD_SOLID_BREP") || reader_.is(k, "BREP_WITH_VOIDS") ||
+           reader_.is(k, "FACETED_BREP") || reader_.is(k, "SHELL_BASED_SURFACE_MODEL") ||
+           reader_.is(k, "FACE_BASED_SURFACE_MODEL") || reader_.is(k, "GEOMETRIC_SET") ||
+           reader_.is(k, "ADVANCED_BREP_SHAPE_REPRESENTATION") ||
            reader_.is(k, "MANIFOLD_SURFACE_SHAPE_REPRESENTATION") ||
            reader_.is(k, "GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION");
   }
@@ -117,9 +124,9 @@ class Styles {
       for (const Instance next : below(item)) paint(next, colour, rank, depth + 1);
       return;
     }
-    if (!is_face(item) && !reader_.is(item, "BOUNDED_SURFACE") && !reader_.is(item, "B_SPLINE_SURFACE_WITH_KNOTS") &&
-        !reader_.is(item, "BEZIER_SURFACE") && !reader_.is(item, "UNIFORM_SURFACE") &&
-        !reader_.is(item, "QUASI_UNIFORM_SURFACE")) {
+    if (!is_face(item) && !reader_.is(item, "BOUNDED_SURFACE") &&
+        !reader_.is(item, "B_SPLINE_SURFACE_WITH_KNOTS") && !reader_.is(item, "BEZIER_SURFACE") &&
+        !reader_.is(item, "UNIFORM_SURFACE") && !reader_.is(item, "QUASI_UNIFORM_SURFACE")) {
       return;
     }
     const auto [found, fresh] = found_.try_emplace(item, rank, colour);

@@ -22,11 +22,13 @@ std::uint32_t instance_of(const Part21File& records, const std::string& id) {
 }
 
 /// Reads the result again: the new surfaces bit for bit, and all others as they were.
-Expected<File> checked(std::string bytes, const File& before, const std::map<std::string, Surface>& made) {
+Expected<File> checked(std::string bytes, const File& before,
+                       const std::map<std::string, Surface>& made) {
   auto after = File::parse(std::move(bytes), before.name());
   const auto broken = [&](const std::string& id) {
-    return std::unexpected(Error{ErrorKind::numerical, "internal: the converted file does not read back as it should",
-                                 id, "please report this file", before.name(), 0});
+    return std::unexpected(Error{ErrorKind::numerical,
+                                 "internal: the converted file does not read back as it should", id,
+                                 "please report this file", before.name(), 0});
   };
   if (!after) return broken(after.error().message());
   const auto same = [&](const std::string& id, const Surface& surface) {
@@ -44,8 +46,8 @@ Expected<File> checked(std::string bytes, const File& before, const std::map<std
   return after;
 }
 
-/// The rectangle of a surface's parameters whose sides these edges are: along each of them one is constant, and a seam
-/// is both ends of a closed one.
+/// The rectangle of a surface's parameters whose sides these edges are: along each of them one is
+/// constant, and a seam is both ends of a closed one.
 Expected<std::array<Interval, 2>> rectangle_of(const brep::Model& model, const brep::Face& face,
                                                const Surface& surface) {
   constexpr double rounding = 1e-9;  // fractions of the domain
@@ -73,7 +75,9 @@ Expected<std::array<Interval, 2>> rectangle_of(const brep::Model& model, const b
   for (std::size_t d = 0; d < 2; ++d) {
     const Interval domain = surface.knots(static_cast<int>(d)).domain();
     const auto at = [&](double f) {
-      return f <= rounding ? domain.lower : f >= 1 - rounding ? domain.upper : domain.lower + f * domain.length();
+      return f <= rounding       ? domain.lower
+             : f >= 1 - rounding ? domain.upper
+                                 : domain.lower + f * domain.length();
     };
     // A side that is a point, as at a pole, is no edge: the surface ends there.
     if (reached[d].length() < 0) reached[d] = {0, 1};
@@ -86,7 +90,8 @@ Expected<std::array<Interval, 2>> rectangle_of(const brep::Model& model, const b
 
 /// The curve in space of an edge that has none in the file; null if it is not known.
 const Curve* spline_along(const brep::Edge& edge) {
-  const auto* spline = edge.curve ? std::get_if<std::shared_ptr<const Curve>>(&edge.curve->form) : nullptr;
+  const auto* spline =
+      edge.curve ? std::get_if<std::shared_ptr<const Curve>>(&edge.curve->form) : nullptr;
   return spline == nullptr ? nullptr : spline->get();
 }
 

@@ -16,9 +16,11 @@
 namespace knead::step {
 namespace {
 
-/// Leaves out functions with equal knots all along, [t_i, t_(i+p+1)), and their control points: they are zero
-/// everywhere. Some writers repeat the first knot and control point of a trimmed curve.
-void leave_out_empty(std::size_t degree, std::vector<double>& knots, Points& points, std::vector<double>& weights) {
+/// Leaves out functions with equal knots all along, [t_i, t_(i+p+1)), and their control points:
+/// they are zero everywhere. Some writers repeat the first knot and control point of a trimmed
+/// curve.
+void leave_out_empty(std::size_t degree, std::vector<double>& knots, Points& points,
+                     std::vector<double>& weights) {
   for (std::size_t i = 0; i + degree + 1 < knots.size();) {
     const auto rows = static_cast<std::size_t>(points.rows());
     if (knots[i] != knots[i + degree + 1] || rows <= degree + 1) {
@@ -55,12 +57,15 @@ Expected<Curve> read_b_spline_curve(const Reader& reader, std::uint32_t instance
     points.row(static_cast<Eigen::Index>(k)) = point->transpose();
   }
   const int count = static_cast<int>(targets.size());
-  const auto lists = reader.attributes(instance, "B_SPLINE_CURVE_WITH_KNOTS", attributes_of_curve, 2);
+  const auto lists =
+      reader.attributes(instance, "B_SPLINE_CURVE_WITH_KNOTS", attributes_of_curve, 2);
   if (listed && lists.empty()) return reader.error(instance, "it has no knots");
   std::vector<double> weights;
   if (reader.is(instance, "RATIONAL_B_SPLINE_CURVE")) {
-    const auto rational = reader.attributes(instance, "RATIONAL_B_SPLINE_CURVE", attributes_of_curve, 1);
-    if (rational.empty() || !reader.is_list(rational[0])) return reader.error(instance, "it has no weights");
+    const auto rational =
+        reader.attributes(instance, "RATIONAL_B_SPLINE_CURVE", attributes_of_curve, 1);
+    if (rational.empty() || !reader.is_list(rational[0]))
+      return reader.error(instance, "it has no weights");
     for (const auto k : reader.file().children(rational[0])) {
       weights.push_back(reader.real(k).value_or(std::numeric_limits<double>::quiet_NaN()));
     }

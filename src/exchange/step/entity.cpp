@@ -24,8 +24,8 @@ std::optional<std::uint32_t> Reader::part(std::uint32_t instance, std::string_vi
   return std::nullopt;
 }
 
-std::vector<std::uint32_t> Reader::attributes(std::uint32_t instance, std::string_view entity, std::size_t inherited,
-                                              std::size_t count) const {
+std::vector<std::uint32_t> Reader::attributes(std::uint32_t instance, std::string_view entity,
+                                              std::size_t inherited, std::size_t count) const {
   const auto& record = file_->instance(instance);
   std::vector<std::uint32_t> result;
   if (record.complex) {
@@ -55,7 +55,8 @@ std::optional<int> Reader::integer(std::uint32_t value) const {
   if (text.starts_with('+')) text.remove_prefix(1);
   int result = 0;
   const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), result);
-  return error == std::errc() && last == text.data() + text.size() ? std::optional(result) : std::nullopt;
+  return error == std::errc() && last == text.data() + text.size() ? std::optional(result)
+                                                                   : std::nullopt;
 }
 
 std::vector<std::uint32_t> Reader::references(std::uint32_t list) const {
@@ -68,12 +69,14 @@ std::vector<std::uint32_t> Reader::references(std::uint32_t list) const {
 }
 
 std::string Reader::string(std::uint32_t value) const {
-  return file_->kind(value) == Part21Kind::string ? decode_string(file_->text(value)) : std::string();
+  return file_->kind(value) == Part21Kind::string ? decode_string(file_->text(value))
+                                                  : std::string();
 }
 
 std::string_view Reader::enumeration(std::uint32_t value) const {
   const auto text = file_->text(value);
-  return file_->kind(value) == Part21Kind::enumeration ? text.substr(1, text.size() - 2) : std::string_view();
+  return file_->kind(value) == Part21Kind::enumeration ? text.substr(1, text.size() - 2)
+                                                       : std::string_view();
 }
 
 std::string Reader::item_name(std::uint32_t instance) const {
@@ -84,14 +87,17 @@ std::string Reader::item_name(std::uint32_t instance) const {
 Expected<std::array<std::uint32_t, 3>> Reader::coordinate_values(std::uint32_t instance) const {
   if (!is(instance, "CARTESIAN_POINT")) return error(instance, "a CARTESIAN_POINT is needed here");
   const auto& record = file_->instance(instance);
-  const auto found = record.complex ? part(instance, "CARTESIAN_POINT") : std::optional(record.first);
+  const auto found =
+      record.complex ? part(instance, "CARTESIAN_POINT") : std::optional(record.first);
   const std::size_t inherited = record.complex ? 0 : 1;
   std::size_t count = 0;
   const auto own = file_->first_children<2>(*found, count);
-  if (count <= inherited || !is_list(own[inherited])) return error(instance, "it has no list of coordinates");
+  if (count <= inherited || !is_list(own[inherited]))
+    return error(instance, "it has no list of coordinates");
   const auto coordinates = file_->first_children<3>(own[inherited], count);
   if (count != 3) {
-    return error(instance, "it has " + std::to_string(count) + " coordinates", "a control point of a surface has 3");
+    return error(instance, "it has " + std::to_string(count) + " coordinates",
+                 "a control point of a surface has 3");
   }
   return coordinates;
 }
@@ -107,7 +113,8 @@ Expected<double> Reader::angle_unit(std::uint32_t instance) const {
         double radians = 1;
         if (const auto own = attributes(unit, "CONVERSION_BASED_UNIT", 1, 2); !own.empty()) {
           const auto measure = reference(own[1]);
-          const auto value = measure ? attributes(*measure, "MEASURE_WITH_UNIT", 0, 2) : std::vector<std::uint32_t>();
+          const auto value = measure ? attributes(*measure, "MEASURE_WITH_UNIT", 0, 2)
+                                     : std::vector<std::uint32_t>();
           if (value.empty() || file_->kind(value[0]) != Part21Kind::typed) continue;
           const auto inner = file_->children(value[0]);
           radians = inner.empty() ? 0 : real(inner[0]).value_or(0);
@@ -122,18 +129,23 @@ Expected<double> Reader::angle_unit(std::uint32_t instance) const {
   return error(instance, "its angles may be in several units", "give the file one unit of angles");
 }
 
-/// CYLINDRICAL_POINT(name, *, r, theta, z) and SPHERICAL_POINT(name, *, r, theta, phi): the coordinates are derived.
-Expected<double> Reader::coordinate(std::uint32_t instance, std::uint32_t value, std::size_t k) const {
+/// CYLINDRICAL_POINT(name, *, r, theta, z) and SPHERICAL_POINT(name, *, r, theta, phi): the
+/// coordinates are derived.
+Expected<double> Reader::coordinate(std::uint32_t instance, std::uint32_t value,
+                                    std::size_t k) const {
   const auto read = real(value);
-  if (!read) return error(instance, fmt::format("coordinate {} is not a number a double can hold", k));
+  if (!read)
+    return error(instance, fmt::format("coordinate {} is not a number a double can hold", k));
   if (std::abs(*read) <= largest_number) return *read;
-  return error(instance, fmt::format("coordinate {} is {}, which is too large", k, *read),
-               fmt::format("correct it, or use a unit of length in which it is at most {}", largest_number));
+  return error(
+      instance, fmt::format("coordinate {} is {}, which is too large", k, *read),
+      fmt::format("correct it, or use a unit of length in which it is at most {}", largest_number));
 }
 
 Expected<Point> Reader::curved_point(std::uint32_t instance) const {
   const bool cylindrical = is(instance, "CYLINDRICAL_POINT");
-  const auto own = attributes(instance, cylindrical ? "CYLINDRICAL_POINT" : "SPHERICAL_POINT", 2, 3);
+  const auto own =
+      attributes(instance, cylindrical ? "CYLINDRICAL_POINT" : "SPHERICAL_POINT", 2, 3);
   if (own.empty()) return error(instance, "it has no three coordinates");
   std::array<double, 3> v{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -146,12 +158,14 @@ Expected<Point> Reader::curved_point(std::uint32_t instance) const {
   const double theta = v[1] * *unit;
   if (cylindrical) return Point(v[0] * std::cos(theta), v[0] * std::sin(theta), v[2]);
   const double phi = v[2] * *unit;  // theta from the z axis, phi around it
-  return Point(v[0] * std::sin(theta) * std::cos(phi), v[0] * std::sin(theta) * std::sin(phi), v[0] * std::cos(theta));
+  return Point(v[0] * std::sin(theta) * std::cos(phi), v[0] * std::sin(theta) * std::sin(phi),
+               v[0] * std::cos(theta));
 }
 
 Expected<Point> Reader::point_in_parameters(std::uint32_t instance) const {
   const auto own = attributes(instance, "CARTESIAN_POINT", 1, 1);
-  if (!is(instance, "CARTESIAN_POINT") || own.empty() || !is_list(own[0]) || file_->children(own[0]).size() != 2)
+  if (!is(instance, "CARTESIAN_POINT") || own.empty() || !is_list(own[0]) ||
+      file_->children(own[0]).size() != 2)
     return error(instance, "a CARTESIAN_POINT with 2 coordinates is needed here");
   Point result = Point::Zero();
   for (std::size_t k = 0; k < 2; ++k) {
@@ -164,9 +178,11 @@ Expected<Point> Reader::point_in_parameters(std::uint32_t instance) const {
 
 Expected<Point> Reader::point(std::uint32_t instance) const {
   if (is_in_parameters()) return point_in_parameters(instance);
-  if (is(instance, "CYLINDRICAL_POINT") || is(instance, "SPHERICAL_POINT")) return curved_point(instance);
+  if (is(instance, "CYLINDRICAL_POINT") || is(instance, "SPHERICAL_POINT"))
+    return curved_point(instance);
   if (is(instance, "POLAR_POINT")) {
-    return error(instance, "a point of a plane where one in space is needed", "write its coordinates as x, y, z");
+    return error(instance, "a point of a plane where one in space is needed",
+                 "write its coordinates as x, y, z");
   }
   const auto values = coordinate_values(instance);
   if (!values) return std::unexpected(values.error());
@@ -196,8 +212,10 @@ std::optional<Point> Reader::direction(std::uint32_t instance) const {
   return extreme ? Point(result / largest) : result;
 }
 
-std::unexpected<Error> Reader::error(std::uint32_t instance, std::string what, std::string remedy) const {
-  return std::unexpected(Error{ErrorKind::input, std::move(what), label(instance), std::move(remedy), file_->name(),
+std::unexpected<Error> Reader::error(std::uint32_t instance, std::string what,
+                                     std::string remedy) const {
+  return std::unexpected(Error{ErrorKind::input, std::move(what), label(instance),
+                               std::move(remedy), file_->name(),
                                file_->line(file_->instance(instance).bytes.begin)});
 }
 

@@ -10,17 +10,21 @@ namespace knead::step {
 namespace {
 
 constexpr std::array<std::string_view, 3> face_kinds = {"ADVANCED_FACE", "FACE_SURFACE", "FACE"};
-constexpr std::array<std::string_view, 2> turned_shell_kinds = {"ORIENTED_CLOSED_SHELL", "ORIENTED_OPEN_SHELL"};
-constexpr std::array<std::string_view, 3> solid_kinds = {"MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS", "FACETED_BREP"};
+constexpr std::array<std::string_view, 2> turned_shell_kinds = {"ORIENTED_CLOSED_SHELL",
+                                                                "ORIENTED_OPEN_SHELL"};
+constexpr std::array<std::string_view, 3> solid_kinds = {"MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS",
+                                                         "FACETED_BREP"};
 
-/// The faces of shells that are used turned, such as those round the hollows of a solid, and by no solid as they are.
+/// The faces of shells that are used turned, such as those round the hollows of a solid, and by no
+/// solid as they are.
 std::unordered_set<std::uint32_t> turned_faces(const Reader& reader) {
   std::unordered_map<std::uint32_t, bool> turned;  // shells
   for (const auto k : reader.file().named(turned_shell_kinds)) {
     for (const auto kind : turned_shell_kinds) {
       const auto own = reader.attributes(k, kind, 2, 2);
       const auto shell = own.empty() ? std::nullopt : reader.reference(own[0]);
-      if (shell) turned.try_emplace(*shell, true).first->second &= reader.enumeration(own[1]) == "F";
+      if (shell)
+        turned.try_emplace(*shell, true).first->second &= reader.enumeration(own[1]) == "F";
     }
   }
   std::unordered_set<std::uint32_t> result;
@@ -31,28 +35,31 @@ std::unordered_set<std::uint32_t> turned_faces(const Reader& reader) {
     if (shell) turned.erase(*shell);
   }
   for (const auto& [shell, is_turned] : turned) {
-    const auto own = is_turned ? reader.attributes(shell, "CONNECTED_FACE_SET", 1, 1) : std::vector<std::uint32_t>();
+    const auto own = is_turned ? reader.attributes(shell, "CONNECTED_FACE_SET", 1, 1)
+                               : std::vector<std::uint32_t>();
     if (own.empty()) continue;
     for (const auto face : reader.references(own[0])) result.insert(face);
   }
   return result;
 }
 
-constexpr std::array<std::string_view, 2> bounded_kinds = {"CURVE_BOUNDED_SURFACE", "RECTANGULAR_TRIMMED_SURFACE"};
+constexpr std::array<std::string_view, 2> bounded_kinds = {"CURVE_BOUNDED_SURFACE",
+                                                           "RECTANGULAR_TRIMMED_SURFACE"};
 
 std::optional<std::uint32_t> basis_of(const Reader& reader, std::uint32_t surface) {
   const auto value = basis_value(reader, surface);
   return value ? reader.reference(*value) : std::nullopt;
 }
 
-/// Bounded surfaces on which no face lies, which no other one bounds further, and which something else than curves in
-/// their parameters refers to, or nothing.
+/// Bounded surfaces on which no face lies, which no other one bounds further, and which something
+/// else than curves in their parameters refers to, or nothing.
 void add_bounded_surfaces(const Reader& reader, std::vector<FaceRecord>& faces) {
   const auto bounded = reader.file().named(bounded_kinds);
   if (bounded.empty()) return;
   std::unordered_map<std::uint32_t, std::uint32_t> curves;  // on each surface
   for (const auto k : reader.file().named({"PCURVE", "BOUNDED_PCURVE", "DEGENERATE_PCURVE"})) {
-    const auto own = reader.attributes(k, reader.is(k, "DEGENERATE_PCURVE") ? "DEGENERATE_PCURVE" : "PCURVE", 1, 1);
+    const auto own = reader.attributes(
+        k, reader.is(k, "DEGENERATE_PCURVE") ? "DEGENERATE_PCURVE" : "PCURVE", 1, 1);
     if (const auto on = own.empty() ? std::nullopt : reader.reference(own[0])) ++curves[*on];
   }
   std::unordered_set<std::uint32_t> below;
@@ -74,18 +81,22 @@ void add_bounded_surfaces(const Reader& reader, std::vector<FaceRecord>& faces) 
 }  // namespace
 
 bool is_bounded_surface(const Reader& reader, std::uint32_t surface) {
-  return std::ranges::any_of(bounded_kinds, [&](std::string_view kind) { return reader.is(surface, kind); });
+  return std::ranges::any_of(bounded_kinds,
+                             [&](std::string_view kind) { return reader.is(surface, kind); });
 }
 
 std::optional<std::uint32_t> basis_value(const Reader& reader, std::uint32_t surface) {
-  const auto kind = std::ranges::find_if(bounded_kinds, [&](std::string_view k) { return reader.is(surface, k); });
-  const auto own = kind == bounded_kinds.end() ? std::vector<std::uint32_t>() : reader.attributes(surface, *kind, 1, 1);
+  const auto kind = std::ranges::find_if(bounded_kinds,
+                                         [&](std::string_view k) { return reader.is(surface, k); });
+  const auto own = kind == bounded_kinds.end() ? std::vector<std::uint32_t>()
+                                               : reader.attributes(surface, *kind, 1, 1);
   return own.empty() ? std::nullopt : std::optional(own[0]);
 }
 
 std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::uint32_t> surface) {
   constexpr int max_nesting = 4;
-  for (int depth = 0; depth < max_nesting && surface && is_bounded_surface(reader, *surface); ++depth)
+  for (int depth = 0; depth < max_nesting && surface && is_bounded_surface(reader, *surface);
+       ++depth)
     surface = basis_of(reader, *surface);
   return surface;
 }
@@ -112,7 +123,8 @@ std::vector<FaceRecord> read_faces(const Reader& reader) {
 }
 
 Expected<void> check_loop_uses(const Reader& reader) {
-  const std::size_t records = reader.file().instances().size(), most = free_edge_uses + edge_uses_per_record * records;
+  const std::size_t records = reader.file().instances().size(),
+                    most = free_edge_uses + edge_uses_per_record * records;
   std::unordered_map<std::uint32_t, std::size_t> edges_of;  // of each bound
   std::size_t uses = 0;
   for (const auto k : reader.file().named(face_kinds)) {
@@ -124,15 +136,17 @@ Expected<void> check_loop_uses(const Reader& reader) {
         const auto own = reader.attributes(bound, "FACE_BOUND", 1, 2);
         const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
         const bool of_points = loop && reader.is(*loop, "POLY_LOOP");
-        const auto path = !loop ? own : reader.attributes(*loop, of_points ? "POLY_LOOP" : "PATH", 1, 1);
+        const auto path =
+            !loop ? own : reader.attributes(*loop, of_points ? "POLY_LOOP" : "PATH", 1, 1);
         if (loop && !path.empty()) known->second += reader.references(path[0]).size();
       }
       uses += known->second;
     }
     if (uses <= most) continue;
     return reader.error(k,
-                        "faces up to this one repeat loops until they have " + std::to_string(uses) +
-                            " edges, in a file of " + std::to_string(records) + " records",
+                        "faces up to this one repeat loops until they have " +
+                            std::to_string(uses) + " edges, in a file of " +
+                            std::to_string(records) + " records",
                         "give every face loops of its own");
   }
   return {};

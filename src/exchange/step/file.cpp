@@ -57,7 +57,8 @@ std::vector<Error> File::warnings() const {
   const auto& dangling = data_->records.dangling();
   std::vector<Error> result;
   for (const auto& [place, id, byte] : dangling) {
-    result.push_back({ErrorKind::input, "it refers to #" + std::to_string(id) + ", which the file does not define",
+    result.push_back({ErrorKind::input,
+                      "it refers to #" + std::to_string(id) + ", which the file does not define",
                       place, "check that the file is complete", name(), data_->records.line(byte)});
   }
   const std::size_t others = data_->records.dangling_count() - dangling.size();
@@ -74,7 +75,8 @@ std::vector<Error> File::warnings() const {
 bool File::is_bound_curve(const std::string& id) const {
   std::uint64_t number = 0;
   const char* const end = id.data() + id.size();
-  if (id.size() < 2 || id[0] != '#' || std::from_chars(id.data() + 1, end, number).ptr != end) return false;
+  if (id.size() < 2 || id[0] != '#' || std::from_chars(id.data() + 1, end, number).ptr != end)
+    return false;
   const auto instance = data_->records.find(number);
   return instance && is_b_spline_curve(Reader(data_->records), *instance) &&
          std::ranges::find(data_->of.curves, *instance) == data_->of.curves.end();

@@ -24,12 +24,14 @@ class StepSource final : public Source {
     for (const brep::SplineSurface& s : model->surfaces) {
       const auto same = std::ranges::find(known, s.id, &SourceSurface::id);
       surfaces_.push_back({s.id, s.name, s.unit,
-                           same == known.end() ? std::shared_ptr<const Surface>(model, &s.surface) : same->surface});
+                           same == known.end() ? std::shared_ptr<const Surface>(model, &s.surface)
+                                               : same->surface});
     }
     for (const brep::FreeCurve& c : model->curves) {
       const auto same = std::ranges::find(known_curves, c.id, &SourceCurve::id);
       curves_.push_back(
-          {c.id, c.name, c.unit, same == known_curves.end() ? std::make_shared<const Curve>(c.curve) : same->curve});
+          {c.id, c.name, c.unit,
+           same == known_curves.end() ? std::make_shared<const Curve>(c.curve) : same->curve});
     }
   }
 
@@ -37,16 +39,21 @@ class StepSource final : public Source {
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
   const std::vector<SourceCurve>& curves() const override { return curves_; }
   bool is_bound_curve(const std::string& id) const override { return file_.is_bound_curve(id); }
-  const std::vector<brep::UnreadableSurface>& unreadable() const override { return file_.model().unreadable; }
+  const std::vector<brep::UnreadableSurface>& unreadable() const override {
+    return file_.model().unreadable;
+  }
   std::string_view format() const override { return "STEP"; }
   std::string schema() const override { return file_.schema(); }
   std::shared_ptr<const brep::Model> model() const override { return file_.shared_model(); }
-  std::unordered_map<std::string, Colour> colours() const override { return step::face_colours(file_); }
+  std::unordered_map<std::string, Colour> colours() const override {
+    return step::face_colours(file_);
+  }
   Expected<void> can_move_edge(const std::string& id) const override {
     const auto& boundaries = file_.data().of.boundaries;
     const auto found = boundaries.find(id);
     if (found == boundaries.end() || !found->second.fixed) return {};
-    return input_error("its curve is a part of a SURFACE_CURVE, which cannot move by itself", id, "hold the edge");
+    return input_error("its curve is a part of a SURFACE_CURVE, which cannot move by itself", id,
+                       "hold the edge");
   }
   std::vector<std::string> remarks() const override {
     std::vector<std::string> result;
@@ -56,7 +63,8 @@ class StepSource final : public Source {
 
   std::vector<LeftOut> left_out() const override { return step::left_out(file_); }
 
-  Expected<std::shared_ptr<const Source>> with_splines(std::span<const std::string> surfaces) const override {
+  Expected<std::shared_ptr<const Source>> with_splines(
+      std::span<const std::string> surfaces) const override {
     auto file = step::with_splines(file_, surfaces);
     if (!file) return std::unexpected(std::move(file.error()));
     return std::make_shared<const StepSource>(*std::move(file), surfaces_, curves_);
@@ -67,7 +75,8 @@ class StepSource final : public Source {
                              std::span<const std::shared_ptr<const Curve>> curves) const override {
     std::vector<brep::Replacement> replacements;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
-      if (surfaces[k] != surfaces_[k].surface) replacements.push_back({surfaces_[k].id, *surfaces[k]});
+      if (surfaces[k] != surfaces_[k].surface)
+        replacements.push_back({surfaces_[k].id, *surfaces[k]});
     }
     const auto moved = brep::moved_edges(file_.model(), replacements, followed);
     if (!moved) return std::unexpected(moved.error());
@@ -104,13 +113,14 @@ Expected<step::TextOptions> text_options(const SaveOptions& options) {
   if (options.schema == "ap242") {
     text.schema = step::Schema::ap242;
   } else if (options.schema != "ap214") {
-    return input_error("\"" + printable(options.schema) + "\" is not a schema of new STEP files", {},
-                       "use ap214 or ap242");
+    return input_error("\"" + printable(options.schema) + "\" is not a schema of new STEP files",
+                       {}, "use ap214 or ap242");
   }
   return text;
 }
 
-Expected<std::string> save_step(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+Expected<std::string> save_step(std::span<const NamedSurface> surfaces,
+                                const SaveOptions& options) {
   const auto text = text_options(options);
   if (!text) return std::unexpected(text.error());
   std::vector<step::NewSurface> made;

@@ -10,27 +10,29 @@ namespace knead::step {
 namespace {
 
 /// What may refer to a curve that stands for itself.
-constexpr std::array<std::string_view, 13> standing_holders = {"GEOMETRIC_CURVE_SET",
-                                                               "GEOMETRIC_SET",
-                                                               "REPRESENTATION",
-                                                               "SHAPE_REPRESENTATION",
-                                                               "CONSTRUCTIVE_GEOMETRY_REPRESENTATION",
-                                                               "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION",
-                                                               "GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION",
-                                                               "MANIFOLD_SURFACE_SHAPE_REPRESENTATION",
-                                                               "ADVANCED_BREP_SHAPE_REPRESENTATION",
-                                                               "DRAUGHTING_MODEL",
-                                                               "STYLED_ITEM",
-                                                               "OVER_RIDING_STYLED_ITEM",
-                                                               "PRESENTATION_LAYER_ASSIGNMENT"};
+constexpr std::array<std::string_view, 13> standing_holders = {
+    "GEOMETRIC_CURVE_SET",
+    "GEOMETRIC_SET",
+    "REPRESENTATION",
+    "SHAPE_REPRESENTATION",
+    "CONSTRUCTIVE_GEOMETRY_REPRESENTATION",
+    "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION",
+    "GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION",
+    "MANIFOLD_SURFACE_SHAPE_REPRESENTATION",
+    "ADVANCED_BREP_SHAPE_REPRESENTATION",
+    "DRAUGHTING_MODEL",
+    "STYLED_ITEM",
+    "OVER_RIDING_STYLED_ITEM",
+    "PRESENTATION_LAYER_ASSIGNMENT"};
 
-constexpr std::array<std::string_view, 4> curve_forms = {"B_SPLINE_CURVE_WITH_KNOTS", "BEZIER_CURVE",
-                                                         "QUASI_UNIFORM_CURVE", "UNIFORM_CURVE"};
+constexpr std::array<std::string_view, 4> curve_forms = {
+    "B_SPLINE_CURVE_WITH_KNOTS", "BEZIER_CURVE", "QUASI_UNIFORM_CURVE", "UNIFORM_CURVE"};
 
 }  // namespace
 
 bool is_b_spline_curve(const Reader& reader, std::uint32_t instance) {
-  return std::ranges::any_of(curve_forms, [&](std::string_view form) { return reader.is(instance, form); });
+  return std::ranges::any_of(curve_forms,
+                             [&](std::string_view form) { return reader.is(instance, form); });
 }
 
 std::vector<ReadCurve> free_curves(const Reader& reader, std::vector<UnreadableCurve>* unreadable) {
@@ -54,7 +56,8 @@ std::vector<ReadCurve> free_curves(const Reader& reader, std::vector<UnreadableC
     auto curve = read_b_spline_curve(reader, k);
     const auto own = reader.attributes(k, "B_SPLINE_CURVE", 1, 2);
     auto points = curve ? file.children(own[1]) : std::vector<std::uint32_t>();
-    if (curve && std::ssize(points) != curve->size()) curve = reader.error(k, "a basis function is zero everywhere");
+    if (curve && std::ssize(points) != curve->size())
+      curve = reader.error(k, "a basis function is zero everywhere");
     if (curve)
       result.push_back({k, *std::move(curve), std::move(points)});
     else if (unreadable != nullptr)

@@ -21,12 +21,12 @@ struct UnreadableCurve {
   Error reason;
 };
 
-/// The free B-spline curves of a file, in its order: those in space that only representations, sets of geometry, styles
-/// and layers refer to, and at least one of them. Curves of edges, of surfaces, trimmed ones and those of parameters
-/// are not. Curves that cannot be read are left out, and added to `unreadable` if that is given. Cost: linear in the
-/// size of the file.
-[[nodiscard]] std::vector<ReadCurve> free_curves(const Reader& reader,
-                                                 std::vector<UnreadableCurve>* unreadable = nullptr);
+/// The free B-spline curves of a file, in its order: those in space that only representations, sets
+/// of geometry, styles and layers refer to, and at least one of them. Curves of edges, of surfaces,
+/// trimmed ones and those of parameters are not. Curves that cannot be read are left out, and added
+/// to `unreadable` if that is given. Cost: linear in the size of the file.
+[[nodiscard]] std::vector<ReadCurve> free_curves(
+    const Reader& reader, std::vector<UnreadableCurve>* unreadable = nullptr);
 
 /// Whether an instance is a B-spline curve in any of its forms.
 [[nodiscard]] bool is_b_spline_curve(const Reader& reader, std::uint32_t instance);

@@ -21,8 +21,9 @@ namespace {
 
 constexpr int max_curve_nesting = 8;  // nested curves; more is a loop
 
-std::optional<std::uint32_t> reference_at(const Reader& reader, std::uint32_t instance, const char* entity,
-                                          std::size_t inherited, std::size_t k) {
+std::optional<std::uint32_t> reference_at(const Reader& reader, std::uint32_t instance,
+                                          const char* entity, std::size_t inherited,
+                                          std::size_t k) {
   const auto own = reader.attributes(instance, entity, inherited, k + 1);
   return own.empty() ? std::nullopt : reader.reference(own[k]);
 }
@@ -46,14 +47,17 @@ Expected<CurveGeometry> read_polyline(const Reader& reader, std::uint32_t instan
 }
 
 /// CONIC(position); then CIRCLE(radius), PARABOLA(focal_dist), or both semi-axes.
-Expected<CurveGeometry> read_conic(const Reader& reader, std::uint32_t instance, const char* entity, Conic::Form form) {
-  const auto position = reference_at(reader, instance, "CONIC", reader.file().instance(instance).complex ? 0 : 1, 0);
+Expected<CurveGeometry> read_conic(const Reader& reader, std::uint32_t instance, const char* entity,
+                                   Conic::Form form) {
+  const auto position =
+      reference_at(reader, instance, "CONIC", reader.file().instance(instance).complex ? 0 : 1, 0);
   const auto placement = position ? read_placement(reader, *position) : std::nullopt;
   const bool one = reader.is(instance, "CIRCLE") || form == Conic::Form::parabola;
   const auto own = reader.attributes(instance, entity, 2, one ? 1 : 2);
   const double a = own.empty() ? 0 : reader.length(own[0]).value_or(0);
   const double b = one || own.empty() ? a : reader.length(own[1]).value_or(0);
-  return at_record(reader, instance, brep::conic_of(form, placement ? frame_of(*placement) : std::nullopt, a, b));
+  return at_record(reader, instance,
+                   brep::conic_of(form, placement ? frame_of(*placement) : std::nullopt, a, b));
 }
 
 /// LINE(pnt, dir) with VECTOR(orientation, magnitude).
@@ -61,7 +65,8 @@ Expected<CurveGeometry> read_line(const Reader& reader, std::uint32_t instance) 
   const auto from = reference_at(reader, instance, "LINE", 1, 0);
   const auto vector = reference_at(reader, instance, "LINE", 1, 1);
   const auto orientation = vector ? reference_at(reader, *vector, "VECTOR", 1, 0) : std::nullopt;
-  const auto point = from ? reader.point(*from) : Expected<Point>(reader.error(instance, "it has no point"));
+  const auto point =
+      from ? reader.point(*from) : Expected<Point>(reader.error(instance, "it has no point"));
   const auto direction = orientation ? reader.direction(*orientation) : std::nullopt;
   if (!point || !direction) return reader.error(instance, "it has no point or direction");
   const auto own = reader.attributes(*vector, "VECTOR", 1, 2);
@@ -74,7 +79,8 @@ Expected<CurveGeometry> read_nested(const Reader& reader, std::uint32_t instance
   if (reader.is(instance, "LINE")) return read_line(reader, instance);
   for (const auto& [entity, form] :
        {std::pair("CIRCLE", Conic::Form::ellipse), std::pair("ELLIPSE", Conic::Form::ellipse),
-        std::pair("HYPERBOLA", Conic::Form::hyperbola), std::pair("PARABOLA", Conic::Form::parabola)}) {
+        std::pair("HYPERBOLA", Conic::Form::hyperbola),
+        std::pair("PARABOLA", Conic::Form::parabola)}) {
     if (reader.is(instance, entity)) return read_conic(reader, instance, entity, form);
   }
   if (is_surface_curve(reader, instance)) {
@@ -109,8 +115,8 @@ Expected<brep::Frame> axis_of(const Reader& reader, std::uint32_t instance) {
   const auto own = reader.attributes(instance, "AXIS1_PLACEMENT", 1, 2);
   const auto location = own.empty() ? std::nullopt : reader.reference(own[0]);
   const auto axis = own.empty() ? std::nullopt : reader.reference(own[1]);
-  const auto origin =
-      location ? reader.point(*location) : Expected<Point>(reader.error(instance, "it has no location"));
+  const auto origin = location ? reader.point(*location)
+                               : Expected<Point>(reader.error(instance, "it has no location"));
   const Point z = (axis ? reader.direction(*axis) : std::nullopt).value_or(Point::UnitZ());
   if (!origin) return std::unexpected(origin.error());
   if (!(z.norm() > 0)) return reader.error(instance, "its axis has no length");
@@ -135,19 +141,25 @@ struct ElementaryForm {
 Expected<brep::ElementarySurface> read_elementary(const Reader& reader, std::uint32_t instance,
                                                   const ElementaryForm& form) {
   const auto own = reader.attributes(instance, form.entity, 2, form.lengths);
-  const auto length = [&](std::size_t k) { return k < own.size() ? reader.length(own[k]).value_or(0) : 0.0; };
-  auto surface =
-      at_record(reader, instance, brep::elementary_of(form.kind, position_of(reader, instance), length(0), length(1)));
+  const auto length = [&](std::size_t k) {
+    return k < own.size() ? reader.length(own[k]).value_or(0) : 0.0;
+  };
+  auto surface = at_record(
+      reader, instance,
+      brep::elementary_of(form.kind, position_of(reader, instance), length(0), length(1)));
   if (!surface) return surface;
-  surface->inner = form.lengths == 3 && reader.enumeration(own[2]) == "F" && surface->second > surface->radius;
+  surface->inner =
+      form.lengths == 3 && reader.enumeration(own[2]) == "F" && surface->second > surface->radius;
   return surface;
 }
 
-Expected<brep::SweptSurface> read_swept(const Reader& reader, std::uint32_t instance, const char* entity) {
+Expected<brep::SweptSurface> read_swept(const Reader& reader, std::uint32_t instance,
+                                        const char* entity) {
   const bool revolution = std::string_view(entity) == "SURFACE_OF_REVOLUTION";
   const bool complex = reader.file().instance(instance).complex;
   const auto sweep = reader.attributes(instance, entity, 2, 1);
-  const auto target = sweep.empty() ? no_instance : reader.reference(sweep[0]).value_or(no_instance);
+  const auto target =
+      sweep.empty() ? no_instance : reader.reference(sweep[0]).value_or(no_instance);
   const auto swept = reader.attributes(instance, "SWEPT_SURFACE", complex ? 0 : 1, 1);
   const auto curve = swept.empty() ? no_instance : reader.reference(swept[0]).value_or(no_instance);
   if (target == no_instance || curve == no_instance)
@@ -166,7 +178,8 @@ Expected<brep::SweptSurface> read_swept(const Reader& reader, std::uint32_t inst
 }  // namespace
 
 bool is_surface_curve(const Reader& reader, std::uint32_t instance) {
-  constexpr std::array kinds = {"SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE", "BOUNDED_SURFACE_CURVE"};
+  constexpr std::array kinds = {"SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE",
+                                "BOUNDED_SURFACE_CURVE"};
   return std::ranges::any_of(kinds, [&](const char* kind) { return reader.is(instance, kind); });
 }
 
@@ -180,12 +193,13 @@ Expected<CurveGeometry> read_curve(const Reader& reader, std::uint32_t instance)
 
 void read_form(const Reader& reader, std::uint32_t instance, brep::Support& support) {
   using Kind = brep::ElementarySurface::Kind;
-  constexpr std::array<ElementaryForm, 6> elementary_forms = {{{"PLANE", Kind::plane, 0},
-                                                               {"CYLINDRICAL_SURFACE", Kind::cylinder, 1},
-                                                               {"CONICAL_SURFACE", Kind::cone, 2},
-                                                               {"SPHERICAL_SURFACE", Kind::sphere, 1},
-                                                               {"TOROIDAL_SURFACE", Kind::torus, 2},
-                                                               {"DEGENERATE_TOROIDAL_SURFACE", Kind::torus, 3}}};
+  constexpr std::array<ElementaryForm, 6> elementary_forms = {
+      {{"PLANE", Kind::plane, 0},
+       {"CYLINDRICAL_SURFACE", Kind::cylinder, 1},
+       {"CONICAL_SURFACE", Kind::cone, 2},
+       {"SPHERICAL_SURFACE", Kind::sphere, 1},
+       {"TOROIDAL_SURFACE", Kind::torus, 2},
+       {"DEGENERATE_TOROIDAL_SURFACE", Kind::torus, 3}}};
   const auto fill = [&](auto form) {
     if (form)
       support.form = *std::move(form);
@@ -211,8 +225,8 @@ std::vector<double> plane_angle_units(const Reader& reader) {
     } else if (const auto own = reader.attributes(k, "CONVERSION_BASED_UNIT", 1, 2); !own.empty()) {
       // PLANE_ANGLE_MEASURE_WITH_UNIT(PLANE_ANGLE_MEASURE(0.0174…), radian)
       const auto measure = reader.reference(own[1]);
-      const auto value =
-          measure ? reader.attributes(*measure, "MEASURE_WITH_UNIT", 0, 2) : std::vector<std::uint32_t>();
+      const auto value = measure ? reader.attributes(*measure, "MEASURE_WITH_UNIT", 0, 2)
+                                 : std::vector<std::uint32_t>();
       if (value.empty() || reader.file().value(value[0]).kind != Part21Kind::typed) continue;
       const auto inner = reader.file().children(value[0]);
       const auto radians = inner.empty() ? std::nullopt : reader.real(inner[0]);

@@ -16,14 +16,15 @@ namespace knead::step {
 [[nodiscard]] bool is_surface_curve(const Reader& reader, std::uint32_t instance);
 [[nodiscard]] bool is_parameter_curve(const Reader& reader, std::uint32_t instance);
 
-/// A curve in space: LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA, POLYLINE and B-spline curves; TRIMMED_CURVE, and
-/// SURFACE_CURVE with its subtypes, by their underlying curve. Errors (input): the entity is of another type, or
-/// incomplete.
-[[nodiscard]] Expected<brep::CurveGeometry> read_curve(const Reader& reader, std::uint32_t instance);
+/// A curve in space: LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA, POLYLINE and B-spline curves;
+/// TRIMMED_CURVE, and SURFACE_CURVE with its subtypes, by their underlying curve. Errors (input):
+/// the entity is of another type, or incomplete.
+[[nodiscard]] Expected<brep::CurveGeometry> read_curve(const Reader& reader,
+                                                       std::uint32_t instance);
 
-/// Fills the form of a surface that is no B-spline: PLANE, CYLINDRICAL_, CONICAL_, SPHERICAL_, TOROIDAL_ and
-/// DEGENERATE_TOROIDAL_SURFACE, SURFACE_OF_REVOLUTION, SURFACE_OF_LINEAR_EXTRUSION. Others stay without one; `wrong`
-/// says what cannot be read.
+/// Fills the form of a surface that is no B-spline: PLANE, CYLINDRICAL_, CONICAL_, SPHERICAL_,
+/// TOROIDAL_ and DEGENERATE_TOROIDAL_SURFACE, SURFACE_OF_REVOLUTION, SURFACE_OF_LINEAR_EXTRUSION.
+/// Others stay without one; `wrong` says what cannot be read.
 void read_form(const Reader& reader, std::uint32_t instance, brep::Support& support);
 
 /// The radians of every plane angle unit that a file assigns; 1 (radians) if it assigns none.

@@ -12,16 +12,17 @@ namespace {
 using Index = std::uint32_t;
 
 // Attribute k of an entity as an instance of the file.
-std::optional<Index> attribute(const Reader& reader, Index instance, std::string_view entity, std::size_t inherited,
-                               std::size_t k) {
+std::optional<Index> attribute(const Reader& reader, Index instance, std::string_view entity,
+                               std::size_t inherited, std::size_t k) {
   if (!reader.is(instance, entity)) return std::nullopt;
   const auto own = reader.attributes(instance, entity, inherited, k + 1);
   return own.empty() ? std::nullopt : reader.reference(own[k]);
 }
 
-/// Orthonormal axes as columns, from directions that need not be (ISO 10303-42, base_axis); right-handed unless `y` is
-/// given otherwise. Axes that vanish or coincide are replaced.
-Eigen::Matrix3d axes(const Point& z_axis, const Point& x_axis, const std::optional<Point>& y_axis = {}) {
+/// Orthonormal axes as columns, from directions that need not be (ISO 10303-42, base_axis);
+/// right-handed unless `y` is given otherwise. Axes that vanish or coincide are replaced.
+Eigen::Matrix3d axes(const Point& z_axis, const Point& x_axis,
+                     const std::optional<Point>& y_axis = {}) {
   constexpr double parallel = 1e-9;
   Eigen::Matrix3d result;
   const Point z = z_axis.norm() > 0 ? Point(z_axis.normalized()) : Point::UnitZ();
@@ -34,9 +35,11 @@ Eigen::Matrix3d axes(const Point& z_axis, const Point& x_axis, const std::option
   return result;
 }
 
-/// CARTESIAN_TRANSFORMATION_OPERATOR_3D. Its own attributes are the last five; writers differ in those before.
+/// CARTESIAN_TRANSFORMATION_OPERATOR_3D. Its own attributes are the last five; writers differ in
+/// those before.
 std::optional<Eigen::Affine3d> read_operator(const Reader& reader, Index instance) {
-  if (!reader.is(instance, "CARTESIAN_TRANSFORMATION_OPERATOR_3D") || reader.file().instance(instance).complex) {
+  if (!reader.is(instance, "CARTESIAN_TRANSFORMATION_OPERATOR_3D") ||
+      reader.file().instance(instance).complex) {
     return std::nullopt;
   }
   const auto all = reader.parameters(instance, "CARTESIAN_TRANSFORMATION_OPERATOR_3D");
@@ -47,14 +50,17 @@ std::optional<Eigen::Affine3d> read_operator(const Reader& reader, Index instanc
     return target ? reader.direction(*target) : std::nullopt;
   };
   const auto location = reader.reference(own[2]);
-  const auto origin = location ? reader.point(*location) : Expected<Point>(input_error("no location"));
+  const auto origin =
+      location ? reader.point(*location) : Expected<Point>(input_error("no location"));
   if (!origin) return std::nullopt;
   const double scale = reader.real(own[3]).value_or(1);
   if (!(scale > 0 && scale <= largest_number)) return std::nullopt;
   const Point z = direction(4).value_or(Point::UnitZ());
   const bool upright = z.tail<2>().norm() > 1e-12 * z.norm();
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
-  result.linear() = scale * axes(z, direction(0).value_or(upright ? Point::UnitX() : Point::UnitY()), direction(1));
+  result.linear() =
+      scale *
+      axes(z, direction(0).value_or(upright ? Point::UnitX() : Point::UnitY()), direction(1));
   result.translation() = *origin;
   return result;
 }
@@ -72,13 +78,14 @@ std::optional<Eigen::Affine3d> read_frame(const Reader& reader, Index instance) 
 class Assemblies {
  public:
   explicit Assemblies(const Reader& reader) : reader_(reader) {
-    for (const Index k :
-         reader.file().named({"SHAPE_DEFINITION_REPRESENTATION", "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION",
-                              "REPRESENTATION_RELATIONSHIP", "SHAPE_REPRESENTATION_RELATIONSHIP"})) {
+    for (const Index k : reader.file().named(
+             {"SHAPE_DEFINITION_REPRESENTATION", "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION",
+              "REPRESENTATION_RELATIONSHIP", "SHAPE_REPRESENTATION_RELATIONSHIP"})) {
       if (reader.is(k, "SHAPE_DEFINITION_REPRESENTATION")) {
         const auto shape = attribute(reader, k, "SHAPE_DEFINITION_REPRESENTATION", 0, 0);
         const auto representation = attribute(reader, k, "SHAPE_DEFINITION_REPRESENTATION", 0, 1);
-        const auto definition = shape ? attribute(reader, *shape, "PRODUCT_DEFINITION_SHAPE", 0, 2) : std::nullopt;
+        const auto definition =
+            shape ? attribute(reader, *shape, "PRODUCT_DEFINITION_SHAPE", 0, 2) : std::nullopt;
         if (!definition || !representation) continue;
         const auto [first, added] = representation_of_.try_emplace(*definition, *representation);
         if (!added) links_.emplace_back(first->second, *representation);
@@ -86,7 +93,8 @@ class Assemblies {
       } else if (reader.is(k, "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION")) {
         const auto relation = attribute(reader, k, "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", 0, 0);
         const auto shape = attribute(reader, k, "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", 0, 1);
-        const auto usage = shape ? attribute(reader, *shape, "PRODUCT_DEFINITION_SHAPE", 0, 2) : std::nullopt;
+        const auto usage =
+            shape ? attribute(reader, *shape, "PRODUCT_DEFINITION_SHAPE", 0, 2) : std::nullopt;
         if (relation && usage) relation_of_.try_emplace(*usage, *relation);
       } else {
         link(k);
@@ -192,14 +200,17 @@ class Assemblies {
     return found == representation_of_.end() ? no_instance : found->second;
   }
 
-  // PRODUCT_DEFINITION -> PRODUCT_DEFINITION_FORMATION -> PRODUCT, by position: each has subtypes with other names.
+  // PRODUCT_DEFINITION -> PRODUCT_DEFINITION_FORMATION -> PRODUCT, by position: each has subtypes
+  // with other names.
   std::string product(Index definition) const {
-    const auto step = [this](Index from, std::string_view entity, std::size_t k) -> std::optional<Index> {
+    const auto step = [this](Index from, std::string_view entity,
+                             std::size_t k) -> std::optional<Index> {
       const auto own = reader_.attributes(from, entity, 0, k + 1);
       return own.empty() ? std::nullopt : reader_.reference(own[k]);
     };
     const auto formation = step(definition, "PRODUCT_DEFINITION", 2);
-    const auto made = formation ? step(*formation, "PRODUCT_DEFINITION_FORMATION", 2) : std::nullopt;
+    const auto made =
+        formation ? step(*formation, "PRODUCT_DEFINITION_FORMATION", 2) : std::nullopt;
     if (!made || !reader_.is(*made, "PRODUCT")) return {};
     const auto own = reader_.attributes(*made, "PRODUCT", 0, 2);
     if (own.empty()) return {};
@@ -207,8 +218,10 @@ class Assemblies {
     return name.empty() ? reader_.string(own[0]) : name;
   }
 
-  void transform(Index relation, std::optional<Index> parent, std::optional<Index> child, Component& result) const {
-    const auto transformation = attribute(reader_, relation, "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION", 4, 0);
+  void transform(Index relation, std::optional<Index> parent, std::optional<Index> child,
+                 Component& result) const {
+    const auto transformation =
+        attribute(reader_, relation, "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION", 4, 0);
     const auto own = reader_.attributes(relation, "REPRESENTATION_RELATIONSHIP", 0, 4);
     if (!transformation || own.empty()) return;
     // rep_1 is the component by convention (CAx-IF recommended practice); some writers reverse it.
@@ -219,7 +232,8 @@ class Assemblies {
       const auto found = representation_of_.find(*definition);
       return found != representation_of_.end() && found->second == *representation;
     };
-    const bool turned = (has(child, rep_2) && !has(child, rep_1)) || (has(parent, rep_1) && !has(parent, rep_2));
+    const bool turned =
+        (has(child, rep_2) && !has(child, rep_1)) || (has(parent, rep_1) && !has(parent, rep_2));
     result.child = (turned ? rep_2 : rep_1).value_or(no_instance);
     result.parent = (turned ? rep_1 : rep_2).value_or(no_instance);
     if (auto moved = read_operator(reader_, *transformation)) {
@@ -240,8 +254,8 @@ class Assemblies {
   std::unordered_map<Index, Index> representation_of_;  // of a PRODUCT_DEFINITION
   std::unordered_map<Index, Index> definition_of_;      // and back
   std::unordered_map<Index, Index> relation_of_;        // of a NEXT_ASSEMBLY_USAGE_OCCURRENCE
-  std::unordered_map<Index, Index> linked_;             // representations related without a transformation
-  std::vector<std::pair<Index, Index>> links_;          // all of these
+  std::unordered_map<Index, Index> linked_;     // representations related without a transformation
+  std::vector<std::pair<Index, Index>> links_;  // all of these
 };
 
 // For each mapped item, the representation that lists it.
@@ -251,15 +265,18 @@ std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector
   if (mapped.empty()) return result;
   for (Index k = 0; k < reader.file().instances().size(); ++k) {
     const auto& record = reader.file().instance(k);
-    std::optional<bool> representation;  // looked at once per record: it may list any number of items
+    std::optional<bool>
+        representation;  // looked at once per record: it may list any number of items
     for (auto value = record.first; value < record.last; ++value) {
       const auto target = reader.reference(value);
       const auto found = target ? result.find(*target) : result.end();
-      // A representation, and not a style, which has (name, styles, item), or a layer: (name, items, context).
+      // A representation, and not a style, which has (name, styles, item), or a layer: (name,
+      // items, context).
       if (found == result.end() || found->second != no_instance) continue;
       if (!representation) {
         const auto own = reader.attributes(k, "REPRESENTATION", 0, 3);
-        const auto context = own.size() >= 3 && reader.is_list(own[1]) ? reader.reference(own[2]) : std::nullopt;
+        const auto context =
+            own.size() >= 3 && reader.is_list(own[1]) ? reader.reference(own[2]) : std::nullopt;
         representation = context && !result.contains(*context);
       }
       if (*representation) found->second = k;
@@ -269,11 +286,13 @@ std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector
 }
 
 /// AXIS2_PLACEMENT_2D: an axis along z.
-std::optional<brep::AxisPlacement> read_placement_in_parameters(const Reader& reader, std::uint32_t instance) {
+std::optional<brep::AxisPlacement> read_placement_in_parameters(const Reader& reader,
+                                                                std::uint32_t instance) {
   const bool complex = reader.file().instance(instance).complex;
   const auto location = complex ? attribute(reader, instance, "PLACEMENT", 0, 0)
                                 : attribute(reader, instance, "AXIS2_PLACEMENT_2D", 1, 0);
-  const auto origin = location ? reader.point(*location) : Expected<Point>(input_error("no location"));
+  const auto origin =
+      location ? reader.point(*location) : Expected<Point>(input_error("no location"));
   if (!reader.is(instance, "AXIS2_PLACEMENT_2D") || !origin) return std::nullopt;
   brep::AxisPlacement result{*origin};
   const std::size_t inherited = complex ? 0 : 2;
@@ -291,15 +310,18 @@ std::optional<brep::AxisPlacement> read_placement(const Reader& reader, std::uin
   const auto record_is_complex = reader.file().instance(instance).complex;
   const auto location = record_is_complex ? attribute(reader, instance, "PLACEMENT", 0, 0)
                                           : attribute(reader, instance, "AXIS2_PLACEMENT_3D", 1, 0);
-  const auto origin = location ? reader.point(*location) : Expected<Point>(input_error("no location"));
+  const auto origin =
+      location ? reader.point(*location) : Expected<Point>(input_error("no location"));
   if (!origin) return std::nullopt;
   brep::AxisPlacement result{*origin};
   const std::size_t inherited = record_is_complex ? 0 : 2;
   if (const auto axis = attribute(reader, instance, "AXIS2_PLACEMENT_3D", inherited, 0)) {
     result.axis = reader.direction(*axis).value_or(result.axis);
   }
-  // ISO 10303-42, first_proj_axis: the x axis, or the y axis where the first is along the axis itself.
-  if (result.axis.tail<2>().norm() <= 1e-12 * result.axis.norm()) result.ref_direction = Point::UnitY();
+  // ISO 10303-42, first_proj_axis: the x axis, or the y axis where the first is along the axis
+  // itself.
+  if (result.axis.tail<2>().norm() <= 1e-12 * result.axis.norm())
+    result.ref_direction = Point::UnitY();
   if (const auto x = attribute(reader, instance, "AXIS2_PLACEMENT_3D", inherited, 1)) {
     result.ref_direction = reader.direction(*x).value_or(result.ref_direction);
   }
@@ -311,8 +333,8 @@ Structure read_structure(const Reader& reader) {
   const auto used = assemblies.used_relations();
   Structure result;
   std::vector<Index> mapped, relations;
-  for (const Index k : reader.file().named(
-           {"NEXT_ASSEMBLY_USAGE_OCCURRENCE", "MAPPED_ITEM", "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION"})) {
+  for (const Index k : reader.file().named({"NEXT_ASSEMBLY_USAGE_OCCURRENCE", "MAPPED_ITEM",
+                                            "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION"})) {
     if (reader.is(k, "NEXT_ASSEMBLY_USAGE_OCCURRENCE")) {
       if (auto usage = assemblies.usage(k)) result.components.push_back(*std::move(usage));
     } else if (reader.is(k, "MAPPED_ITEM")) {
@@ -326,7 +348,8 @@ Structure read_structure(const Reader& reader) {
     auto item = assemblies.mapped_item(k);
     if (!item) continue;
     item->parent = holder.at(k);
-    if (item->parent != no_instance) item->instance.parent = assemblies.product_of_representation(item->parent);
+    if (item->parent != no_instance)
+      item->instance.parent = assemblies.product_of_representation(item->parent);
     result.components.push_back(*std::move(item));
   }
   for (const auto k : relations) {

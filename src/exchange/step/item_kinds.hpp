@@ -9,10 +9,11 @@
 
 namespace knead::step {
 
-/// Entities of ISO 10303-42 and its neighbours, by what becomes of them as items of representations. In upper case.
+/// Entities of ISO 10303-42 and its neighbours, by what becomes of them as items of
+/// representations. In upper case.
 
-/// Items that are read, by themselves or with what refers to them, and those that only hold others, place, style or
-/// measure them.
+/// Items that are read, by themselves or with what refers to them, and those that only hold others,
+/// place, style or measure them.
 inline constexpr auto read_items = std::to_array<std::string_view>({
     "B_SPLINE_SURFACE_WITH_KNOTS",
     "BEZIER_SURFACE",
@@ -78,9 +79,9 @@ inline constexpr auto read_items = std::to_array<std::string_view>({
 });
 
 inline constexpr auto point_kinds = std::to_array<std::string_view>(
-    {"CARTESIAN_POINT", "CYLINDRICAL_POINT", "SPHERICAL_POINT", "POLAR_POINT", "POINT_ON_CURVE", "POINT_ON_SURFACE",
-     "POINT_REPLICA", "POINT_IN_VOLUME", "DEGENERATE_PCURVE", "EVALUATED_DEGENERATE_PCURVE", "VERTEX_POINT",
-     "VERTEX_SHELL"});
+    {"CARTESIAN_POINT", "CYLINDRICAL_POINT", "SPHERICAL_POINT", "POLAR_POINT", "POINT_ON_CURVE",
+     "POINT_ON_SURFACE", "POINT_REPLICA", "POINT_IN_VOLUME", "DEGENERATE_PCURVE",
+     "EVALUATED_DEGENERATE_PCURVE", "VERTEX_POINT", "VERTEX_SHELL"});
 
 inline constexpr auto curve_kinds = std::to_array<std::string_view>({"LINE",
                                                                      "CIRCLE",
@@ -108,9 +109,10 @@ inline constexpr auto curve_kinds = std::to_array<std::string_view>({"LINE",
 
 inline constexpr auto surface_kinds = std::to_array<std::string_view>(
     {"PLANE", "CYLINDRICAL_SURFACE", "CONICAL_SURFACE", "SPHERICAL_SURFACE", "TOROIDAL_SURFACE",
-     "DEGENERATE_TOROIDAL_SURFACE", "DUPIN_CYCLIDE_SURFACE", "SURFACE_OF_REVOLUTION", "SURFACE_OF_LINEAR_EXTRUSION",
-     "SURFACE_CURVE_SWEPT_SURFACE", "FIXED_REFERENCE_SWEPT_SURFACE", "OFFSET_SURFACE", "ORIENTED_SURFACE",
-     "SURFACE_REPLICA", "RECTANGULAR_TRIMMED_SURFACE", "CURVE_BOUNDED_SURFACE", "RECTANGULAR_COMPOSITE_SURFACE"});
+     "DEGENERATE_TOROIDAL_SURFACE", "DUPIN_CYCLIDE_SURFACE", "SURFACE_OF_REVOLUTION",
+     "SURFACE_OF_LINEAR_EXTRUSION", "SURFACE_CURVE_SWEPT_SURFACE", "FIXED_REFERENCE_SWEPT_SURFACE",
+     "OFFSET_SURFACE", "ORIENTED_SURFACE", "SURFACE_REPLICA", "RECTANGULAR_TRIMMED_SURFACE",
+     "CURVE_BOUNDED_SURFACE", "RECTANGULAR_COMPOSITE_SURFACE"});
 
 /// Kinds that are not read wherever they stand.
 struct KindGroup {
@@ -121,7 +123,8 @@ struct KindGroup {
 [[nodiscard]] std::string upper_case(std::string_view keyword);
 /// Equal but for case; `kind` is in upper case.
 [[nodiscard]] bool same_kind(std::string_view keyword, std::string_view kind);
-/// Whether its items are those of a shape: SHAPE_REPRESENTATION and its subtypes, and of supplemental geometry.
+/// Whether its items are those of a shape: SHAPE_REPRESENTATION and its subtypes, and of
+/// supplemental geometry.
 [[nodiscard]] bool holds_shape(std::string_view keyword);
 /// Drawn annotations: ANNOTATION_CURVE_OCCURRENCE and the like, DRAUGHTING_CALLOUT.
 [[nodiscard]] bool is_annotation(std::string_view keyword);

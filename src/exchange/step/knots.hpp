@@ -19,19 +19,22 @@ enum class ImpliedKnots { uniform, quasi_uniform, bezier };
 /// The implied knots of degree p for n control points.
 [[nodiscard]] Expected<KnotVector> implied_knots(ImpliedKnots form, int degree, int count);
 
-/// Knots listed as multiplicities and values, each as often as it counts, `count` + `degree` + 1 of them.
-/// \param direction for errors: "u", "v", or "" on a curve.
-[[nodiscard]] Expected<std::vector<double>> read_knot_list(const Reader& reader, std::uint32_t instance, int degree,
+/// Knots listed as multiplicities and values, each as often as it counts, `count` + `degree` + 1 of
+/// them. \param direction for errors: "u", "v", or "" on a curve.
+[[nodiscard]] Expected<std::vector<double>> read_knot_list(const Reader& reader,
+                                                           std::uint32_t instance, int degree,
                                                            int count, std::uint32_t multiplicities,
-                                                           std::uint32_t values, const std::string& direction);
+                                                           std::uint32_t values,
+                                                           const std::string& direction);
 
 /// Such a list as a knot vector; parameters as above.
-[[nodiscard]] Expected<KnotVector> knots_of_list(const Reader& reader, std::uint32_t instance, int degree,
-                                                 std::vector<double> list, const std::string& direction);
+[[nodiscard]] Expected<KnotVector> knots_of_list(const Reader& reader, std::uint32_t instance,
+                                                 int degree, std::vector<double> list,
+                                                 const std::string& direction);
 
 /// Both. Equal neighbouring values are accepted and their multiplicities add up.
-[[nodiscard]] Expected<KnotVector> read_knots(const Reader& reader, std::uint32_t instance, int degree, int count,
-                                              std::uint32_t multiplicities, std::uint32_t values,
-                                              const std::string& direction);
+[[nodiscard]] Expected<KnotVector> read_knots(const Reader& reader, std::uint32_t instance,
+                                              int degree, int count, std::uint32_t multiplicities,
+                                              std::uint32_t values, const std::string& direction);
 
 }  // namespace knead::step

@@ -19,7 +19,8 @@ using Index = std::uint32_t;
 
 class Unread {
  public:
-  explicit Unread(const File& file) : model_(file.model()), records_(file.data().of), reader_(file.data().records) {
+  explicit Unread(const File& file)
+      : model_(file.model()), records_(file.data().of), reader_(file.data().records) {
     for (const FaceRecord& face : records_.faces) faces_.insert(face.instance);
   }
 
@@ -42,16 +43,17 @@ class Unread {
     std::vector<UnreadableCurve> unreadable;
     static_cast<void>(free_curves(reader_, &unreadable));
     for (const auto& [instance, reason] : unreadable)
-      list_.add({"curve that cannot be read", "curves that cannot be read", reason.what, reason.remedy},
-                name(instance));
+      list_.add(
+          {"curve that cannot be read", "curves that cannot be read", reason.what, reason.remedy},
+          name(instance));
   }
 
   /// Of which not even the record can be followed.
   void add_faces() {
     for (const Index k : reader_.file().named({"ADVANCED_FACE", "FACE_SURFACE", "FACE"})) {
       if (!faces_.contains(k))
-        list_.add({"face that cannot be read", "faces that cannot be read", "its record has no bounds or no surface",
-                   "check that the file is complete"},
+        list_.add({"face that cannot be read", "faces that cannot be read",
+                   "its record has no bounds or no surface", "check that the file is complete"},
                   name(k));
     }
   }
@@ -63,7 +65,8 @@ class Unread {
     for (const std::string_view kind : file.keywords()) {
       const bool annotation = is_annotation(kind);
       if (!annotation && !same_kind(kind, "PROPERTY_DEFINITION_REPRESENTATION")) continue;
-      for (const Index k : file.named({kind})) each_reference(k, [&](Index target) { elsewhere.insert(target); });
+      for (const Index k : file.named({kind}))
+        each_reference(k, [&](Index target) { elsewhere.insert(target); });
     }
     std::set<Index> seen;
     for (const std::string_view kind : file.keywords()) {
@@ -71,8 +74,8 @@ class Unread {
       if (!set && !holds_shape(kind)) continue;
       for (const Index k : file.named({kind})) {
         if (elsewhere.contains(k)) continue;
-        const auto own =
-            set ? reader_.attributes(k, "GEOMETRIC_SET", 1, 1) : reader_.attributes(k, "REPRESENTATION", 0, 2);
+        const auto own = set ? reader_.attributes(k, "GEOMETRIC_SET", 1, 1)
+                             : reader_.attributes(k, "REPRESENTATION", 0, 2);
         if (own.empty()) continue;
         for (const Index item : reader_.references(own[set ? 0 : 1])) {
           if (seen.insert(item).second) add_item(item);
@@ -83,10 +86,12 @@ class Unread {
 
   void add_item(Index item) {
     const auto is_any = [&](std::span<const std::string_view> kinds) {
-      return std::ranges::any_of(kinds, [&](std::string_view kind) { return reader_.is(item, kind); });
+      return std::ranges::any_of(kinds,
+                                 [&](std::string_view kind) { return reader_.is(item, kind); });
     };
     if (is_any(read_items) || is_b_spline_curve(reader_, item)) return;
-    if (is_any(point_kinds)) return list_.add({"point", "points", "a point has no surface"}, name(item));
+    if (is_any(point_kinds))
+      return list_.add({"point", "points", "a point has no surface"}, name(item));
     if (is_any(curve_kinds)) {
       return list_.add({"curve that is no B-spline", "curves that are no B-splines",
                         "only B-spline curves are read where they stand for themselves",
@@ -106,8 +111,8 @@ class Unread {
     const auto& splines = records_.surfaces;
     if (below && std::ranges::find(splines, *below) != splines.end()) return;
     // One that cannot be read has a reason of its own.
-    if (below &&
-        std::ranges::find(model_.unreadable, name(*below), &brep::UnreadableSurface::id) != model_.unreadable.end())
+    if (below && std::ranges::find(model_.unreadable, name(*below), &brep::UnreadableSurface::id) !=
+                     model_.unreadable.end())
       return;
     list_.add({"surface without a face", "surfaces without faces",
                "of surfaces that are no B-splines only what faces cover is shown"},
@@ -130,9 +135,12 @@ class Unread {
 
   void add_pictures() {
     for (const Index k : records_.tessellated.pictures)
-      list_.add({"tessellated picture of a face", "tessellated pictures of faces", "the exact face is shown"}, name(k));
+      list_.add({"tessellated picture of a face", "tessellated pictures of faces",
+                 "the exact face is shown"},
+                name(k));
     if (records_.tessellated.too_many)
-      list_.add({"use of a tessellated item", "uses of tessellated items", "sets hold each other too often"});
+      list_.add({"use of a tessellated item", "uses of tessellated items",
+                 "sets hold each other too often"});
   }
 
   /// The kinds that are never read, whatever refers to them. A record counts once.
@@ -144,7 +152,8 @@ class Unread {
         for (const Index k : reader_.file().named({kind})) found.insert(k);
       }
       for (const Index k : found) {
-        if (group.has == is_annotation || !records_.tessellated.annotations.contains(k)) list_.add(group.kind, name(k));
+        if (group.has == is_annotation || !records_.tessellated.annotations.contains(k))
+          list_.add(group.kind, name(k));
       }
     }
   }
@@ -153,7 +162,8 @@ class Unread {
     const auto& record = reader_.file().instance(item);
     for (auto k = record.first; k < record.last; k = reader_.file().value(k).next) {
       const std::string kind = upper_case(reader_.file().keyword(k));
-      if (std::ranges::any_of(kind_groups, [&](const KindGroup& group) { return group.has(kind); })) return true;
+      if (std::ranges::any_of(kind_groups, [&](const KindGroup& group) { return group.has(kind); }))
+        return true;
     }
     return false;
   }
@@ -166,8 +176,8 @@ class Unread {
     for (const brep::Instance& i : model_.instances) shown.insert(i.parent);
     for (const brep::Instance& i : model_.instances) {
       if (i.child.empty() || shown.contains(i.child) || !empty.insert(i.child).second) continue;
-      list_.add({"part without geometry", "parts without geometry", "the file does not hold its shape",
-                 "open the part's own file"},
+      list_.add({"part without geometry", "parts without geometry",
+                 "the file does not hold its shape", "open the part's own file"},
                 i.id);
     }
   }

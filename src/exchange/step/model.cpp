@@ -20,8 +20,9 @@ namespace {
 class Contexts {
  public:
   explicit Contexts(const Reader& reader) : reader_(reader), contexts_(read_unit_contexts(reader)) {
-    one_unit_ = std::ranges::all_of(
-        contexts_, [&](const UnitContext& context) { return context.unit.name == contexts_.front().unit.name; });
+    one_unit_ = std::ranges::all_of(contexts_, [&](const UnitContext& context) {
+      return context.unit.name == contexts_.front().unit.name;
+    });
   }
 
   [[nodiscard]] const std::vector<UnitContext>& all() const { return contexts_; }
@@ -43,7 +44,8 @@ class Contexts {
   bool one_unit_ = true;
 };
 
-void read_surfaces(const Reader& reader, const Contexts& contexts, brep::Model& model, ModelRecords& records) {
+void read_surfaces(const Reader& reader, const Contexts& contexts, brep::Model& model,
+                   ModelRecords& records) {
   const auto instances = b_spline_surfaces(reader);
   auto all = read_b_spline_surfaces(reader, instances);
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -65,18 +67,21 @@ void read_surfaces(const Reader& reader, const Contexts& contexts, brep::Model& 
   }
 }
 
-void read_curves(const Reader& reader, const Contexts& contexts, brep::Model& model, ModelRecords& records) {
+void read_curves(const Reader& reader, const Contexts& contexts, brep::Model& model,
+                 ModelRecords& records) {
   std::vector<ReadCurve> curves = free_curves(reader);
   for (const ReadCurve& c : curves) records.curves.push_back(c.instance);
   const auto context_of = contexts.of(records.curves);
   for (std::size_t k = 0; k < curves.size(); ++k) {
     records.curve_point_refs.push_back(std::move(curves[k].references));
-    model.curves.push_back({name_of(reader, curves[k].instance), reader.item_name(curves[k].instance),
-                            contexts.unit(context_of[k]), std::move(curves[k].curve)});
+    model.curves.push_back({name_of(reader, curves[k].instance),
+                            reader.item_name(curves[k].instance), contexts.unit(context_of[k]),
+                            std::move(curves[k].curve)});
   }
 }
 
-void read_tessellated(const Reader& reader, const Contexts& contexts, brep::Model& model, ModelRecords& records) {
+void read_tessellated(const Reader& reader, const Contexts& contexts, brep::Model& model,
+                      ModelRecords& records) {
   records.tessellated = tessellated_records(reader);
   const std::vector<TessellatedRecord>& shown = records.tessellated.shown;
   if (shown.empty()) return;
@@ -87,11 +92,13 @@ void read_tessellated(const Reader& reader, const Contexts& contexts, brep::Mode
   for (std::size_t k = 0; k < shown.size(); ++k) {
     auto mesh = triangles.mesh(shown[k]);
     if (!mesh) {
-      model.tessellated.skipped.push_back({name_of(reader, shown[k].instance), std::move(mesh.error())});
+      model.tessellated.skipped.push_back(
+          {name_of(reader, shown[k].instance), std::move(mesh.error())});
       continue;
     }
-    model.tessellated.items.push_back({shown[k].named == no_instance ? std::string() : reader.item_name(shown[k].named),
-                                       contexts.unit(context_of[k]), *std::move(mesh)});
+    model.tessellated.items.push_back(
+        {shown[k].named == no_instance ? std::string() : reader.item_name(shown[k].named),
+         contexts.unit(context_of[k]), *std::move(mesh)});
   }
 }
 
@@ -106,7 +113,8 @@ Expected<brep::Model> read_model(const Reader& reader, ModelRecords& records) {
   model.angle_units = plane_angle_units(reader);
   read_surfaces(reader, contexts, model, records);
   records.faces = read_faces(reader);
-  const auto context_of = contexts.of(read_topology(reader, records.surfaces, records.faces, model));
+  const auto context_of =
+      contexts.of(read_topology(reader, records.surfaces, records.faces, model));
   for (std::size_t k = 0; k < context_of.size(); ++k) {
     model.supports[k].uncertainty = contexts.uncertainty(context_of[k]);
   }
@@ -115,7 +123,8 @@ Expected<brep::Model> read_model(const Reader& reader, ModelRecords& records) {
   read_tessellated(reader, contexts, model, records);
   brep::complete(model);
   const Structure structure = read_structure(reader);
-  for (const Component& component : structure.components) model.instances.push_back(component.instance);
+  for (const Component& component : structure.components)
+    model.instances.push_back(component.instance);
   model.assembly = read_assembly(reader, structure, model, records);
   return model;
 }

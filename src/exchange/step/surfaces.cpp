@@ -22,15 +22,19 @@ struct Net {
 };
 
 // A rectangular list of lists.
-Expected<Net> read_net(const Reader& reader, std::uint32_t instance, std::uint32_t list, const std::string& what) {
-  if (!reader.is_list(list)) return reader.error(instance, "its " + what + " are not a list of lists");
+Expected<Net> read_net(const Reader& reader, std::uint32_t instance, std::uint32_t list,
+                       const std::string& what) {
+  if (!reader.is_list(list))
+    return reader.error(instance, "its " + what + " are not a list of lists");
   Net net;
   for (const auto row : reader.file().children(list)) {
-    if (!reader.is_list(row)) return reader.error(instance, "its " + what + " are not a list of lists");
+    if (!reader.is_list(row))
+      return reader.error(instance, "its " + what + " are not a list of lists");
     const auto values = reader.file().children(row);
     if (net.rows > 0 && static_cast<int>(values.size()) != net.columns) {
-      return reader.error(instance, "row " + std::to_string(net.rows) + " of its " + what + " has " +
-                                        std::to_string(values.size()) + " entries and the rows before it " +
+      return reader.error(instance, "row " + std::to_string(net.rows) + " of its " + what +
+                                        " has " + std::to_string(values.size()) +
+                                        " entries and the rows before it " +
                                         std::to_string(net.columns));
     }
     net.columns = static_cast<int>(values.size());
@@ -42,7 +46,8 @@ Expected<Net> read_net(const Reader& reader, std::uint32_t instance, std::uint32
 }
 
 Expected<std::array<KnotVector, 2>> surface_knots(const Reader& reader, std::uint32_t instance,
-                                                  std::array<int, 2> degree, std::array<int, 2> count) {
+                                                  std::array<int, 2> degree,
+                                                  std::array<int, 2> count) {
   constexpr std::array<const char*, 2> names = {"u", "v"};
   std::vector<KnotVector> knots;
   const auto listed = knot_parameters(reader, instance);
@@ -53,13 +58,15 @@ Expected<std::array<KnotVector, 2>> surface_knots(const Reader& reader, std::uin
   }
   for (std::size_t k = 0; k < 2; ++k) {
     if (!listed.empty()) {
-      auto read = read_knots(reader, instance, degree[k], count[k], listed[k], listed[k + 2], names[k]);
+      auto read =
+          read_knots(reader, instance, degree[k], count[k], listed[k], listed[k + 2], names[k]);
       if (!read) return std::unexpected(std::move(read.error()));
       knots.push_back(*std::move(read));
     } else if (form) {
       auto implied = implied_knots(*form, degree[k], count[k]);
       if (!implied) {
-        return reader.error(instance, std::string(names[k]) + ": " + implied.error().what, implied.error().remedy);
+        return reader.error(instance, std::string(names[k]) + ": " + implied.error().what,
+                            implied.error().remedy);
       }
       knots.push_back(*std::move(implied));
     }
@@ -67,21 +74,25 @@ Expected<std::array<KnotVector, 2>> surface_knots(const Reader& reader, std::uin
   return std::array<KnotVector, 2>{std::move(knots[0]), std::move(knots[1])};
 }
 
-Expected<std::vector<double>> surface_weights(const Reader& reader, std::uint32_t instance, const Net& points) {
+Expected<std::vector<double>> surface_weights(const Reader& reader, std::uint32_t instance,
+                                              const Net& points) {
   std::vector<double> weights;
   if (!reader.is(instance, "RATIONAL_B_SPLINE_SURFACE")) return weights;
-  const auto own = reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_b_spline_surface, 1);
+  const auto own =
+      reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_b_spline_surface, 1);
   if (own.empty()) return reader.error(instance, "it is rational and has no weights");
   const auto net = read_net(reader, instance, own[0], "weights");
   if (!net) return std::unexpected(net.error());
   if (net->rows != points.rows || net->columns != points.columns) {
-    return reader.error(instance, std::to_string(net->rows) + " x " + std::to_string(net->columns) + " weights for " +
-                                      std::to_string(points.rows) + " x " + std::to_string(points.columns) +
-                                      " control points");
+    return reader.error(instance, std::to_string(net->rows) + " x " + std::to_string(net->columns) +
+                                      " weights for " + std::to_string(points.rows) + " x " +
+                                      std::to_string(points.columns) + " control points");
   }
   for (std::size_t k = 0; k < net->values.size(); ++k) {
     const auto weight = reader.real(net->values[k]);
-    if (!weight) return reader.error(instance, "weight " + std::to_string(k) + " is not a number a double can hold");
+    if (!weight)
+      return reader.error(instance,
+                          "weight " + std::to_string(k) + " is not a number a double can hold");
     weights.push_back(*weight);
   }
   return weights;
@@ -91,11 +102,13 @@ Expected<std::vector<double>> surface_weights(const Reader& reader, std::uint32_
 
 std::vector<std::uint32_t> knot_parameters(const Reader& reader, std::uint32_t instance) {
   if (!reader.is(instance, "B_SPLINE_SURFACE_WITH_KNOTS")) return {};
-  return reader.attributes(instance, "B_SPLINE_SURFACE_WITH_KNOTS", attributes_of_b_spline_surface, 4);
+  return reader.attributes(instance, "B_SPLINE_SURFACE_WITH_KNOTS", attributes_of_b_spline_surface,
+                           4);
 }
 
 std::uint32_t weights_parameter(const Reader& reader, std::uint32_t instance) {
-  return reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_b_spline_surface, 1).front();
+  return reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_b_spline_surface, 1)
+      .front();
 }
 
 const char* implied_keyword(ImpliedKnots form) {
@@ -110,17 +123,21 @@ const char* implied_keyword(ImpliedKnots form) {
 }
 
 std::optional<ImpliedKnots> implied_form(const Reader& reader, std::uint32_t instance) {
-  for (const auto form : {ImpliedKnots::bezier, ImpliedKnots::quasi_uniform, ImpliedKnots::uniform}) {
+  for (const auto form :
+       {ImpliedKnots::bezier, ImpliedKnots::quasi_uniform, ImpliedKnots::uniform}) {
     if (reader.is(instance, implied_keyword(form))) return form;
   }
   return std::nullopt;
 }
 
 bool is_b_spline_surface(const Reader& reader, std::uint32_t instance) {
-  return std::any_of(forms.begin(), forms.end(), [&](std::string_view form) { return reader.is(instance, form); });
+  return std::any_of(forms.begin(), forms.end(),
+                     [&](std::string_view form) { return reader.is(instance, form); });
 }
 
-std::vector<std::uint32_t> b_spline_surfaces(const Reader& reader) { return reader.file().named(forms); }
+std::vector<std::uint32_t> b_spline_surfaces(const Reader& reader) {
+  return reader.file().named(forms);
+}
 
 Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t instance) {
   const auto own = reader.attributes(instance, "B_SPLINE_SURFACE", 1, 3);
@@ -129,7 +146,8 @@ Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t 
   const auto q = reader.integer(own[1]);
   if (!p || !q) return reader.error(instance, "its degrees are not integers");
   if (*p < 1 || *p > max_degree || *q < 1 || *q > max_degree) {
-    return reader.error(instance, "its degrees are " + std::to_string(*p) + " x " + std::to_string(*q),
+    return reader.error(instance,
+                        "its degrees are " + std::to_string(*p) + " x " + std::to_string(*q),
                         "degrees 1 to " + std::to_string(max_degree) + " can be read");
   }
   const auto net = read_net(reader, instance, own[2], "control points");
@@ -143,7 +161,8 @@ Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t 
   for (std::size_t k = 0; k < net->values.size(); ++k) {
     const auto target = reader.reference(net->values[k]);
     if (!target) {
-      return reader.error(instance, "control point " + std::to_string(k) + " does not refer to an entity of this file");
+      return reader.error(instance, "control point " + std::to_string(k) +
+                                        " does not refer to an entity of this file");
     }
     const auto point = reader.point(*target);
     if (!point) return std::unexpected(point.error());
@@ -154,17 +173,19 @@ Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t 
   return ReadSurface{instance, *std::move(surface)};
 }
 
-std::vector<Expected<ReadSurface>> read_b_spline_surfaces(const Reader& reader,
-                                                          std::span<const std::uint32_t> instances) {
+std::vector<Expected<ReadSurface>> read_b_spline_surfaces(
+    const Reader& reader, std::span<const std::uint32_t> instances) {
   std::vector<Expected<ReadSurface>> result(instances.size(), std::unexpected(Error{}));
-  share(reader, instances.size(),
-        [&](const Reader& own, std::size_t k) { result[k] = read_b_spline_surface(own, instances[k]); });
+  share(reader, instances.size(), [&](const Reader& own, std::size_t k) {
+    result[k] = read_b_spline_surface(own, instances[k]);
+  });
   return result;
 }
 
 std::vector<std::uint32_t> control_point_values(const Reader& reader, std::uint32_t instance) {
   std::vector<std::uint32_t> result;
-  for (const auto row : reader.file().children(reader.attributes(instance, "B_SPLINE_SURFACE", 1, 3)[2])) {
+  for (const auto row :
+       reader.file().children(reader.attributes(instance, "B_SPLINE_SURFACE", 1, 3)[2])) {
     const auto values = reader.file().children(row);
     result.insert(result.end(), values.begin(), values.end());
   }

@@ -14,7 +14,8 @@ namespace {
 using Index = std::uint32_t;
 constexpr double most_copied = 5e6;  // triangles of all items, beyond their first places
 
-/// The parts of an item's record: its coordinates, normals, indices of points, and lists of triangles.
+/// The parts of an item's record: its coordinates, normals, indices of points, and lists of
+/// triangles.
 struct ItemLayout {
   Index coordinates = no_instance;
   Index normals = 0, pnindex = 0;                // values
@@ -38,7 +39,8 @@ std::optional<ItemLayout> layout_of(const Reader& reader, Index item) {
     }
     return layout;
   };
-  if (reader.is(item, "TRIANGULATED_FACE")) return read("TRIANGULATED_FACE", "TESSELLATED_FACE", 5, false);
+  if (reader.is(item, "TRIANGULATED_FACE"))
+    return read("TRIANGULATED_FACE", "TESSELLATED_FACE", 5, false);
   if (reader.is(item, "COMPLEX_TRIANGULATED_FACE"))
     return read("COMPLEX_TRIANGULATED_FACE", "TESSELLATED_FACE", 5, true);
   if (reader.is(item, "TRIANGULATED_SURFACE_SET"))
@@ -49,7 +51,8 @@ std::optional<ItemLayout> layout_of(const Reader& reader, Index item) {
 /// Turns what indices and lists say into triangles of one item.
 class MeshBuilder {
  public:
-  MeshBuilder(const Reader& reader, Index item, const ItemLayout& layout, const std::vector<Point>& coordinates)
+  MeshBuilder(const Reader& reader, Index item, const ItemLayout& layout,
+              const std::vector<Point>& coordinates)
       : reader_(reader), item_(item), layout_(layout), coordinates_(coordinates) {}
 
   Expected<FaceMesh> build() {
@@ -71,8 +74,12 @@ class MeshBuilder {
     return reader_.is_list(value) ? reader_.file().children(value) : std::vector<Index>();
   }
   /// How many points indices choose from.
-  [[nodiscard]] std::size_t count() const { return pnindex_.empty() ? coordinates_.size() : pnindex_.size(); }
-  [[nodiscard]] const Point& point(Index k) const { return coordinates_[pnindex_.empty() ? k : pnindex_[k]]; }
+  [[nodiscard]] std::size_t count() const {
+    return pnindex_.empty() ? coordinates_.size() : pnindex_.size();
+  }
+  [[nodiscard]] const Point& point(Index k) const {
+    return coordinates_[pnindex_.empty() ? k : pnindex_[k]];
+  }
 
   Expected<Index> index(Index value, std::size_t most, std::string_view of) const {
     const auto read = reader_.integer(value);
@@ -100,16 +107,20 @@ class MeshBuilder {
       Point normal = Point::Zero();
       for (std::size_t k = 0; k < 3; ++k) {
         const auto read = parts.size() == 3 ? reader_.length(parts[k]) : std::nullopt;
-        if (!read) return reader_.error(item_, fmt::format("normal {} is not three numbers", normals_.size() + 1));
+        if (!read)
+          return reader_.error(item_,
+                               fmt::format("normal {} is not three numbers", normals_.size() + 1));
         normal[static_cast<Eigen::Index>(k)] = *read;
       }
       normals_.push_back(normal.stableNormalized());
     }
     // Without indices of their own, normals go with the first coordinates.
-    const bool fits = normals_.size() < 2 ||
-                      (pnindex_.empty() ? normals_.size() <= coordinates_.size() : normals_.size() == pnindex_.size());
+    const bool fits =
+        normals_.size() < 2 || (pnindex_.empty() ? normals_.size() <= coordinates_.size()
+                                                 : normals_.size() == pnindex_.size());
     if (fits) return {};
-    return reader_.error(item_, fmt::format("it has {} normals for {} points", normals_.size(), count()),
+    return reader_.error(item_,
+                         fmt::format("it has {} normals for {} points", normals_.size(), count()),
                          "give it none, one, or one per point");
   }
 
@@ -217,7 +228,8 @@ FaceMesh placed(FaceMesh mesh, const std::vector<Eigen::Affine3d>& places) {
     const auto first = static_cast<Index>(result.points.size());
     for (const Point& p : mesh.points) result.points.push_back(place * p);
     for (const Point& n : mesh.normals) result.normals.push_back(place.linear() * n);
-    for (const auto& t : mesh.triangles) result.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    for (const auto& t : mesh.triangles)
+      result.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
   return result;
 }
@@ -239,8 +251,8 @@ Expected<const std::vector<Point>*> TessellatedReader::coordinates(std::uint32_t
       for (std::size_t k = 0; k < 3; ++k) {
         const auto read = parts.size() == 3 ? reader_.length(parts[k]) : std::nullopt;
         if (!read) {
-          return reader_.error(
-              list, fmt::format("point {} is not three numbers of at most {}", points.size() + 1, largest_number));
+          return reader_.error(list, fmt::format("point {} is not three numbers of at most {}",
+                                                 points.size() + 1, largest_number));
         }
         p[static_cast<Eigen::Index>(k)] = *read;
       }
@@ -254,14 +266,18 @@ Expected<const std::vector<Point>*> TessellatedReader::coordinates(std::uint32_t
 
 Expected<FaceMesh> TessellatedReader::mesh(const TessellatedRecord& record) {
   const auto layout = layout_of(reader_, record.instance);
-  if (!layout) return reader_.error(record.instance, "its record is incomplete", "check that the file is complete");
+  if (!layout)
+    return reader_.error(record.instance, "its record is incomplete",
+                         "check that the file is complete");
   const auto points = coordinates(layout->coordinates);
   if (!points) return std::unexpected(points.error());
   auto mesh = MeshBuilder(reader_, record.instance, *layout, **points).build();
   if (!mesh) return mesh;
-  const double copies = static_cast<double>(mesh->triangles.size()) * (static_cast<double>(record.places.size()) - 1);
+  const double copies =
+      static_cast<double>(mesh->triangles.size()) * (static_cast<double>(record.places.size()) - 1);
   if (copied_ + copies > most_copied)
-    return reader_.error(record.instance, fmt::format("sets put it in {} places", record.places.size()));
+    return reader_.error(record.instance,
+                         fmt::format("sets put it in {} places", record.places.size()));
   copied_ += copies;
   return placed(*std::move(mesh), record.places);
 }

@@ -15,8 +15,9 @@ constexpr int most_set_nesting = 50;               // of sets
 constexpr std::size_t set_visits_per_record = 16;  // of items that sets share
 constexpr std::size_t free_visits = 10'000;
 
-constexpr std::array<std::string_view, 4> item_kinds = {"TRIANGULATED_FACE", "COMPLEX_TRIANGULATED_FACE",
-                                                        "TRIANGULATED_SURFACE_SET", "COMPLEX_TRIANGULATED_SURFACE_SET"};
+constexpr std::array<std::string_view, 4> item_kinds = {
+    "TRIANGULATED_FACE", "COMPLEX_TRIANGULATED_FACE", "TRIANGULATED_SURFACE_SET",
+    "COMPLEX_TRIANGULATED_SURFACE_SET"};
 constexpr std::array<std::string_view, 3> set_kinds = {"TESSELLATED_SOLID", "TESSELLATED_SHELL",
                                                        "TESSELLATED_GEOMETRIC_SET"};
 
@@ -40,7 +41,8 @@ class Sets {
     std::unordered_set<Index> held;
     for (const auto& [set, members] : sets_) held.insert(members.begin(), members.end());
     for (const Index k : roots(held)) {
-      if (!result_.annotations.contains(k)) visit(k, Eigen::Affine3d::Identity(), no_instance, false, 0);
+      if (!result_.annotations.contains(k))
+        visit(k, Eigen::Affine3d::Identity(), no_instance, false, 0);
     }
     for (const Index k : items_) {
       Item& item = item_places_[k];
@@ -143,16 +145,20 @@ class Sets {
   [[nodiscard]] bool has_faces(Index target) const {
     if (faces_.contains(target)) return true;
     const auto solid = reader_.attributes(target, "MANIFOLD_SOLID_BREP", 1, 1);
-    const bool is_solid = reader_.is(target, "MANIFOLD_SOLID_BREP") || reader_.is(target, "BREP_WITH_VOIDS");
-    const auto shell = is_solid && !solid.empty() ? reader_.reference(solid[0]) : std::optional(target);
+    const bool is_solid =
+        reader_.is(target, "MANIFOLD_SOLID_BREP") || reader_.is(target, "BREP_WITH_VOIDS");
+    const auto shell =
+        is_solid && !solid.empty() ? reader_.reference(solid[0]) : std::optional(target);
     if (!shell || !is_shell(*shell)) return false;
     const auto members = reader_.attributes(*shell, "CONNECTED_FACE_SET", 1, 1);
     if (members.empty()) return false;
-    return std::ranges::any_of(reader_.references(members[0]), [&](Index face) { return faces_.contains(face); });
+    return std::ranges::any_of(reader_.references(members[0]),
+                               [&](Index face) { return faces_.contains(face); });
   }
 
   [[nodiscard]] bool is_shell(Index k) const {
-    return reader_.is(k, "CLOSED_SHELL") || reader_.is(k, "OPEN_SHELL") || reader_.is(k, "CONNECTED_FACE_SET");
+    return reader_.is(k, "CLOSED_SHELL") || reader_.is(k, "OPEN_SHELL") ||
+           reader_.is(k, "CONNECTED_FACE_SET");
   }
 
   const Reader& reader_;

@@ -20,9 +20,11 @@ brep::Record record_of(const Reader& reader, std::uint32_t instance) {
 
 class TopologyReader {
  public:
-  TopologyReader(const Reader& reader, const std::vector<std::uint32_t>& surfaces, brep::Model& model)
+  TopologyReader(const Reader& reader, const std::vector<std::uint32_t>& surfaces,
+                 brep::Model& model)
       : reader_(reader), model_(model) {
-    for (std::size_t k = 0; k < surfaces.size(); ++k) splines_.emplace(surfaces[k], static_cast<Index>(k));
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      splines_.emplace(surfaces[k], static_cast<Index>(k));
   }
 
   std::vector<std::uint32_t> read(const std::vector<FaceRecord>& faces) {
@@ -50,7 +52,8 @@ class TopologyReader {
       const auto start = ends.empty() ? std::nullopt : reader_.reference(ends[0]);
       const auto end = ends.empty() ? std::nullopt : reader_.reference(ends[1]);
       if (!geometry || !start || !end) {
-        edge.wrong = brep::fault(reader_.error(instance, "an EDGE_CURVE with two vertices is needed here").error());
+        edge.wrong = brep::fault(
+            reader_.error(instance, "an EDGE_CURVE with two vertices is needed here").error());
         continue;
       }
       edge.start = vertex(*start);
@@ -69,14 +72,16 @@ class TopologyReader {
   }
 
   Index vertex(std::uint32_t instance) {
-    const auto [at, fresh] = vertices_.try_emplace(instance, static_cast<Index>(model_.vertices.size()));
+    const auto [at, fresh] =
+        vertices_.try_emplace(instance, static_cast<Index>(model_.vertices.size()));
     if (!fresh) return at->second;
     brep::Vertex& made = model_.vertices.emplace_back(name_of(reader_, instance));
     made.of_one_use = reader_.file().instance(instance).uses == 1;
     const auto own = reader_.attributes(instance, "VERTEX_POINT", 1, 1);
     const auto geometry = own.empty() ? std::nullopt : reader_.reference(own[0]);
     const auto place =
-        geometry ? reader_.point(*geometry) : Expected<Point>(reader_.error(instance, "a VERTEX_POINT is needed here"));
+        geometry ? reader_.point(*geometry)
+                 : Expected<Point>(reader_.error(instance, "a VERTEX_POINT is needed here"));
     if (place)
       made.place = *place;
     else
@@ -90,7 +95,8 @@ class TopologyReader {
     face.same_sense = record.same_sense;
     face.turned = record.turned;
     if (record.surface != no_instance) {
-      const auto [at, fresh] = supports_.try_emplace(record.surface, static_cast<Index>(model_.supports.size()));
+      const auto [at, fresh] =
+          supports_.try_emplace(record.surface, static_cast<Index>(model_.supports.size()));
       if (fresh) {
         model_.supports.emplace_back(record_of(reader_, record.surface));
         support_instances_.push_back(record.surface);
@@ -98,7 +104,8 @@ class TopologyReader {
       face.support = at->second;
     }
     if (record.is_surface) return;
-    for (const auto bound : reader_.references(record.bounds)) face.bounds.push_back(read_bound(bound));
+    for (const auto bound : reader_.references(record.bounds))
+      face.bounds.push_back(read_bound(bound));
   }
 
   brep::Bound read_bound(std::uint32_t instance) {
@@ -113,7 +120,8 @@ class TopologyReader {
     if (reader_.is(*loop, "VERTEX_LOOP")) {
       bound.kind = brep::Bound::Kind::vertex;
       const auto at = reader_.attributes(*loop, "VERTEX_LOOP", 1, 1);
-      if (const auto target = at.empty() ? std::nullopt : reader_.reference(at[0])) bound.vertex = vertex(*target);
+      if (const auto target = at.empty() ? std::nullopt : reader_.reference(at[0]))
+        bound.vertex = vertex(*target);
     } else if (reader_.is(*loop, "POLY_LOOP")) {
       read_polygon(*loop, bound);
     } else {
@@ -138,7 +146,8 @@ class TopologyReader {
   void read_edge_loop(std::uint32_t loop, brep::Bound& bound) const {
     const auto path = reader_.attributes(loop, "PATH", 1, 1);
     if (!reader_.is(loop, "EDGE_LOOP") || path.empty()) {
-      bound.wrong = brep::fault(reader_.error(loop, "a loop of a known form is needed here").error());
+      bound.wrong =
+          brep::fault(reader_.error(loop, "a loop of a known form is needed here").error());
       return;
     }
     bound.kind = brep::Bound::Kind::edges;
@@ -149,9 +158,10 @@ class TopologyReader {
       if (edge != edges_.end()) {
         bound.edges.push_back({edge->second, reader_.enumeration(own[1]) != "F"});
       } else if (!bound.wrong) {
-        bound.wrong =
-            brep::fault(element ? reader_.error(*element, "an EDGE_CURVE with two vertices is needed here").error()
-                                : reader_.error(oriented, "an ORIENTED_EDGE is needed here").error());
+        bound.wrong = brep::fault(
+            element
+                ? reader_.error(*element, "an EDGE_CURVE with two vertices is needed here").error()
+                : reader_.error(oriented, "an ORIENTED_EDGE is needed here").error());
       }
     }
   }
@@ -163,7 +173,8 @@ class TopologyReader {
         support.spline = spline->second;
         continue;
       }
-      const auto known = std::ranges::find(model_.unreadable, support.id, &brep::UnreadableSurface::id);
+      const auto known =
+          std::ranges::find(model_.unreadable, support.id, &brep::UnreadableSurface::id);
       if (known != model_.unreadable.end())
         support.wrong = brep::fault(known->reason);
       else
@@ -177,20 +188,23 @@ class TopologyReader {
       if (own.empty()) continue;
       brep::Shell& shell = model_.shells.emplace_back(name_of(reader_, k));
       for (const auto face : reader_.references(own[0])) {
-        if (const auto found = faces_.find(face); found != faces_.end()) shell.faces.push_back(found->second);
+        if (const auto found = faces_.find(face); found != faces_.end())
+          shell.faces.push_back(found->second);
       }
     }
   }
 
   const Reader& reader_;
   brep::Model& model_;
-  std::unordered_map<std::uint32_t, Index> splines_, edges_, vertices_, faces_, supports_;  // by record
+  std::unordered_map<std::uint32_t, Index> splines_, edges_, vertices_, faces_,
+      supports_;  // by record
   std::vector<std::uint32_t> support_instances_;
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> read_topology(const Reader& reader, const std::vector<std::uint32_t>& surfaces,
+std::vector<std::uint32_t> read_topology(const Reader& reader,
+                                         const std::vector<std::uint32_t>& surfaces,
                                          const std::vector<FaceRecord>& faces, brep::Model& model) {
   return TopologyReader(reader, surfaces, model).read(faces);
 }

@@ -46,7 +46,8 @@ std::optional<brep::LengthUnit> si_unit(const Reader& reader, std::uint32_t unit
   const auto prefix = reader.enumeration(own[0]);
   if (prefix.empty()) return brep::LengthUnit{{}, "m", 1};
   for (const auto& known : prefixes) {
-    if (same_keyword(prefix, known.name)) return brep::LengthUnit{{}, std::string(known.symbol) + "m", known.factor};
+    if (same_keyword(prefix, known.name))
+      return brep::LengthUnit{{}, std::string(known.symbol) + "m", known.factor};
   }
   return std::nullopt;
 }
@@ -58,7 +59,8 @@ struct Measure {
 };
 
 std::optional<Measure> measure(const Reader& reader, const std::vector<std::uint32_t>& attributes) {
-  if (attributes.size() < 2 || reader.file().value(attributes[0]).kind != Part21Kind::typed) return std::nullopt;
+  if (attributes.size() < 2 || reader.file().value(attributes[0]).kind != Part21Kind::typed)
+    return std::nullopt;
   const auto number = reader.file().children(attributes[0]);
   const auto unit = reader.reference(attributes[1]);
   if (number.size() != 1 || !unit) return std::nullopt;
@@ -72,9 +74,11 @@ std::optional<Measure> measure_with_unit(const Reader& reader, std::uint32_t ins
   return measure(reader, reader.attributes(instance, "MEASURE_WITH_UNIT", 0, 2));
 }
 
-std::optional<brep::LengthUnit> length_unit(const Reader& reader, std::uint32_t unit, int depth = 0) {
+std::optional<brep::LengthUnit> length_unit(const Reader& reader, std::uint32_t unit,
+                                            int depth = 0) {
   if (reader.is(unit, "SI_UNIT")) return si_unit(reader, unit);
-  if (!reader.is(unit, "CONVERSION_BASED_UNIT") || !reader.is(unit, "LENGTH_UNIT")) return std::nullopt;
+  if (!reader.is(unit, "CONVERSION_BASED_UNIT") || !reader.is(unit, "LENGTH_UNIT"))
+    return std::nullopt;
   const auto own = reader.attributes(unit, "CONVERSION_BASED_UNIT", 1, 1);
   if (own.empty()) return std::nullopt;
   brep::LengthUnit result{{}, reader.string(own[0]), 0};
@@ -86,7 +90,8 @@ std::optional<brep::LengthUnit> length_unit(const Reader& reader, std::uint32_t 
     if (const auto base = length_unit(reader, conversion->unit, depth + 1)) {
       result.metres = conversion->value * base->metres;
       // What files call a unit is anything: 'METRE', 'Inches', "IN". Its length says what it is.
-      if (const KnownLengthUnit* known = length_unit_of(1000 * result.metres)) result.name = known->name;
+      if (const KnownLengthUnit* known = length_unit_of(1000 * result.metres))
+        result.name = known->name;
     }
   }
   return result;
@@ -97,17 +102,19 @@ double uncertainty(const Reader& reader, std::uint32_t context, const brep::Leng
   const auto own = reader.attributes(context, "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT", 0, 1);
   if (!reader.is(context, "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT") || own.empty()) return 0;
   for (const auto instance : reader.references(own[0])) {
-    const auto given = measure(reader, reader.attributes(instance, "UNCERTAINTY_MEASURE_WITH_UNIT", 0, 2));
+    const auto given =
+        measure(reader, reader.attributes(instance, "UNCERTAINTY_MEASURE_WITH_UNIT", 0, 2));
     const auto own_unit = given ? length_unit(reader, given->unit) : std::nullopt;
     if (!own_unit) continue;
-    const double scale = own_unit->metres > 0 && unit.metres > 0 ? own_unit->metres / unit.metres : 1.0;
+    const double scale =
+        own_unit->metres > 0 && unit.metres > 0 ? own_unit->metres / unit.metres : 1.0;
     if (std::isfinite(given->value * scale)) largest = std::max(largest, given->value * scale);
   }
   return largest;
 }
 
-// Marks everything reached from the items of one representation. Styles refer to what they colour; the contexts of
-// their representations say nothing of its lengths.
+// Marks everything reached from the items of one representation. Styles refer to what they colour;
+// the contexts of their representations say nothing of its lengths.
 class Reach {
  public:
   Reach(const Reader& reader, const std::vector<bool>& representation)
@@ -115,8 +122,8 @@ class Reach {
         representation_(&representation),
         mark_(reader.file().instances().size(), -1),
         style_(reader.file().instances().size(), false) {
-    for (const auto k :
-         reader.file().named({"STYLED_ITEM", "OVER_RIDING_STYLED_ITEM", "CONTEXT_DEPENDENT_OVER_RIDING_STYLED_ITEM"}))
+    for (const auto k : reader.file().named({"STYLED_ITEM", "OVER_RIDING_STYLED_ITEM",
+                                             "CONTEXT_DEPENDENT_OVER_RIDING_STYLED_ITEM"}))
       style_[k] = true;
   }
 
@@ -128,7 +135,8 @@ class Reach {
       const auto& record = reader_->file().instance(instance);
       for (auto k = record.first; k < record.last; ++k) {
         const auto target = reader_->reference(k);
-        if (!target || (*representation_)[*target] || style_[*target] || mark_[*target] == context) continue;
+        if (!target || (*representation_)[*target] || style_[*target] || mark_[*target] == context)
+          continue;
         mark_[*target] = context;
         visited_.emplace_back(*target, context);
         stack_.push_back(*target);
@@ -136,7 +144,9 @@ class Reach {
     }
   }
 
-  [[nodiscard]] const std::vector<std::pair<std::uint32_t, int>>& visited() const { return visited_; }
+  [[nodiscard]] const std::vector<std::pair<std::uint32_t, int>>& visited() const {
+    return visited_;
+  }
 
  private:
   const Reader* reader_;
@@ -147,7 +157,8 @@ class Reach {
   std::vector<std::pair<std::uint32_t, int>> visited_;
 };
 
-/// Leaves those to which more refers than what only shows shapes: their lengths are of pens and texts.
+/// Leaves those to which more refers than what only shows shapes: their lengths are of pens and
+/// texts.
 void leave_contexts_of_shapes(const Reader& reader, std::vector<UnitContext>& contexts) {
   if (contexts.size() < 2) return;
   std::vector<bool> shows(reader.file().instances().size(), false);
@@ -156,14 +167,16 @@ void leave_contexts_of_shapes(const Reader& reader, std::vector<UnitContext>& co
     for (const auto k : reader.file().named({keyword})) shows[k] = true;
   }
   std::vector<int> context_at(shows.size(), -1);
-  for (std::size_t c = 0; c < contexts.size(); ++c) context_at[contexts[c].instance] = static_cast<int>(c);
+  for (std::size_t c = 0; c < contexts.size(); ++c)
+    context_at[contexts[c].instance] = static_cast<int>(c);
   std::vector<bool> referred(contexts.size(), false);
   for (std::uint32_t k = 0; k < shows.size(); ++k) {
     if (shows[k]) continue;
     const auto& record = reader.file().instance(k);
     for (auto value = record.first; value < record.last; ++value) {
       const auto target = reader.reference(value);
-      if (target && context_at[*target] >= 0) referred[static_cast<std::size_t>(context_at[*target])] = true;
+      if (target && context_at[*target] >= 0)
+        referred[static_cast<std::size_t>(context_at[*target])] = true;
     }
   }
   std::vector<UnitContext> left;
@@ -199,7 +212,8 @@ std::vector<int> contexts_of(const Reader& reader, const std::vector<UnitContext
   if (contexts.size() < 2 || instances.empty()) return result;
   const auto count = reader.file().instances().size();
   std::vector<int> context_at(count, -1);
-  for (std::size_t c = 0; c < contexts.size(); ++c) context_at[contexts[c].instance] = static_cast<int>(c);
+  for (std::size_t c = 0; c < contexts.size(); ++c)
+    context_at[contexts[c].instance] = static_cast<int>(c);
   std::vector<bool> representation(count, false);
   std::vector<std::vector<std::uint32_t>> of_context(contexts.size());
   for (std::uint32_t k = 0; k < count; ++k) {
@@ -219,7 +233,8 @@ std::vector<int> contexts_of(const Reader& reader, const std::vector<UnitContext
   }
   for (const auto& [instance, context] : reach.visited()) {
     const auto same_unit = [&](int a, int b) {
-      return contexts[static_cast<std::size_t>(a)].unit.name == contexts[static_cast<std::size_t>(b)].unit.name;
+      return contexts[static_cast<std::size_t>(a)].unit.name ==
+             contexts[static_cast<std::size_t>(b)].unit.name;
     };
     if (found[instance] >= 0 && !same_unit(found[instance], context)) ambiguous[instance] = true;
     if (found[instance] < 0) found[instance] = context;

@@ -19,7 +19,8 @@ __attribute__((noinline)) inline int equal_rows_found(const KernelKnots& knots, 
     const double* at = knots.from(row);
     const Lanes here = load(at);
     auto differ = differs(load(at + 1) - here, distance[1]);
-    unrolled<2, K + 1>([&](auto k) KNEAD_LAMBDA { differ |= differs(load(at + k) - here, distance[k]); });
+    unrolled<2, K + 1>([&](auto k)
+                           KNEAD_LAMBDA { differ |= differs(load(at + k) - here, distance[k]); });
     return !any(differ);
   };
   for (int row = end; row < end + 2 * K + row_chunk; row += lanes) {
@@ -28,15 +29,17 @@ __attribute__((noinline)) inline int equal_rows_found(const KernelKnots& knots, 
   int begin = end;
   for (; begin >= row_chunk; begin -= row_chunk) {
     bool all = true;
-    unrolled<0, row_chunk / lanes>([&](auto c) KNEAD_LAMBDA { all = all && same(begin - row_chunk + c * lanes); });
+    unrolled<0, row_chunk / lanes>(
+        [&](auto c) KNEAD_LAMBDA { all = all && same(begin - row_chunk + c * lanes); });
     if (!all) break;
   }
   return begin;
 }
 
-/// The rows from the result on down to `end` see the same distances d(i, k), k = 1 … p + 1, to the last bit, as row
-/// `end` and all the rows that it depends on: then they are equal to that row, and so are all intermediate results. The
-/// result is `end` minus a multiple of `row_chunk`, and `end` itself if the rows differ.
+/// The rows from the result on down to `end` see the same distances d(i, k), k = 1 … p + 1, to the
+/// last bit, as row `end` and all the rows that it depends on: then they are equal to that row, and
+/// so are all intermediate results. The result is `end` minus a multiple of `row_chunk`, and `end`
+/// itself if the rows differ.
 template <int P>
 KNEAD_INLINE int equal_rows_begin(const KernelKnots& knots, int end) {
   if (end < row_chunk || end >= knots.size - P - 1) return end;
@@ -45,15 +48,16 @@ KNEAD_INLINE int equal_rows_begin(const KernelKnots& knots, int end) {
   return equal_rows_found<P>(knots, end);
 }
 
-/// Copies row `end` to rows begin … end − 1, one diagonal at a time: all at once would need as many store streams as
-/// there are diagonals.
+/// Copies row `end` to rows begin … end − 1, one diagonal at a time: all at once would need as many
+/// store streams as there are diagonals.
 template <int P>
 inline void copy_rows(const KernelOutput& out, int begin, int end) {
   const auto fill = [&](double* diagonal) {
     const Lanes value = splat(diagonal[end]);
     for (int i = begin; i < end; i += row_chunk) {
       __builtin_prefetch(diagonal + i + 16 * row_chunk, 1);
-      unrolled<0, row_chunk / lanes>([&](auto c) KNEAD_LAMBDA { store(diagonal + i + c * lanes, value); });
+      unrolled<0, row_chunk / lanes>([&](auto c)
+                                         KNEAD_LAMBDA { store(diagonal + i + c * lanes, value); });
     }
   };
   for (int term = 0; term < 4; ++term) {

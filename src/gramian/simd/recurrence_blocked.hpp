@@ -5,10 +5,12 @@
 
 namespace knead::detail::KNEAD_ISA {
 
-/// The positive recurrence for any degree up to 15: the same as `FixedRecurrence`, but on blocks of rows in memory, one
-/// (k, l, s) at a time. Row `block` of every array is row 0 of the previous block, which lies above: the carry.
+/// The positive recurrence for any degree up to 15: the same as `FixedRecurrence`, but on blocks of
+/// rows in memory, one (k, l, s) at a time. Row `block` of every array is row 0 of the previous
+/// block, which lies above: the carry.
 class BlockedRecurrence {
-  static constexpr int block = 32, padded = block + 8, max_K = max_kernel_degree + 1, arrays = max_K * (max_K + 1) / 2;
+  static constexpr int block = 32, padded = block + 8, max_K = max_kernel_degree + 1,
+                       arrays = max_K * (max_K + 1) / 2;
   using Rows = double[padded];
 
  public:
@@ -36,7 +38,9 @@ class BlockedRecurrence {
   KNEAD_INLINE Lanes d(int r, int a, int k) const {
     return load(x_ + r + a + k) - load(x_ + r + a) + splat(k * splitting);
   }
-  KNEAD_INLINE Lanes raw(int r, int a, int k) const { return load(x_ + r + a + k) - load(x_ + r + a); }
+  KNEAD_INLINE Lanes raw(int r, int a, int k) const {
+    return load(x_ + r + a + k) - load(x_ + r + a);
+  }
 
   void prepare(int first) {
     x_ = knots_.from(first);
@@ -71,7 +75,8 @@ class BlockedRecurrence {
     }
   }
 
-  /// s = 0: S[k][l][0] = S[l][k-1][1] + S[k][l-1][1]; terms with s = 1 need an order of at least two.
+  /// s = 0: S[k][l][0] = S[l][k-1][1] + S[k][l-1][1]; terms with s = 1 need an order of at least
+  /// two.
   void diagonal(int k, int l, const Rows* before, double* at) const {
     const bool one = l >= 2, other = k >= 2;
     const double* a = before[index(l < 2 ? 2 : l, 1)];
@@ -107,17 +112,20 @@ class BlockedRecurrence {
   void keep(int k, int l, const Rows* now) {
     if (k == p_ - 1 && l == p_ - 1) {
       for (int s = 0; s < k; ++s) {
-        keep(now[index(k, s)], t2_[s],
-             [&](int r, Lanes v) { return where_positive(where_positive(v, raw(r, 0, p_ - 1)), raw(r, s, p_ - 1)); });
+        keep(now[index(k, s)], t2_[s], [&](int r, Lanes v) {
+          return where_positive(where_positive(v, raw(r, 0, p_ - 1)), raw(r, s, p_ - 1));
+        });
       }
     } else if (k == p_ && l == p_) {
       for (int s = 0; s < k; ++s) {
-        keep(now[index(k, s)], t1_[s],
-             [&](int r, Lanes v) { return where_positive(where_positive(v, raw(r, 0, p_)), raw(r, s, p_)); });
+        keep(now[index(k, s)], t1_[s], [&](int r, Lanes v) {
+          return where_positive(where_positive(v, raw(r, 0, p_)), raw(r, s, p_));
+        });
       }
     } else if (k == p_ && l == K_) {
       for (int s = 0; s < k; ++s) {
-        keep(now[index(k, s)], cross_[s], [&](int r, Lanes v) { return where_positive(v, raw(r, 0, p_)); });
+        keep(now[index(k, s)], cross_[s],
+             [&](int r, Lanes v) { return where_positive(v, raw(r, 0, p_)); });
       }
     } else if (k == K_ && l == K_) {
       for (int s = 0; s < k; ++s) keep(now[index(k, s)], full_[s], [](int, Lanes v) { return v; });
@@ -129,8 +137,8 @@ class BlockedRecurrence {
     for_rows([&](int r) { store(to + r, masked(r, load(from + r))); });
   }
 
-  /// D(t)_s(i) = t_s(i) − t_{s+1}(i) − t_{s−1}(i+1) + t_s(i+1), t_{−1}(i+1) read as t_1(i); t_s is zero from `count`
-  /// on.
+  /// D(t)_s(i) = t_s(i) − t_{s+1}(i) − t_{s−1}(i+1) + t_s(i+1), t_{−1}(i+1) read as t_1(i); t_s is
+  /// zero from `count` on.
   KNEAD_INLINE static Lanes difference(const Rows* t, int s, int count, int r) {
     const auto here = [&](int q) { return q < count ? load(t[q] + r) : splat(0); };
     const auto next = [&](int q) { return q < count ? load(t[q] + r + 1) : splat(0); };
@@ -153,7 +161,9 @@ class BlockedRecurrence {
   void write(int first, int rows) const {
     const Factors factor = factors(p_);
     for (int s = 0; s <= p_; ++s) {
-      const auto at = [&](int term) { return out_.g[term] + static_cast<std::size_t>(s) * out_.stride[term] + first; };
+      const auto at = [&](int term) {
+        return out_.g[term] + static_cast<std::size_t>(s) * out_.stride[term] + first;
+      };
       for (int r = 0; r < rows; r += lanes) {
         // Exactly zero where supports do not overlap, whatever the splitting gave.
         const Lanes overlap = load(x_ + r + K_) - load(x_ + r + s);
@@ -162,7 +172,8 @@ class BlockedRecurrence {
         put(at(1) + r, difference(t1_, s, p_, r) * factor.g11);
         put(at(2) + r, difference(q_, s, p_, r));
         if (s == 0) {
-          store(at(3) + r, 0.5 * (where_positive(splat(1), raw(r, 0, p_)) - where_positive(splat(1), raw(r, 1, p_))));
+          store(at(3) + r, 0.5 * (where_positive(splat(1), raw(r, 0, p_)) -
+                                  where_positive(splat(1), raw(r, 1, p_))));
         } else {
           const Lanes here = s < p_ ? load(cross_[s] + r) : splat(0);
           const Lanes value = (here - load(cross_[s - 1] + r + 1)) * factor.g10;

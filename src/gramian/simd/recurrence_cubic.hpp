@@ -6,23 +6,27 @@
 
 namespace knead::detail::KNEAD_ISA {
 
-/// The positive recurrence for cubics, written out: `FixedRecurrence<3>` with equal and zero terms eliminated by hand,
-/// ordered so that values are short-lived, and scaled from the start so that G00 needs no factor at the
-/// end.
+/// The positive recurrence for cubics, written out: `FixedRecurrence<3>` with equal and zero terms
+/// eliminated by hand, ordered so that values are short-lived, and scaled from the start so that
+/// G00 needs no factor at the end.
 ///
-/// Sklm below is S[k][l][m](i), times the factor of G00; S4.. and S.4. carry the supports of the functions of order 4.
+/// Sklm below is S[k][l][m](i), times the factor of G00; S4.. and S.4. carry the supports of the
+/// functions of order 4.
 class CubicRecurrence : public RowSweep<3, CubicRecurrence> {
   using Sweep = RowSweep<3, CubicRecurrence>;
   friend Sweep;
 
   static constexpr double factor00 = factors(3).g00, factor11 = factors(3).g11 / factor00,
-                          factor22 = factors(3).g22 / factor00, factor10 = factors(3).g10 / factor00;
+                          factor22 = factors(3).g22 / factor00,
+                          factor10 = factors(3).g10 / factor00;
 
   KNEAD_INLINE Pair paired(Lanes value, int carry) { return {value, next(value, carry_[carry])}; }
 
   template <bool Split>
-  __attribute__((noinline)) void compute(const double* xp, const KernelOutput& out, int row, bool wanted) {
-    const Lanes x0 = load(xp), x1 = load(xp + 1), x2 = load(xp + 2), x3 = load(xp + 3), x4 = load(xp + 4);
+  __attribute__((noinline)) void compute(const double* xp, const KernelOutput& out, int row,
+                                         bool wanted) {
+    const Lanes x0 = load(xp), x1 = load(xp + 1), x2 = load(xp + 2), x3 = load(xp + 3),
+                x4 = load(xp + 4);
     const auto d = [](Lanes upper, Lanes lower, int knots_between) KNEAD_LAMBDA {
       const Lanes distance = upper - lower;
       if constexpr (Split) return distance + splat(knots_between * splitting);
@@ -34,7 +38,8 @@ class CubicRecurrence : public RowSweep<3, CubicRecurrence> {
     const Lanes r2 = d03 * both, r3 = d02 * both;
     const Pair s201 = paired(r2 * factor00, 0);
     const Lanes d01 = d(x1, x0, 1), d12 = d(x3, x1, 2), d11 = d(x2, x1, 1), d21 = d(x3, x2, 1);
-    const Lanes w01 = d01 * r3, w12 = d12 * r3, w21 = d21 * r3, w11 = d11 * r2;  // the weights of orders 3 and 2
+    const Lanes w01 = d01 * r3, w12 = d12 * r3, w21 = d21 * r3,
+                w11 = d11 * r2;  // the weights of orders 3 and 2
 
     const Pair s301 = paired(w01 * s201.here, 1), s302 = paired(w21 * s201.next, 2);
     const Pair s221 = paired(w11 * s201.next, 3);
@@ -65,7 +70,8 @@ class CubicRecurrence : public RowSweep<3, CubicRecurrence> {
 
     // Exactly zero where supports do not overlap, whatever the splitting gave.
     const auto put = [&](int term, int s, Lanes value) KNEAD_LAMBDA {
-      if constexpr (Split) value = s == 0 ? value : where_positive(value, x4 - (s == 1 ? x1 : s == 2 ? x2 : x3));
+      if constexpr (Split)
+        value = s == 0 ? value : where_positive(value, x4 - (s == 1 ? x1 : s == 2 ? x2 : x3));
       store(out.g[term] + static_cast<std::size_t>(s) * out.stride[term] + row, value);
       if (term == 3 && s > 0) store(out.lower10[s - 1] + row, -value);
     };
@@ -86,7 +92,8 @@ class CubicRecurrence : public RowSweep<3, CubicRecurrence> {
     const Lanes scaled = rho * factor22;
     const Lanes diagonal = (t2[0].here + t2[0].next) - t2[1].here;
     const Pair q0 = paired(scaled * rho * (diagonal + diagonal), 19);
-    const Pair q1 = paired(scaled * rho1 * (t2[1].here + (t2[1].next - (t2[0].next + t2[0].next))), 20);
+    const Pair q1 =
+        paired(scaled * rho1 * (t2[1].here + (t2[1].next - (t2[0].next + t2[0].next))), 20);
     const Pair q2 = paired(scaled * rho2 * -t2[1].next, 21);
     if (!wanted) return;
     const Pair q[4] = {q0, q1, q2};
@@ -96,7 +103,8 @@ class CubicRecurrence : public RowSweep<3, CubicRecurrence> {
     put(1, 3, t1[2].next * -factor11);
     unrolled<0, 4>([&](auto s) KNEAD_LAMBDA { put(2, s, difference<s, 3>(q)); });
     Lanes edge = splat(0);  // half the jump of the square of a function
-    if constexpr (Split) edge = 0.5 * (where_positive(splat(1), x3 - x0) - where_positive(splat(1), x4 - x1));
+    if constexpr (Split)
+      edge = 0.5 * (where_positive(splat(1), x3 - x0) - where_positive(splat(1), x4 - x1));
     put(3, 0, edge);
     put(3, 1, (cross[1].here - cross[0].next) * factor10);
     put(3, 2, (cross[2].here - cross[1].next) * factor10);

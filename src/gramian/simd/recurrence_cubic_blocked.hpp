@@ -6,22 +6,26 @@
 
 namespace knead::detail::KNEAD_ISA {
 
-/// The positive recurrence for cubics, written out: `FixedRecurrence<3>` with equal and zero terms eliminated by hand,
-/// and scaled from the start so that G00 needs no factor at the end.
+/// The positive recurrence for cubics, written out: `FixedRecurrence<3>` with equal and zero terms
+/// eliminated by hand, and scaled from the start so that G00 needs no factor at the end.
 ///
-/// The rows are swept downwards in blocks, and a block in three stages and then diagonal by diagonal, each a loop over
-/// its rows: a stage reads row i + 1 only of values that an earlier stage has left in the block's table. So "i + 1" is
-/// a load from the next place, no row waits for the previous one, and a stage needs few registers.
+/// The rows are swept downwards in blocks, and a block in three stages and then diagonal by
+/// diagonal, each a loop over its rows: a stage reads row i + 1 only of values that an earlier
+/// stage has left in the block's table. So "i + 1" is a load from the next place, no row waits for
+/// the previous one, and a stage needs few registers.
 ///
-/// Sklm below is S[k][l][m](i), times the factor of G00; S4.. and S.4. carry the supports of the functions of order 4.
+/// Sklm below is S[k][l][m](i), times the factor of G00; S4.. and S.4. carry the supports of the
+/// functions of order 4.
 class BlockedCubicRecurrence {
   static constexpr int P = 3, K = 4, block = 48, chunk = row_chunk;
 
   static constexpr double factor00 = factors(3).g00, factor11 = factors(3).g11 / factor00,
-                          factor22 = factors(3).g22 / factor00, factor10 = factors(3).g10 / factor00;
+                          factor22 = factors(3).g22 / factor00,
+                          factor10 = factors(3).g10 / factor00;
 
-  /// D1 … D4 are the distances d(i, k), R2 and R3 the reciprocals of two of them, W.. the weights of order 3, Half one
-  /// half of S440, Q. the inner products of the first derivatives of quadratics. D1 … R3 are needed beyond i + 1.
+  /// D1 … D4 are the distances d(i, k), R2 and R3 the reciprocals of two of them, W.. the weights
+  /// of order 3, Half one half of S440, Q. the inner products of the first derivatives of
+  /// quadratics. D1 … R3 are needed beyond i + 1.
   enum Quantity {
     // clang-format off
     D1, D2, D4, R3, D3, R2, W01, S201, S301,                            // of stage 0
@@ -30,12 +34,14 @@ class BlockedCubicRecurrence {
     quantities
     // clang-format on
   };
-  /// For scalars, the quantities of a row are adjacent, as processors combine adjacent stores; vectors need the rows
-  /// adjacent.
+  /// For scalars, the quantities of a row are adjacent, as processors combine adjacent stores;
+  /// vectors need the rows adjacent.
   static constexpr int width = 37;
 
  public:
-  static void run(const KernelKnots& knots, const KernelOutput& out) { BlockedCubicRecurrence(knots, out).sweep(); }
+  static void run(const KernelKnots& knots, const KernelOutput& out) {
+    BlockedCubicRecurrence(knots, out).sweep();
+  }
 
  private:
   BlockedCubicRecurrence(const KernelKnots& knots, const KernelOutput& out)
@@ -75,12 +81,14 @@ class BlockedCubicRecurrence {
 
   template <bool Split>
   __attribute__((noinline)) void compute(int begin, int end) {
-    // Row i is in column i + shift; the row after the block in column `block`, where the previous block left it.
+    // Row i is in column i + shift; the row after the block in column `block`, where the previous
+    // block left it.
     const int shift = block - end, stop = end < rows_ ? end : rows_;
     for (int row = begin; row < end; row += chunk) {
       if (row < stop) fetch<0>(row);
       const double* x = knots_.from(row);
-      for (int i = row; i < chunk_end<Split>(row, end); i += lanes) stage0<Split>(x + (i - row), i + shift);
+      for (int i = row; i < chunk_end<Split>(row, end); i += lanes)
+        stage0<Split>(x + (i - row), i + shift);
     }
     for (int row = begin; row < end; row += chunk) {
       if (row < stop) fetch<1>(row);
@@ -91,14 +99,18 @@ class BlockedCubicRecurrence {
       for (int i = row; i < chunk_end<Split>(row, end); i += lanes) stage2<Split>(i, i + shift);
     }
     unrolled<0, K>([&](auto s) KNEAD_LAMBDA {
-      const auto to = [&](int term)
-                          KNEAD_LAMBDA { return out_.g[term] + static_cast<std::size_t>(s) * out_.stride[term]; };
+      const auto to = [&](int term) KNEAD_LAMBDA {
+        return out_.g[term] + static_cast<std::size_t>(s) * out_.stride[term];
+      };
       double *to00 = to(0), *to11 = to(1), *to22 = to(2), *to10 = to(3),
              *lower10 = s > 0 ? out_.lower10[s > 0 ? s - 1 : 0] : nullptr;
-      each_row(begin, stop, [&](int row) KNEAD_LAMBDA { put<Split, s>(to00, row, entry00<s>(row + shift)); });
       each_row(begin, stop,
-               [&](int row) KNEAD_LAMBDA { put<Split, s>(to11, row, entry11<Split, s>(row, row + shift)); });
-      each_row(begin, stop, [&](int row) KNEAD_LAMBDA { put<Split, s>(to22, row, entry22<s>(row + shift)); });
+               [&](int row) KNEAD_LAMBDA { put<Split, s>(to00, row, entry00<s>(row + shift)); });
+      each_row(begin, stop, [&](int row) KNEAD_LAMBDA {
+        put<Split, s>(to11, row, entry11<Split, s>(row, row + shift));
+      });
+      each_row(begin, stop,
+               [&](int row) KNEAD_LAMBDA { put<Split, s>(to22, row, entry22<s>(row + shift)); });
       each_row(begin, stop, [&](int row) KNEAD_LAMBDA {
         const Lanes value = entry10<Split, s>(row, row + shift);
         put<Split, s>(to10, row, value);
@@ -107,7 +119,8 @@ class BlockedCubicRecurrence {
     });
     for (int q = 0; q < quantities; ++q) {
       const int count = q <= R3 ? K : 1;
-      for (int c = 0; c < count; c += lanes) store(at(q, block + c), load(at(q, begin + shift + c)));
+      for (int c = 0; c < count; c += lanes)
+        store(at(q, block + c), load(at(q, begin + shift + c)));
     }
   }
 
@@ -144,8 +157,9 @@ class BlockedCubicRecurrence {
   [[nodiscard]] KNEAD_INLINE bool empty_span(int row) const {
     const double* x = knots_.from(row);
     bool found = false;
-    unrolled<0, chunk / lanes>(
-        [&](auto c) KNEAD_LAMBDA { found |= any_not_positive(load(x + c * lanes + 1) - load(x + c * lanes)); });
+    unrolled<0, chunk / lanes>([&](auto c) KNEAD_LAMBDA {
+      found |= any_not_positive(load(x + c * lanes + 1) - load(x + c * lanes));
+    });
     return found;
   }
 
@@ -175,9 +189,11 @@ class BlockedCubicRecurrence {
   template <bool Split>
   KNEAD_INLINE void stage1(int row, int c) {
     const Lanes s201_next = ahead<1>(S201, c), s301_next = ahead<1>(S301, c), s301 = get(S301, c);
-    const Lanes d01 = get(D1, c), d02 = get(D2, c), d22 = ahead<2>(D2, c), d13 = ahead<1>(D3, c), d04 = get(D4, c);
+    const Lanes d01 = get(D1, c), d02 = get(D2, c), d22 = ahead<2>(D2, c), d13 = ahead<1>(D3, c),
+                d04 = get(D4, c);
     const Lanes r3 = get(R3, c), w12 = r3 * ahead<1>(D2, c), w21 = r3 * ahead<2>(D1, c);
-    const Lanes w01 = get(W01, c), d11 = ahead<1>(D1, c), w11 = get(R2, c) * d11, inner = w12 * s201_next;
+    const Lanes w01 = get(W01, c), d11 = ahead<1>(D1, c), w11 = get(R2, c) * d11,
+                inner = w12 * s201_next;
     set(W12, c, w12);
     set(W21, c, w21);
     const Lanes s302 = w21 * s201_next, s221 = w11 * s201_next, s231 = w11 * s301_next;
@@ -207,10 +223,12 @@ class BlockedCubicRecurrence {
   template <bool Split>
   KNEAD_INLINE void stage2(int row, int c) {
     const Lanes d01 = get(D1, c), d02 = get(D2, c), d22 = ahead<2>(D2, c), d13 = ahead<1>(D3, c);
-    const Lanes d04 = get(D4, c), d14 = ahead<1>(D4, c), w01 = get(W01, c), w12 = get(W12, c), w21 = get(W21, c);
+    const Lanes d04 = get(D4, c), d14 = ahead<1>(D4, c), w01 = get(W01, c), w12 = get(W12, c),
+                w21 = get(W21, c);
     const Lanes s302 = get(S302, c), s231 = get(S231, c), s311_next = ahead<1>(S311, c);
     const Lanes s221_next = ahead<1>(S221, c), s230_next = s311_next + s221_next;
-    const Lanes s403 = ahead<3>(D1, c) * ahead<1>(S302, c), s322 = w21 * s221_next, s332 = w21 * ahead<1>(S231, c);
+    const Lanes s403 = ahead<3>(D1, c) * ahead<1>(S302, c), s322 = w21 * s221_next,
+                s332 = w21 * ahead<1>(S231, c);
     set(S322, c, s322);
     set(S332, c, s332);
     const Lanes s412 = d22 * s311_next + (d02 * s302 + s403);
@@ -248,10 +266,12 @@ class BlockedCubicRecurrence {
     } else if constexpr (s == 1) {
       const Lanes s423 = ahead<3>(D1, c) * ahead<1>(S322, c);
       const Lanes s432 = ahead<2>(D2, c) * ahead<1>(S331, c) + (get(D2, c) * get(S332, c) + s423);
-      return ahead<1>(D3, c) * ahead<1>(S340, c) + (get(D1, c) * get(S341, c) + ahead<1>(D4, c) * s432);
+      return ahead<1>(D3, c) * ahead<1>(S340, c) +
+             (get(D1, c) * get(S341, c) + ahead<1>(D4, c) * s432);
     } else if constexpr (s == 2) {
       const Lanes s433 = ahead<3>(D1, c) * ahead<1>(S332, c);
-      return ahead<2>(D2, c) * ahead<1>(S341, c) + (get(D2, c) * get(S342, c) + ahead<2>(D4, c) * s433);
+      return ahead<2>(D2, c) * ahead<1>(S341, c) +
+             (get(D2, c) * get(S342, c) + ahead<2>(D4, c) * s433);
     } else {
       return ahead<3>(D1, c) * ahead<1>(S342, c);
     }
@@ -268,9 +288,11 @@ class BlockedCubicRecurrence {
     constexpr Index<0> here;
     constexpr Index<1> next;
     if constexpr (s == 0) {
-      return ((t(S321, here, 0) + t(S321, next, 0)) - t(S331, here, 1)) * (2 * factor11);  // S330 is twice S321
+      return ((t(S321, here, 0) + t(S321, next, 0)) - t(S331, here, 1)) *
+             (2 * factor11);  // S330 is twice S321
     } else if constexpr (s == 1) {
-      return ((t(S331, here, 1) - t(S332, here, 2)) + (t(S331, next, 1) - t(S330, next, 0))) * factor11;
+      return ((t(S331, here, 1) - t(S332, here, 2)) + (t(S331, next, 1) - t(S330, next, 0))) *
+             factor11;
     } else if constexpr (s == 2) {
       return (t(S332, here, 2) + (t(S332, next, 2) - t(S331, next, 1))) * factor11;
     } else {
@@ -302,7 +324,8 @@ class BlockedCubicRecurrence {
     constexpr Index<1> next;
     if constexpr (s == 0) {
       // Half the jump of the square of a function.
-      if constexpr (Split) return 0.5 * (kept(splat(1), row, 3, 0, 0) - kept(splat(1), row, 3, 1, 1));
+      if constexpr (Split)
+        return 0.5 * (kept(splat(1), row, 3, 0, 0) - kept(splat(1), row, 3, 1, 1));
       return splat(0);
     } else if constexpr (s == 1) {
       return (t(S341, here) - t(S340, next)) * factor10;
@@ -313,10 +336,12 @@ class BlockedCubicRecurrence {
     }
   }
 
-  /// The inner product of functions (i + a, order k) and (i + b, order k), zero where one of them has no support.
+  /// The inner product of functions (i + a, order k) and (i + b, order k), zero where one of them
+  /// has no support.
   [[nodiscard]] Lanes kept(Lanes value, int row, int k, int a, int b) const {
     const double* x = knots_.from(row);
-    return where_positive(where_positive(value, load(x + a + k) - load(x + a)), load(x + b + k) - load(x + b));
+    return where_positive(where_positive(value, load(x + a + k) - load(x + a)),
+                          load(x + b + k) - load(x + b));
   }
 
   /// Exactly zero where supports do not overlap, whatever the splitting gave.

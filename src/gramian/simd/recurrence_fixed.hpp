@@ -6,10 +6,12 @@
 
 namespace knead::detail::KNEAD_ISA {
 
-/// The positive recurrence for a degree known at compile time; docs/gramians/recurrence.md derives it.
+/// The positive recurrence for a degree known at compile time; docs/gramians/recurrence.md derives
+/// it.
 ///
-/// S[k][l][s](i) is the scaled inner product of the functions (i, order k) and (i + s, order l), k + l = m at level m.
-/// Rows of order K = p + 1 are stored multiplied by their support d(i, K), which saves the division by it.
+/// S[k][l][s](i) is the scaled inner product of the functions (i, order k) and (i + s, order l), k
+/// + l = m at level m. Rows of order K = p + 1 are stored multiplied by their support d(i, K),
+/// which saves the division by it.
 template <int P>
 class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
   using Sweep = RowSweep<P, FixedRecurrence<P>>;
@@ -19,7 +21,8 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
   friend RowSweep<P, FixedRecurrence<P>>;
 
   template <bool Split>
-  __attribute__((noinline)) void compute(const double* xp, const KernelOutput& out, int row, bool wanted) {
+  __attribute__((noinline)) void compute(const double* xp, const KernelOutput& out, int row,
+                                         bool wanted) {
     Lanes x[K + 1];
     unrolled<0, K + 1>([&](auto b) KNEAD_LAMBDA { x[b] = load(xp + b); });
     const auto knot_distance = [&](Lanes upper, Lanes lower, int knots_between) KNEAD_LAMBDA {
@@ -27,15 +30,19 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
       if constexpr (Split) return distance + splat(knots_between * splitting);
       return distance;
     };
-    const auto d = [&](auto a, auto b) KNEAD_LAMBDA { return knot_distance(x[b], x[a], b - a); };  // d(i + a, b − a)
-    Lanes support[K];                                                                              // d(i + s, K)
-    unrolled<0, K>([&](auto s) KNEAD_LAMBDA { support[s] = knot_distance(load(xp + s + K), x[s], K); });
+    const auto d = [&](auto a, auto b) KNEAD_LAMBDA {
+      return knot_distance(x[b], x[a], b - a);
+    };                 // d(i + a, b − a)
+    Lanes support[K];  // d(i + s, K)
+    unrolled<0, K>([&](auto s)
+                       KNEAD_LAMBDA { support[s] = knot_distance(load(xp + s + K), x[s], K); });
 
     Lanes reciprocal[K];  // 1 / d(i, k), two of them by one division
     unrolled<1, K>([&](auto k) KNEAD_LAMBDA {
       if constexpr (k == 1 && P != 2) {
       } else if constexpr (k > 1 && k % 2 == 0 && k + 1 < K) {
-        const Lanes a = d(Index<0>(), Index<k>()), b = d(Index<0>(), Index<k + 1>()), both = 1.0 / (a * b);
+        const Lanes a = d(Index<0>(), Index<k>()), b = d(Index<0>(), Index<k + 1>()),
+                    both = 1.0 / (a * b);
         reciprocal[k] = b * both;
         reciprocal[k + 1] = a * both;
       } else if constexpr (k == 1 || k % 2 == 0) {
@@ -43,7 +50,8 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
       }
     });
 
-    // The weights 1 − w = d(i, s)/d(i, k) and w = d(i + s, k − s)/d(i, k); for order K without the division.
+    // The weights 1 − w = d(i, s)/d(i, k) and w = d(i + s, k − s)/d(i, k); for order K without the
+    // division.
     Lanes below[K + 1][K], above[K + 1][K];
     unrolled<2, K + 1>([&](auto k) KNEAD_LAMBDA {
       unrolled<1, k>([&](auto s) KNEAD_LAMBDA {
@@ -62,7 +70,9 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
       auto& now = level[m % 2];
       auto& before = level[(m + 1) % 2];
       unrolled<0, K>([&](auto k_) KNEAD_LAMBDA {
-        constexpr int k = K - k_, l = m - k;  // k decreases, so that S[l][k] is known when S[k][l], k < l, is needed
+        constexpr int
+            k = K - k_,
+            l = m - k;  // k decreases, so that S[l][k] is known when S[k][l], k < l, is needed
         if constexpr (l >= 0 && l <= K && !(k == 1 && l == 0)) {
           unrolled<0, k>([&](auto s_) KNEAD_LAMBDA {
             constexpr int s = s_;
@@ -83,7 +93,8 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
               } else if constexpr (s == 0) {
                 v = diagonal<k, l>(before, support[0]);
               } else {
-                constexpr bool inner = s <= k - 2;  // else both (i, order k − 1) and (i + s + 1) end before they meet
+                // Else both (i, order k − 1) and (i + s + 1) end before they meet.
+                constexpr bool inner = s <= k - 2;
                 bool any = false;
                 const auto add = [&](Lanes term) KNEAD_LAMBDA {
                   v = any ? v + term : term;
@@ -123,14 +134,17 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
     };
     constexpr Factors factor = factors(P);
     unrolled<0, K>([&](auto s) KNEAD_LAMBDA {
-      const auto at = [&](int term) KNEAD_LAMBDA { return out.g[term] + s * out.stride[term] + row; };
+      const auto at = [&](int term)
+                          KNEAD_LAMBDA { return out.g[term] + s * out.stride[term] + row; };
       put(at(0), s, full[s] * (s == 0 ? 2 * factor.g00 : factor.g00));
       put(at(1), s, Sweep::template difference<s, P>(t1) * factor.g11);
       put(at(2), s, Sweep::template difference<s, P>(q));
       if constexpr (s == 0) {
-        Lanes edge = splat(0);  // (z_i − z_{i+1}) / 2: where a function jumps, half the jump of its square
+        Lanes edge =
+            splat(0);  // (z_i − z_{i+1}) / 2: where a function jumps, half the jump of its square
         if constexpr (Split) {
-          edge = 0.5 * (where_positive(splat(1), x[P] - x[0]) - where_positive(splat(1), x[K] - x[1]));
+          edge =
+              0.5 * (where_positive(splat(1), x[P] - x[0]) - where_positive(splat(1), x[K] - x[1]));
         }
         store(at(3), edge);
       } else {
@@ -156,7 +170,8 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
     }
   }
 
-  /// Q_s(i) = rho_i rho_{i+s} D(t)_s(i): inner products of the first derivatives of the functions of order p.
+  /// Q_s(i) = rho_i rho_{i+s} D(t)_s(i): inner products of the first derivatives of the functions
+  /// of order p.
   KNEAD_INLINE void weighted_differences(const Pair* t, Lanes rho, Pair* q) {
     Lanes ahead = rho;
     const Lanes scaled = rho * factors(P).g22;
@@ -181,7 +196,9 @@ class FixedRecurrence<1> {
       const Lanes a = load(x + 1) - load(x), b = load(x + 2) - load(x + 1);
       const Lanes slope_a = where_positive(1.0 / a, a), slope_b = where_positive(1.0 / b, b);
       const Lanes half_a = where_positive(splat(0.5), a), half_b = where_positive(splat(0.5), b);
-      const auto at = [&](int term, std::size_t s) { return out.g[term] + s * out.stride[term] + i; };
+      const auto at = [&](int term, std::size_t s) {
+        return out.g[term] + s * out.stride[term] + i;
+      };
       store(at(0, 0), (a + b) / 3.0);
       store(at(0, 1), b / 6.0);
       store(at(1, 0), slope_a + slope_b);

@@ -6,11 +6,13 @@
 
 namespace knead::detail::KNEAD_ISA {
 
-/// Sweeps the rows of the Gramians downwards in groups of `lanes`, all levels of a group in registers.
+/// Sweeps the rows of the Gramians downwards in groups of `lanes`, all levels of a group in
+/// registers.
 ///
-/// The values that a row needs from the next row are the same register shifted by one lane; the incoming lane is row 0
-/// of the previous group, kept in a carry. `Kernel` derives from this and has `compute<Split>(x, out, row, wanted)`:
-/// the group of rows `row`, … from the knots at x, into `out` where wanted, with repeated knots split where `Split`.
+/// The values that a row needs from the next row are the same register shifted by one lane; the
+/// incoming lane is row 0 of the previous group, kept in a carry. `Kernel` derives from this and
+/// has `compute<Split>(x, out, row, wanted)`: the group of rows `row`, … from the knots at x, into
+/// `out` where wanted, with repeated knots split where `Split`.
 template <int P, class Kernel>
 class RowSweep {
  protected:
@@ -50,7 +52,8 @@ class RowSweep {
     return result;
   }
 
-  /// D(t)_s(i) = t_s(i) − t_{s+1}(i) − t_{s−1}(i+1) + t_s(i+1), t_{−1}(i+1) read as t_1(i), t_s zero from s = Count on.
+  /// D(t)_s(i) = t_s(i) − t_{s+1}(i) − t_{s−1}(i+1) + t_s(i+1), t_{−1}(i+1) read as t_1(i), t_s
+  /// zero from s = Count on.
   template <int s, int Count>
   KNEAD_INLINE static Lanes difference(const Pair* t) {
     if constexpr (s == 0) {
@@ -89,8 +92,8 @@ class RowSweep {
   }
 
  private:
-  /// Whether some span used by the group's rows, or by the rows they reach through the carries, has zero length. Groups
-  /// are queried in order; earlier answers are remembered.
+  /// Whether some span used by the group's rows, or by the rows they reach through the carries, has
+  /// zero length. Groups are queried in order; earlier answers are remembered.
   bool near_empty_span(const double* x) {
     constexpr unsigned window = (1u << ((lanes + 2 * K - 2) / lanes + 1)) - 1;
     empty_ = (empty_ << 1) | (any_not_positive(load(x + 1) - load(x)) ? 1u : 0u);

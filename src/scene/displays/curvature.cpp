@@ -14,8 +14,8 @@ std::vector<double> of_each_point(const DisplayInput& input, Take take) {
   const Evaluation<2>& s = input.evaluation;
   std::vector<double> result;
   for (Eigen::Index k = 0; k < s.points().rows(); ++k) {
-    const FundamentalForms forms(s.at({1, 0}).row(k), s.at({0, 1}).row(k), s.at({2, 0}).row(k), s.at({1, 1}).row(k),
-                                 s.at({0, 2}).row(k), input.normals.row(k));
+    const FundamentalForms forms(s.at({1, 0}).row(k), s.at({0, 1}).row(k), s.at({2, 0}).row(k),
+                                 s.at({1, 1}).row(k), s.at({0, 2}).row(k), input.normals.row(k));
     result.push_back(forms.regular() ? take(forms) : 0.0);
   }
   return result;
@@ -60,13 +60,14 @@ Display gaussian_curvature_display() {
 }
 
 Display largest_curvature_display() {
-  return {.name = "largest",
-          .title = "Largest curvature",
-          .unit = "1/length",
-          .palette = DisplayPalette::rising,
-          .help = "Magnitude of the stronger principal curvature; its inverse is the smallest radius.",
-          .order = 2,
-          .values = largest};
+  return {
+      .name = "largest",
+      .title = "Largest curvature",
+      .unit = "1/length",
+      .palette = DisplayPalette::rising,
+      .help = "Magnitude of the stronger principal curvature; its inverse is the smallest radius.",
+      .order = 2,
+      .values = largest};
 }
 
 }  // namespace knead

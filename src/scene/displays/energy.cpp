@@ -19,7 +19,9 @@ Expected<DomainScaling<2>> scaling_of(const DisplayInput& input) {
 
 /// `energy_density`; 0 for the shape as opened, which is at rest, and for a surface without area.
 Expected<std::vector<double>> energy_densities(const DisplayInput& input) {
-  const auto none = [&] { return std::vector<double>(static_cast<std::size_t>(input.normals.rows()), 0.0); };
+  const auto none = [&] {
+    return std::vector<double>(static_cast<std::size_t>(input.normals.rows()), 0.0);
+  };
   if (input.opened) return none();
   const auto scaling = scaling_of(input);
   if (!scaling) return none();
@@ -30,13 +32,14 @@ Expected<std::vector<double>> energy_densities(const DisplayInput& input) {
 }  // namespace
 
 Display energy_display() {
-  return {.name = "energy",
-          .title = "Energy density",
-          .unit = "normalised",
-          .palette = DisplayPalette::rising,
-          .help = "Where stretch and bend store the energy of the displacement from the rest shape.",
-          .percentiles = {0, 1},
-          .values = energy_densities};
+  return {
+      .name = "energy",
+      .title = "Energy density",
+      .unit = "normalised",
+      .palette = DisplayPalette::rising,
+      .help = "Where stretch and bend store the energy of the displacement from the rest shape.",
+      .percentiles = {0, 1},
+      .values = energy_densities};
 }
 
 }  // namespace knead

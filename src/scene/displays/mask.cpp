@@ -13,7 +13,8 @@ Expected<std::vector<double>> mask_values(const DisplayInput& input) {
   const auto field = mask_field(s);
   if (!field) return std::unexpected(field.error());
   const auto& [us, vs] = input.parameters;
-  const auto values = evaluate_grid<2>(*field, {std::span<const double>(us), std::span<const double>(vs)}, 0);
+  const auto values =
+      evaluate_grid<2>(*field, {std::span<const double>(us), std::span<const double>(vs)}, 0);
   if (!values) return std::unexpected(values.error());
   const Points& m = values->points();
   std::vector<double> result(count);

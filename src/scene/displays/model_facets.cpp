@@ -18,18 +18,21 @@ struct Triangles {
   void add(const FaceMesh& face) {
     const auto first = static_cast<std::uint32_t>(points.size());
     points.insert(points.end(), face.points.begin(), face.points.end());
-    for (const auto& [a, b, c] : face.triangles) triangles.push_back({first + a, first + b, first + c});
+    for (const auto& [a, b, c] : face.triangles)
+      triangles.push_back({first + a, first + b, first + c});
   }
 };
 
 /// Whether a triangle has an area but for rounding; at poles some have none.
 bool has_area(const Point& a, const Point& b, const Point& c) {
   constexpr double flat = 1e-10;  // of the longest side: the height on it
-  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  const double longest =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   return (b - a).cross(c - a).norm() > flat * longest;
 }
 
-/// Whether a region contains a point or one beside it, so that faces which meet leave no gap between them.
+/// Whether a region contains a point or one beside it, so that faces which meet leave no gap
+/// between them.
 bool shows(const VisibleRegion& region, const Eigen::Vector2d& at) {
   constexpr double beside = 1e-6;  // of the domain
   if (region.contains(at)) return true;
@@ -41,7 +44,8 @@ bool shows(const VisibleRegion& region, const Eigen::Vector2d& at) {
   return false;
 }
 
-/// Of the box round the surfaces as opened and the faces around them, so that it stays while they are sculpted.
+/// Of the box round the surfaces as opened and the faces around them, so that it stays while they
+/// are sculpted.
 double diagonal_of(const Scene& scene, const Surroundings* around) {
   Eigen::AlignedBox3d box;
   for (const SceneSurface& s : scene.surfaces) {
@@ -58,11 +62,12 @@ double diagonal_of(const Scene& scene, const Surroundings* around) {
 
 }  // namespace
 
-Expected<ModelFacets::Part> ModelFacets::part_of(std::shared_ptr<const Surface> surface, Surroundings::Shown shown,
-                                                 double tolerance) {
+Expected<ModelFacets::Part> ModelFacets::part_of(std::shared_ptr<const Surface> surface,
+                                                 Surroundings::Shown shown, double tolerance) {
   ChordOptions options;
   options.detail = 1;
-  options.tolerance = tolerance > 0 ? tolerance / 3 : 1;  // both directions, and the twist between them
+  options.tolerance =
+      tolerance > 0 ? tolerance / 3 : 1;  // both directions, and the twist between them
   const auto lines = grid_lines(*surface, options);
   if (!lines) return std::unexpected(lines.error());
   const auto &us = (*lines)[0].parameters, &vs = (*lines)[1].parameters;
@@ -85,12 +90,14 @@ Expected<ModelFacets::Part> ModelFacets::part_of(std::shared_ptr<const Surface> 
       triangles.push_back({k, k + columns + 1, k + 1});
     }
   }
-  std::erase_if(triangles, [&](const auto& t) { return !has_area(points[t[0]], points[t[1]], points[t[2]]); });
+  std::erase_if(triangles,
+                [&](const auto& t) { return !has_area(points[t[0]], points[t[1]], points[t[2]]); });
   part.tree = TriangleTree(std::move(points), std::move(triangles));
   return part;
 }
 
-Expected<void> ModelFacets::refresh(const Scene& scene, bool opened, std::shared_ptr<const Surroundings> around) {
+Expected<void> ModelFacets::refresh(const Scene& scene, bool opened,
+                                    std::shared_ptr<const Surroundings> around) {
   const double diagonal = diagonal_of(scene, around.get());
   const std::size_t count = scene.surfaces.size();
   bool changed = parts_.size() != count || around != around_;
@@ -101,11 +108,13 @@ Expected<void> ModelFacets::refresh(const Scene& scene, bool opened, std::shared
     const auto& drawn = opened ? s.opened : s.current;
     Surroundings::Shown shown;
     if (around) {
-      if (const auto found = around->shown.find(s.id); found != around->shown.end()) shown = found->second;
+      if (const auto found = around->shown.find(s.id); found != around->shown.end())
+        shown = found->second;
     }
     const std::size_t part = around ? around->part_of(s.id) : 0;
-    if (parts_[k].of == drawn && parts_[k].part == part && parts_[k].shown.visible == shown.visible &&
-        parts_[k].shown.sense == shown.sense && diagonal == diagonal_) {
+    if (parts_[k].of == drawn && parts_[k].part == part &&
+        parts_[k].shown.visible == shown.visible && parts_[k].shown.sense == shown.sense &&
+        diagonal == diagonal_) {
       continue;
     }
     auto made = part_of(drawn, shown, chord * diagonal);
@@ -134,7 +143,8 @@ void ModelFacets::see(const Surroundings* around) {
   }
   others_.clear();
   for (auto& [part, found] : by_part) {
-    others_.push_back({{}, {{}, 1}, {std::move(found.points), std::move(found.triangles)}, {}, part});
+    others_.push_back(
+        {{}, {{}, 1}, {std::move(found.points), std::move(found.triangles)}, {}, part});
   }
 }
 
@@ -142,7 +152,8 @@ double ModelFacets::outward(int surface) const {
   return parts_[static_cast<std::size_t>(surface)].shown.sense < 0 ? -1 : 1;
 }
 
-std::optional<double> ModelFacets::thickness(int surface, const Point& from, const Point& inward) const {
+std::optional<double> ModelFacets::thickness(int surface, const Point& from,
+                                             const Point& inward) const {
   const Ray ray{from, inward};
   const double near = 2 * chord * diagonal_;
   double to = std::numeric_limits<double>::infinity();

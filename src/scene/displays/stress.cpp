@@ -7,7 +7,8 @@
 namespace knead {
 namespace {
 
-/// One of the results of a shell; not a number on surfaces that are no shells, 0 of the shape as opened.
+/// One of the results of a shell; not a number on surfaces that are no shells, 0 of the shape as
+/// opened.
 template <class Take>
 Expected<std::vector<double>> of_shell(const DisplayInput& input, Take take) {
   const SceneSurface& s = input.scene.surfaces[static_cast<std::size_t>(input.surface)];
@@ -30,7 +31,8 @@ Expected<std::vector<double>> of_shell(const DisplayInput& input, Take take) {
 }
 
 Expected<std::vector<double>> larger(const DisplayInput& input) {
-  return of_shell(input, [](const ShellPointResults& r) { return std::max(r.von_mises[0], r.von_mises[1]); });
+  return of_shell(
+      input, [](const ShellPointResults& r) { return std::max(r.von_mises[0], r.von_mises[1]); });
 }
 
 Expected<std::vector<double>> outer(const DisplayInput& input) {
@@ -60,7 +62,8 @@ Display stress(std::string_view name, std::string_view title, std::string_view h
 
 Display von_mises_display() {
   return stress("von_mises", "Von Mises stress",
-                "Of shells: the larger stress of the two faces, in units of Young's modulus.", larger);
+                "Of shells: the larger stress of the two faces, in units of Young's modulus.",
+                larger);
 }
 
 Display von_mises_outer_display() {
@@ -74,8 +77,9 @@ Display von_mises_inner_display() {
 }
 
 Display bending_strain_display() {
-  Display display = stress("bending_strain", "Bending strain",
-                           "Of shells: half the thickness times the largest change of curvature.", bending);
+  Display display =
+      stress("bending_strain", "Bending strain",
+             "Of shells: half the thickness times the largest change of curvature.", bending);
   display.unit = "%";
   return display;
 }

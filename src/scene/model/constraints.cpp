@@ -14,8 +14,8 @@
 namespace knead {
 namespace {
 
-/// What is left of the conditions at smooth knot lines whose ratio varies, beside held edges of faces: where these take
-/// most of the freedom, the exact conditions leave none.
+/// What is left of the conditions at smooth knot lines whose ratio varies, beside held edges of
+/// faces: where these take most of the freedom, the exact conditions leave none.
 constexpr double smooth_beside_edges = 1e-3;
 
 constexpr double pole_tolerance = 1e-9;  // of the surface's size
@@ -23,9 +23,10 @@ constexpr double pole_flatness = 1e-6;
 constexpr double symmetry_tolerance = 1e-6;  // of the surface's size
 constexpr double symmetry_angle = 1e-3;
 
-/// Appends the conditions of `from` for these coordinates only. One on a single control point leaves its coordinate its
-/// bits, as a held flag does.
-void append_components(const ConstraintList& from, const Components& components, ConstraintList& to) {
+/// Appends the conditions of `from` for these coordinates only. One on a single control point
+/// leaves its coordinate its bits, as a held flag does.
+void append_components(const ConstraintList& from, const Components& components,
+                       ConstraintList& to) {
   const auto append = [&](LinearConstraint condition) {
     for (std::size_t c = 0; c < 3; ++c) {
       if (!components[c]) continue;
@@ -49,13 +50,16 @@ struct Asked {
 
   Expected<void> operator()(const EdgeHold& c) const {
     return holding([&] {
-      return by_components(c.components, [&](ConstraintList& to) { return hold_edge(rest, c.edge, c.order, to); });
+      return by_components(
+          c.components, [&](ConstraintList& to) { return hold_edge(rest, c.edge, c.order, to); });
     });
   }
 
   Expected<void> operator()(const SideHold& c) const {
     return holding([&] {
-      return by_components(c.components, [&](ConstraintList& to) { return hold_side<D>(rest, c.side, c.order, to); });
+      return by_components(c.components, [&](ConstraintList& to) {
+        return hold_side<D>(rest, c.side, c.order, to);
+      });
     });
   }
 
@@ -93,7 +97,8 @@ struct Asked {
         at[static_cast<std::size_t>(direction)] = *line;
         const auto u = parameters_at(rest, at, direction == 0 ? "u" : "v");
         if (!u) return std::unexpected(u.error());
-        auto done = hold_isoline(rest, direction, (*u)[static_cast<std::size_t>(direction)], 0, list);
+        auto done =
+            hold_isoline(rest, direction, (*u)[static_cast<std::size_t>(direction)], 0, list);
         if (!done) return done;
       }
       if (c.curve.empty()) return {};
@@ -109,8 +114,12 @@ struct Asked {
     });
   }
 
-  Expected<void> operator()(const EdgeSymmetry& c) const { return symmetry_constraints(reference, c, list); }
-  Expected<void> operator()(const MirrorSymmetry& c) const { return symmetry_constraints(reference, c, list); }
+  Expected<void> operator()(const EdgeSymmetry& c) const {
+    return symmetry_constraints(reference, c, list);
+  }
+  Expected<void> operator()(const MirrorSymmetry& c) const {
+    return symmetry_constraints(reference, c, list);
+  }
   // Edges of faces are held all at once, by `hold_face_edges`.
   Expected<void> operator()(const TrimHolds&) const { return {}; }
   Expected<void> operator()(const TrimEdgeHold&) const { return {}; }
@@ -138,8 +147,8 @@ struct Asked {
 
 /// Layers and control points held by their indices.
 template <std::size_t D>
-void hold_numbered(const std::array<int, D>& net, int rows, const std::set<std::array<int, D>>& pins,
-                   ConstraintList& list) {
+void hold_numbered(const std::array<int, D>& net, int rows,
+                   const std::set<std::array<int, D>>& pins, ConstraintList& list) {
   const int size = std::accumulate(net.begin(), net.end(), 1, std::multiplies());
   for (int k = 0; k < size && rows > 0; ++k) {
     int rest = k;
@@ -152,7 +161,8 @@ void hold_numbered(const std::array<int, D>& net, int rows, const std::set<std::
   for (const std::array<int, D>& pin : pins) {
     int number = 0;
     for (std::size_t d = 0; d < D; ++d) number = number * net[d] + pin[d];
-    list.hold(number, D == 2 ? fmt::format("pin ({})", fmt::join(pin, ", ")) : fmt::format("pin {}", number));
+    list.hold(number, D == 2 ? fmt::format("pin ({})", fmt::join(pin, ", "))
+                             : fmt::format("pin {}", number));
   }
 }
 
@@ -164,17 +174,19 @@ void hold_masked(const std::vector<bool>& masked, ConstraintList& list) {
 
 }  // namespace
 
-Expected<void> symmetry_constraints(const Surface& reference, const EdgeSymmetry& symmetry, ConstraintList& list) {
+Expected<void> symmetry_constraints(const Surface& reference, const EdgeSymmetry& symmetry,
+                                    ConstraintList& list) {
   const double size = bounding_box(reference).diagonal();
   for (SurfaceEdge edge : edges_of(symmetry.which)) {
-    auto done =
-        hold_symmetry_plane(reference, edge, symmetry.plane, 1, symmetry_tolerance * size, symmetry_angle, list);
+    auto done = hold_symmetry_plane(reference, edge, symmetry.plane, 1, symmetry_tolerance * size,
+                                    symmetry_angle, list);
     if (!done) return done;
   }
   return {};
 }
 
-Expected<void> symmetry_constraints(const Surface& reference, const MirrorSymmetry& symmetry, ConstraintList& list) {
+Expected<void> symmetry_constraints(const Surface& reference, const MirrorSymmetry& symmetry,
+                                    ConstraintList& list) {
   const auto plane = plane_of(symmetry, reference);
   if (!plane) return std::unexpected(plane.error());
   const auto report = keep_mirror(reference, symmetry.direction, *plane, 1e-9, list);
@@ -185,7 +197,8 @@ Expected<void> symmetry_constraints(const Surface& reference, const MirrorSymmet
 namespace {
 
 /// No hinges: smooth knot lines and poles of surfaces, and smooth knots of curves, stay smooth.
-Expected<void> keep_smooth_places(const ShapeInput<2>& s, ConstraintList& list, std::vector<std::string>& notes) {
+Expected<void> keep_smooth_places(const ShapeInput<2>& s, ConstraintList& list,
+                                  std::vector<std::string>& notes) {
   if (s.smooth_knot_lines) {
     SmoothOptions options;
     if (s.visible) options.tolerance = smooth_beside_edges;
@@ -193,8 +206,8 @@ Expected<void> keep_smooth_places(const ShapeInput<2>& s, ConstraintList& list, 
     if (!lines) return std::unexpected(lines.error());
     for (const SmoothLine& line : *lines) {
       if (line.state == SmoothLine::State::crease) {
-        notes.push_back(
-            fmt::format("{}: the crease at {} = {:.6g} may bend", s.id, line.direction == 0 ? "u" : "v", line.knot));
+        notes.push_back(fmt::format("{}: the crease at {} = {:.6g} may bend", s.id,
+                                    line.direction == 0 ? "u" : "v", line.knot));
       }
     }
   }
@@ -204,7 +217,8 @@ Expected<void> keep_smooth_places(const ShapeInput<2>& s, ConstraintList& list, 
   return poles ? Expected<void>() : std::unexpected(poles.error());
 }
 
-Expected<void> keep_smooth_places(const ShapeInput<1>& s, ConstraintList& list, std::vector<std::string>& notes) {
+Expected<void> keep_smooth_places(const ShapeInput<1>& s, ConstraintList& list,
+                                  std::vector<std::string>& notes) {
   const auto knots = keep_smooth_knots(*s.reference, {}, list);
   if (!knots) return std::unexpected(knots.error());
   for (const SmoothKnot& knot : *knots) {
@@ -215,7 +229,10 @@ Expected<void> keep_smooth_places(const ShapeInput<1>& s, ConstraintList& list, 
   return {};
 }
 
-Expected<void> keep_smooth_places(const ShapeInput<3>&, ConstraintList&, std::vector<std::string>&) { return {}; }
+Expected<void> keep_smooth_places(const ShapeInput<3>&, ConstraintList&,
+                                  std::vector<std::string>&) {
+  return {};
+}
 
 }  // namespace
 
@@ -236,17 +253,26 @@ Expected<ConstraintList> constraints_of(const ShapeInput<D>& s, std::vector<std:
       return std::unexpected(done.error());
     }
   }
-  if (s.mode == RestMode::none) return list;  // the energy acts on the shape itself: no rest shape to stay smooth to
-  if (auto smooth = keep_smooth_places(s, list, notes); !smooth) return std::unexpected(smooth.error());
+  if (s.mode == RestMode::none)
+    return list;  // the energy acts on the shape itself: no rest shape to stay smooth to
+  if (auto smooth = keep_smooth_places(s, list, notes); !smooth)
+    return std::unexpected(smooth.error());
   return list;
 }
 
-template Expected<ConstraintList> constraints_of<1>(const ShapeInput<1>&, std::vector<std::string>&);
-template Expected<ConstraintList> constraints_of<2>(const ShapeInput<2>&, std::vector<std::string>&);
-template Expected<ConstraintList> constraints_of<3>(const ShapeInput<3>&, std::vector<std::string>&);
+template Expected<ConstraintList> constraints_of<1>(const ShapeInput<1>&,
+                                                    std::vector<std::string>&);
+template Expected<ConstraintList> constraints_of<2>(const ShapeInput<2>&,
+                                                    std::vector<std::string>&);
+template Expected<ConstraintList> constraints_of<3>(const ShapeInput<3>&,
+                                                    std::vector<std::string>&);
 
 HeldInput held_input(const SceneSurface& s) {
-  return {s.current->net(), s.hold_rows, s.pins, s.constraints, holds_trims(s.constraints) ? s.visible : nullptr,
+  return {s.current->net(),
+          s.hold_rows,
+          s.pins,
+          s.constraints,
+          holds_trims(s.constraints) ? s.visible : nullptr,
           masked_points(s)};
 }
 
@@ -255,11 +281,13 @@ Expected<std::vector<std::uint8_t>> held_points(const HeldInput& input) {
   hold_numbered(input.net, input.hold_rows, input.pins, list);
   hold_masked(input.masked, list);
   if (input.visible) {
-    const auto held = hold_face_edges(*input.constraints.front().where, input.constraints, *input.visible, list);
+    const auto held =
+        hold_face_edges(*input.constraints.front().where, input.constraints, *input.visible, list);
     if (!held) return std::unexpected(held.error());
   }
   for (const auto& [constraint, where] : input.constraints) {
-    if (std::holds_alternative<EdgeSymmetry>(constraint) || std::holds_alternative<MirrorSymmetry>(constraint)) {
+    if (std::holds_alternative<EdgeSymmetry>(constraint) ||
+        std::holds_alternative<MirrorSymmetry>(constraint)) {
       continue;
     }
     // Which control points are held depends only on the basis, which all shapes share.

@@ -4,8 +4,10 @@
 
 namespace knead {
 
-/// All constraints on one shape; terms are numbered by its own control points. Notes what may bend or tear.
+/// All constraints on one shape; terms are numbered by its own control points. Notes what may bend
+/// or tear.
 template <int D>
-[[nodiscard]] Expected<ConstraintList> constraints_of(const ShapeInput<D>& shape, std::vector<std::string>& notes);
+[[nodiscard]] Expected<ConstraintList> constraints_of(const ShapeInput<D>& shape,
+                                                      std::vector<std::string>& notes);
 
 }  // namespace knead

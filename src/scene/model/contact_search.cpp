@@ -9,12 +9,13 @@
 namespace knead {
 namespace {
 
-constexpr double beside = 2;            // cells: parts of a face that are nearer to each other touch anyway
+constexpr double beside = 2;  // cells: parts of a face that are nearer to each other touch anyway
 constexpr std::size_t most_seen = 400;  // candidates, of which many may lie on what is trimmed away
 constexpr int most_tried = 48, most_solved = 12, most_of_a_pair = 4;
 constexpr std::size_t most_places = 6;  // whose neighbourhoods are searched
 
-Eigen::AlignedBox3d box_round(const std::vector<Point>& from, const std::vector<Point>& to, double wider) {
+Eigen::AlignedBox3d box_round(const std::vector<Point>& from, const std::vector<Point>& to,
+                              double wider) {
   Eigen::AlignedBox3d box;
   for (const auto* points : {&from, &to}) {
     for (const Point& p : *points) box.extend(p);
@@ -60,7 +61,8 @@ std::optional<FaceContact> ContactSearch::first() {
   return earliest(solved());
 }
 
-/// The candidates that come to a face indeed, or may between the corners, by the time at which they do.
+/// The candidates that come to a face indeed, or may between the corners, by the time at which they
+/// do.
 std::vector<ContactSearch::Candidate> ContactSearch::solved() const {
   std::array<int, 2> tried = {0, 0}, some = {0, 0};
   std::vector<Candidate> result;
@@ -80,7 +82,8 @@ std::vector<ContactSearch::Candidate> ContactSearch::solved() const {
   return result;
 }
 
-/// The first contact near some of them. A dent may have several deepest places: each is looked for once.
+/// The first contact near some of them. A dent may have several deepest places: each is looked for
+/// once.
 std::optional<FaceContact> ContactSearch::earliest(std::span<const Candidate> solved) const {
   std::optional<FaceContact> first;
   std::vector<const Candidate*> looked_for;
@@ -112,23 +115,27 @@ void ContactSearch::look(std::size_t surface) {
     if (other != nullptr && other->box().intersects(all)) met.emplace_back(k, other);
   }
   const auto around = walls_.parts_.find(own.part);
-  const bool some_around = around != walls_.parts_.end() && around->second.tree.box().intersects(all);
+  const bool some_around =
+      around != walls_.parts_.end() && around->second.tree.box().intersects(all);
   if (grid->may_meet_itself()) met.emplace_back(surface, grid);
   if (met.empty() && !some_around) return;
   const std::vector<char>& shown = walls_.shown_spans(own);
   for (std::size_t span = 0; span < grid->boxes().size(); ++span) {
     if (!grid->moves(span) || (!shown.empty() && shown[span] == 0)) continue;
-    const Eigen::AlignedBox3d box(grid->boxes()[span].min() - wider, grid->boxes()[span].max() + wider);
+    const Eigen::AlignedBox3d box(grid->boxes()[span].min() - wider,
+                                  grid->boxes()[span].max() + wider);
     if (some_around) look_around(surface, *grid, span, box);
     for (const auto& [k, other] : met) look_at(surface, *grid, span, box, k, *other);
   }
 }
 
-/// Whether the net of a span lies on one side of a triangle that stays, all along its way, and comes no nearer; or
-/// stays farther from its plane than the tolerance.
-bool ContactSearch::separated(const SpanGrid& grid, std::size_t span, const Patch& wall, std::uint32_t triangle) const {
+/// Whether the net of a span lies on one side of a triangle that stays, all along its way, and
+/// comes no nearer; or stays farther from its plane than the tolerance.
+bool ContactSearch::separated(const SpanGrid& grid, std::size_t span, const Patch& wall,
+                              std::uint32_t triangle) const {
   const auto& corners = wall.triangles[triangle];
-  const Point &a = wall.from[corners[0]], normal = (wall.from[corners[1]] - a).cross(wall.from[corners[2]] - a);
+  const Point &a = wall.from[corners[0]],
+              normal = (wall.from[corners[1]] - a).cross(wall.from[corners[2]] - a);
   const double area = normal.norm(), tolerance = tolerance_ * area;
   double lowest = HUGE_VAL, highest = -HUGE_VAL, falls = 0, rises = 0;
   grid.net_of(span, [&](const auto& from, const auto& to) {
@@ -139,10 +146,12 @@ bool ContactSearch::separated(const SpanGrid& grid, std::size_t span, const Patc
     rises = std::max(rises, after - before);
   });
   if (lowest > tolerance || highest < -tolerance) return true;
-  return (lowest >= -tolerance && falls <= tolerance) || (highest <= tolerance && rises <= tolerance);
+  return (lowest >= -tolerance && falls <= tolerance) ||
+         (highest <= tolerance && rises <= tolerance);
 }
 
-void ContactSearch::look_around(std::size_t surface, SpanGrid& grid, std::size_t span, const Eigen::AlignedBox3d& box) {
+void ContactSearch::look_around(std::size_t surface, SpanGrid& grid, std::size_t span,
+                                const Eigen::AlignedBox3d& box) {
   const ModelWalls::Around& part = walls_.parts_.at(motions_[surface].part);
   std::vector<std::uint32_t> triangles;
   double sag = 0;
@@ -158,19 +167,21 @@ void ContactSearch::look_around(std::size_t surface, SpanGrid& grid, std::size_t
   compare(grid.patch(span), part.patch, triangles, like);
 }
 
-void ContactSearch::look_at(std::size_t surface, SpanGrid& grid, std::size_t span, const Eigen::AlignedBox3d& box,
-                            std::size_t wall, SpanGrid& met) {
+void ContactSearch::look_at(std::size_t surface, SpanGrid& grid, std::size_t span,
+                            const Eigen::AlignedBox3d& box, std::size_t wall, SpanGrid& met) {
   std::vector<std::uint32_t> triangles;
   met.tree().meeting(box, [&](std::uint32_t other) {
     const Patch& patch = met.patch(other);
     triangles.clear();
     for (std::uint32_t k = 0; k < patch.triangles.size(); ++k) {
       Eigen::AlignedBox3d around;
-      for (const auto corner : patch.triangles[k]) around.extend(patch.from[corner]).extend(patch.to[corner]);
+      for (const auto corner : patch.triangles[k])
+        around.extend(patch.from[corner]).extend(patch.to[corner]);
       const Point wider = Point::Constant(patch.sag);
       around.extend(around.min() - wider).extend(around.max() + wider);
       if (!around.intersects(box)) continue;
-      if (!met.motion().moves() && patch.sag <= tolerance_ && separated(grid, span, patch, k)) continue;
+      if (!met.motion().moves() && patch.sag <= tolerance_ && separated(grid, span, patch, k))
+        continue;
       triangles.push_back(k);
     }
     if (triangles.empty()) return;
@@ -183,19 +194,21 @@ void ContactSearch::look_at(std::size_t surface, SpanGrid& grid, std::size_t spa
 }
 
 /// The corners of each of two patches with the triangles of the other, of the wall only these.
-void ContactSearch::compare(const Patch& own, const Patch& wall, std::span<const std::uint32_t> triangles,
-                            Candidate like) {
+void ContactSearch::compare(const Patch& own, const Patch& wall,
+                            std::span<const std::uint32_t> triangles, Candidate like) {
   like.margin += own.sag;
   const double exact = like.met ? 0 : like.margin - own.sag;
   // Beside a point its own face has no side that triangles could tell.
   const bool own_face = like.met == like.surface;
   const double nearest = tolerance_ + (own_face ? like.margin : exact), along = like.margin;
-  const Reach reach{nearest, along, tolerance_ + like.margin - own.sag}, back{nearest, along, tolerance_ + own.sag};
+  const Reach reach{nearest, along, tolerance_ + like.margin - own.sag},
+      back{nearest, along, tolerance_ + own.sag};
   const SpanGrid* const self = own_face ? walls_.grid_of(motions_[like.surface]) : nullptr;
   const auto keep = [&](const PlaneMeeting& found) {
     like.time = found.time - tolerance_ / found.closing;
     like.sure = found.time * found.closing > tolerance_ + like.margin;
-    if (self == nullptr || self->cells_between(like.at, like.there) > beside) candidates_.push_back(like);
+    if (self == nullptr || self->cells_between(like.at, like.there) > beside)
+      candidates_.push_back(like);
   };
   const auto first = static_cast<std::ptrdiff_t>(candidates_.size());
   // The other side of a face looks the other way.
@@ -218,10 +231,12 @@ void ContactSearch::compare(const Patch& own, const Patch& wall, std::span<const
       keep(*found);
     }
     for (const auto corner : corners) {
-      if (!whole.intersects(Eigen::AlignedBox3d(wall.from[corner]).extend(wall.to[corner]))) continue;
+      if (!whole.intersects(Eigen::AlignedBox3d(wall.from[corner]).extend(wall.to[corner])))
+        continue;
       for (const auto& triangle : own.triangles) {
         if (own_face && !faces_away(own, triangle, facing[corner])) continue;
-        const auto found = meeting(wall.from[corner], wall.to[corner], own, triangle, tolerance_, back);
+        const auto found =
+            meeting(wall.from[corner], wall.to[corner], own, triangle, tolerance_, back);
         if (!found) continue;
         like.at = place_in(own, triangle, found->weights);
         if (like.met) like.there = wall.at[corner];
@@ -230,8 +245,8 @@ void ContactSearch::compare(const Patch& own, const Patch& wall, std::span<const
     }
   }
   if (candidates_.size() <= static_cast<std::size_t>(first) + most_of_a_pair) return;
-  std::partial_sort(candidates_.begin() + first, candidates_.begin() + first + most_of_a_pair, candidates_.end(),
-                    before);
+  std::partial_sort(candidates_.begin() + first, candidates_.begin() + first + most_of_a_pair,
+                    candidates_.end(), before);
   candidates_.resize(static_cast<std::size_t>(first) + most_of_a_pair);
 }
 
@@ -240,19 +255,20 @@ bool ContactSearch::counts(const Candidate& c, const std::array<double, 2>& at) 
   const WallMotion& own = motions_[c.surface];
   if (!is_visible(own, at)) return false;
   const Point home = point_of(*own.opened, at);
-  return (point_of(*own.motion.to, at) - home).norm() > (point_of(*own.motion.from, at) - home).norm();
+  return (point_of(*own.motion.to, at) - home).norm() >
+         (point_of(*own.motion.from, at) - home).norm();
 }
 
-std::optional<ContactSearch::Passage> ContactSearch::passage(const Candidate& c, const std::array<double, 2>& at,
-                                                             const std::array<double, 2>& there) const {
+std::optional<ContactSearch::Passage> ContactSearch::passage(
+    const Candidate& c, const std::array<double, 2>& at, const std::array<double, 2>& there) const {
   const Motion& motion = motions_[c.surface].motion;
   const std::array<Point, 2> way = {point_of(*motion.from, at), point_of(*motion.to, at)};
   return c.met ? passage_of(c, at, way, there) : passage_around(c, way);
 }
 
 /// The first of the triangles around that the way of a point leads to.
-std::optional<ContactSearch::Passage> ContactSearch::passage_around(const Candidate& c,
-                                                                    const std::array<Point, 2>& way) const {
+std::optional<ContactSearch::Passage> ContactSearch::passage_around(
+    const Candidate& c, const std::array<Point, 2>& way) const {
   const ModelWalls::Around& part = walls_.parts_.at(motions_[c.surface].part);
   Eigen::AlignedBox3d box;
   box.extend(way[0]).extend(way[1]);
@@ -261,7 +277,8 @@ std::optional<ContactSearch::Passage> ContactSearch::passage_around(const Candid
   std::optional<Passage> first;
   part.tree.meeting(box, [&](std::uint32_t k) {
     const Reach reach{tolerance_ + part.sags[k], c.margin, tolerance_};
-    const auto found = meeting(way[0], way[1], part.patch, part.patch.triangles[k], tolerance_, reach);
+    const auto found =
+        meeting(way[0], way[1], part.patch, part.patch.triangles[k], tolerance_, reach);
     if (!found || (first && found->time >= first->time)) return;
     first = Passage{found->time, found->closing, {}, part.faces[k]};
   });
@@ -269,14 +286,16 @@ std::optional<ContactSearch::Passage> ContactSearch::passage_around(const Candid
 }
 
 /// Newton's method for W(u', v', t) = S(t), from where triangles met.
-std::optional<ContactSearch::Passage> ContactSearch::passage_of(const Candidate& c, const std::array<double, 2>& at,
+std::optional<ContactSearch::Passage> ContactSearch::passage_of(const Candidate& c,
+                                                                const std::array<double, 2>& at,
                                                                 const std::array<Point, 2>& way,
                                                                 std::array<double, 2> there) const {
   constexpr int most_iterations = 12;
   constexpr double accuracy = 1e-3;  // of the tolerance
   const WallMotion& wall = motions_[*c.met];
   const Surface &from = *wall.motion.from, &to = *wall.motion.to;
-  constexpr double inside = 1e-3;  // of the domain: at its end may be a pole, where there is no normal
+  // Of the domain: at its end may be a pole, where there is no normal.
+  constexpr double inside = 1e-3;
   for (std::size_t d = 0; d < 2; ++d) {
     const Interval domain = from.knots()[d].domain();
     const double margin = inside * domain.length();
@@ -293,8 +312,10 @@ std::optional<ContactSearch::Passage> ContactSearch::passage_of(const Candidate&
     if (!gap.allFinite() || volume == 0) return std::nullopt;
     if (gap.norm() <= accuracy * tolerance_) {
       const double closing = std::abs(volume) / normal.norm();
-      const bool near = c.met == c.surface && walls_.grid_of(wall)->cells_between(at, there) <= beside;
-      if (near || !(closing > tolerance_ && time * closing > tolerance_) || !is_visible(wall, there)) {
+      const bool near =
+          c.met == c.surface && walls_.grid_of(wall)->cells_between(at, there) <= beside;
+      if (near || !(closing > tolerance_ && time * closing > tolerance_) ||
+          !is_visible(wall, there)) {
         return std::nullopt;
       }
       return Passage{time, closing, there, 0};
@@ -348,7 +369,8 @@ std::optional<FaceContact> ContactSearch::refined(const Candidate& c) const {
   if (!c.met) result.face = walls_.around_->faces[best->face].id;
   result.at = at;
   const Motion& motion = motions_[c.surface].motion;
-  result.place = (1 - result.share) * point_of(*motion.from, at) + result.share * point_of(*motion.to, at);
+  result.place =
+      (1 - result.share) * point_of(*motion.from, at) + result.share * point_of(*motion.to, at);
   return result;
 }
 

@@ -30,7 +30,8 @@ class ContactSearch {
   };
   /// A point of a surface that comes to a face on its way, however far.
   struct Passage {
-    double time = 0, closing = 0;      ///< when they meet; how far they come nearer along the normal, in all
+    double time = 0,
+           closing = 0;  ///< when they meet; how far they come nearer along the normal, in all
     std::array<double, 2> there = {};  ///< on the surface that is met
     std::uint32_t face = 0;            ///< else of the faces around
 
@@ -41,17 +42,23 @@ class ContactSearch {
   [[nodiscard]] std::optional<FaceContact> earliest(std::span<const Candidate> solved) const;
   [[nodiscard]] static bool before(const Candidate& a, const Candidate& b);
   void look(std::size_t surface);
-  void look_around(std::size_t surface, SpanGrid& grid, std::size_t span, const Eigen::AlignedBox3d& box);
-  void look_at(std::size_t surface, SpanGrid& grid, std::size_t span, const Eigen::AlignedBox3d& box, std::size_t wall,
-               SpanGrid& met);
-  void compare(const Patch& own, const Patch& wall, std::span<const std::uint32_t> triangles, Candidate like);
-  [[nodiscard]] bool separated(const SpanGrid& grid, std::size_t span, const Patch& wall, std::uint32_t triangle) const;
+  void look_around(std::size_t surface, SpanGrid& grid, std::size_t span,
+                   const Eigen::AlignedBox3d& box);
+  void look_at(std::size_t surface, SpanGrid& grid, std::size_t span,
+               const Eigen::AlignedBox3d& box, std::size_t wall, SpanGrid& met);
+  void compare(const Patch& own, const Patch& wall, std::span<const std::uint32_t> triangles,
+               Candidate like);
+  [[nodiscard]] bool separated(const SpanGrid& grid, std::size_t span, const Patch& wall,
+                               std::uint32_t triangle) const;
   [[nodiscard]] bool counts(const Candidate& c, const std::array<double, 2>& at) const;
   [[nodiscard]] std::optional<Passage> passage(const Candidate& c, const std::array<double, 2>& at,
                                                const std::array<double, 2>& there) const;
-  [[nodiscard]] std::optional<Passage> passage_around(const Candidate& c, const std::array<Point, 2>& way) const;
-  [[nodiscard]] std::optional<Passage> passage_of(const Candidate& c, const std::array<double, 2>& at,
-                                                  const std::array<Point, 2>& way, std::array<double, 2> there) const;
+  [[nodiscard]] std::optional<Passage> passage_around(const Candidate& c,
+                                                      const std::array<Point, 2>& way) const;
+  [[nodiscard]] std::optional<Passage> passage_of(const Candidate& c,
+                                                  const std::array<double, 2>& at,
+                                                  const std::array<Point, 2>& way,
+                                                  std::array<double, 2> there) const;
   [[nodiscard]] std::optional<FaceContact> refined(const Candidate& c) const;
 
   ModelWalls& walls_;

@@ -35,14 +35,17 @@ Expected<Points> line_forces(const Surface& rest, SurfaceEdge edge, const Point&
       u[static_cast<std::size_t>(along)] = knots[span] + half + half * rule.abscissae[g];
       const auto tangents = tangents_at(rest, u);
       if (!tangents) return std::unexpected(tangents.error());
-      const Point weighted = half * rule.weights[g] * (*tangents)[static_cast<std::size_t>(along)].norm() * per_length;
-      for (const auto& [row, value] : basis_terms<2>(rest, u, 0)) forces.row(row) += value * weighted.transpose();
+      const Point weighted =
+          half * rule.weights[g] * (*tangents)[static_cast<std::size_t>(along)].norm() * per_length;
+      for (const auto& [row, value] : basis_terms<2>(rest, u, 0))
+        forces.row(row) += value * weighted.transpose();
     }
   }
   return forces;
 }
 
-Expected<Points> area_forces(const Surface& rest, const DomainScaling<2>& scaling, const Point& per_area) {
+Expected<Points> area_forces(const Surface& rest, const DomainScaling<2>& scaling,
+                             const Point& per_area) {
   // `load_forces` integrates over the scaled domain.
   const double unit = scaling.factors[0] * scaling.factors[1] * scaling.length * scaling.length;
   return load_forces<2>(rest, scaling, [&](const std::array<double, 2>& u) -> Point {
@@ -56,17 +59,21 @@ namespace {
 
 /// The edge where a mirror symmetry puts one.
 SurfaceEdge image_of(SurfaceEdge edge, int direction) {
-  return edge_across(edge) == direction ? static_cast<SurfaceEdge>(static_cast<int>(edge) ^ 1) : edge;
+  return edge_across(edge) == direction ? static_cast<SurfaceEdge>(static_cast<int>(edge) ^ 1)
+                                        : edge;
 }
 
-Expected<void> add_point_force(const Surface& rest, std::span<const double> at, const Point& force, Points& to) {
+Expected<void> add_point_force(const Surface& rest, std::span<const double> at, const Point& force,
+                               Points& to) {
   const auto u = parameters_at<2>(rest, at);
   if (!u) return std::unexpected(u.error());
-  for (const auto& [row, value] : basis_terms<2>(rest, *u, 0)) to.row(row) += value * force.transpose();
+  for (const auto& [row, value] : basis_terms<2>(rest, *u, 0))
+    to.row(row) += value * force.transpose();
   return {};
 }
 
-Expected<void> add_line_force(const Surface& rest, SurfaceEdge edge, const Point& per_length, Points& to) {
+Expected<void> add_line_force(const Surface& rest, SurfaceEdge edge, const Point& per_length,
+                              Points& to) {
   const auto forces = line_forces(rest, edge, per_length);
   if (!forces) return std::unexpected(forces.error());
   to += *forces;
@@ -85,7 +92,8 @@ Expected<Points> dead_forces(const SceneSurface& surface, const SceneForce& forc
   if (line != nullptr) {
     edges = edges_of(line->edge);
     for (SurfaceEdge edge : edges) {
-      if (auto done = add_line_force(rest, edge, vector / length, forces); !done) return std::unexpected(done.error());
+      if (auto done = add_line_force(rest, edge, vector / length, forces); !done)
+        return std::unexpected(done.error());
     }
   } else if (auto done = add_point_force(rest, dead->at, vector, forces); !done) {
     return std::unexpected(done.error());
@@ -99,14 +107,16 @@ Expected<Points> dead_forces(const SceneSurface& surface, const SceneForce& forc
     for (SurfaceEdge edge : edges) {
       const SurfaceEdge other = image_of(edge, symmetry->direction);
       if (std::ranges::find(edges, other) != edges.end()) continue;
-      if (auto done = add_line_force(rest, other, image / length, forces); !done) return std::unexpected(done.error());
+      if (auto done = add_line_force(rest, other, image / length, forces); !done)
+        return std::unexpected(done.error());
     }
     if (dead == nullptr) continue;
     std::vector<double> at = dead->at;
     double& along = at[static_cast<std::size_t>(symmetry->direction)];
     if (along == 0.5) continue;
     along = 1 - along;
-    if (auto done = add_point_force(rest, at, image, forces); !done) return std::unexpected(done.error());
+    if (auto done = add_point_force(rest, at, image, forces); !done)
+      return std::unexpected(done.error());
   }
   return forces;
 }

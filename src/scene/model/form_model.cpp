@@ -13,12 +13,15 @@ namespace {
 
 template <int D>
 std::unexpected<Error> has_none(const char* what, const char* field, const char* remedy) {
-  return input_error(fmt::format("a {} that keeps its fundamental forms has no {}", kind_of(D), what), field, remedy);
+  return input_error(
+      fmt::format("a {} that keeps its fundamental forms has no {}", kind_of(D), what), field,
+      remedy);
 }
 
 /// What holds the shape at this place.
 template <int D>
-Expected<std::vector<LinearConstraint>> conditions_at(const ModelInputOf<D>& input, const Points& present,
+Expected<std::vector<LinearConstraint>> conditions_at(const ModelInputOf<D>& input,
+                                                      const Points& present,
                                                       std::vector<std::string>& notes) {
   auto joined = join_shapes(input);
   if (!joined) return std::unexpected(joined.error());
@@ -31,8 +34,8 @@ template <int D>
 Expected<Points> dead_forces_on(const Spline<D>& rest, const ActiveLoads& loads) {
   Points forces = loads.nodal.rows() > 0 ? loads.nodal : Points::Zero(rest.size(), 3);
   if (loads.force == Point::Zero()) return forces;
-  const auto spread =
-      load_forces<D>(rest, {}, LoadFunction<D>([&](const std::array<double, D>&) { return loads.force; }));
+  const auto spread = load_forces<D>(
+      rest, {}, LoadFunction<D>([&](const std::array<double, D>&) { return loads.force; }));
   if (!spread) return std::unexpected(spread.error());
   return forces + *spread;
 }
@@ -47,7 +50,8 @@ class FormModel final : public Model {
     if (!conditions) return std::unexpected(conditions.error());
     auto energy = FormEnergy<D>::create(*shape.rest, std::get<FormWeights>(shape.elasticity));
     if (!energy) return std::unexpected(energy.error());
-    const double mass = std::get<double>(shape.material.mass), damping = std::get<double>(shape.material.damping);
+    const double mass = std::get<double>(shape.material.mass),
+                 damping = std::get<double>(shape.material.damping);
     ActiveShellSettings settings{.evolution = input.evolution.mode,
                                  .lambda = input.evolution.lambda,
                                  .time_step = input.evolution.time_step,
@@ -58,8 +62,9 @@ class FormModel final : public Model {
                                  .accuracy = input.evolution.accuracy};
     auto model = ActiveForm<D>::create(*shape.rest, *energy, std::move(settings));
     if (!model) return std::unexpected(model.error());
-    return std::unique_ptr<Model>(new FormModel(std::move(input), *std::move(conditions), *std::move(energy),
-                                                *std::move(model), std::move(notes)));
+    return std::unique_ptr<Model>(new FormModel(std::move(input), *std::move(conditions),
+                                                *std::move(energy), *std::move(model),
+                                                std::move(notes)));
   }
 
   [[nodiscard]] bool serves(const Scene& scene, const EvolutionPolicy& evolution) const override {
@@ -70,10 +75,11 @@ class FormModel final : public Model {
   }
   [[nodiscard]] bool measures(const Scene& scene) const override {
     const auto shapes = selected_shapes<D>(scene);
-    return !shapes.empty() && shapes.front()->rest == shape().rest && shapes.front()->elasticity == shape().elasticity;
+    return !shapes.empty() && shapes.front()->rest == shape().rest &&
+           shapes.front()->elasticity == shape().elasticity;
   }
-  [[nodiscard]] Expected<ActiveLoads> loads(const Scene& scene,
-                                            const std::vector<PointForce>& /*grips*/) const override {
+  [[nodiscard]] Expected<ActiveLoads> loads(
+      const Scene& scene, const std::vector<PointForce>& /*grips*/) const override {
     auto loads = body_loads<D>(scene);
     if (!loads) return loads;
     if (loads->gravity != Point::Zero()) return has_none<D>("weight", "gravity", "use vector");
@@ -91,15 +97,17 @@ class FormModel final : public Model {
                                           shape().rest->control_points(), conditions_);
     return step;
   }
-  [[nodiscard]] double energy(const ActiveState& of) const override { return energy_.energy(of.control_points).sum(); }
+  [[nodiscard]] double energy(const ActiveState& of) const override {
+    return energy_.energy(of.control_points).sum();
+  }
   [[nodiscard]] std::span<const std::string> notes() const override { return notes_; }
   [[nodiscard]] Eigen::Index size() const override { return shape().rest->size(); }
 
  private:
   [[nodiscard]] const ShapeInput<D>& shape() const { return input_.shapes.front(); }
 
-  FormModel(ModelInputOf<D> input, std::vector<LinearConstraint> conditions, FormEnergy<D> energy, ActiveForm<D> model,
-            std::vector<std::string> notes)
+  FormModel(ModelInputOf<D> input, std::vector<LinearConstraint> conditions, FormEnergy<D> energy,
+            ActiveForm<D> model, std::vector<std::string> notes)
       : input_(std::move(input)),
         conditions_(std::move(conditions)),
         energy_(std::move(energy)),
@@ -119,7 +127,8 @@ template <int D>
 Expected<std::unique_ptr<Model>> form_model(const Scene& scene, const EvolutionPolicy& evolution) {
   const SceneShape<D>& shape = *selected_shapes<D>(scene).front();
   if (shape.mode == RestMode::none) {
-    auto refused = has_none<D>("place without a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
+    auto refused =
+        has_none<D>("place without a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
     return std::unexpected(std::move(refused.error()).with({ErrorCode::rest_shape_needed}));
   }
   return FormModel<D>::create(model_input<D>(scene, evolution), shape.current->control_points());

@@ -15,15 +15,18 @@ struct JoinedShapes {
   bool entwined = false;  ///< conditions along edges or seams depend on all that come before them
 };
 
-/// Errors: surfaces of different rest modes, constraints that contradict each other (input); those of the coupling.
+/// Errors: surfaces of different rest modes, constraints that contradict each other (input); those
+/// of the coupling.
 template <int D>
 [[nodiscard]] Expected<JoinedShapes<D>> join_shapes(const ModelInputOf<D>& input);
 template <>
 [[nodiscard]] Expected<JoinedShapes<2>> join_shapes(const ModelInput& input);
 
-/// All that holds shapes, as conditions on displacements from rest: control points that do not move before the others.
+/// All that holds shapes, as conditions on displacements from rest: control points that do not move
+/// before the others.
 template <int D>
-[[nodiscard]] std::vector<LinearConstraint> conditions_of(const JoinedShapes<D>& joined, const Points& displacement) {
+[[nodiscard]] std::vector<LinearConstraint> conditions_of(const JoinedShapes<D>& joined,
+                                                          const Points& displacement) {
   std::vector<LinearConstraint> to;
   for (std::size_t k = 0; k < joined.settings.held.size(); ++k) {
     if (!joined.settings.held[k]) continue;

@@ -22,8 +22,9 @@ using Selected = std::vector<const SceneShape<D>*>;
 template <class F>
 auto with_selected(const Scene& scene, const F& f) {
   if (!scene.body) return f(selected_shapes<2>(scene));
-  return scene.bodies[static_cast<std::size_t>(*scene.body)].index() == 0 ? f(selected_shapes<1>(scene))
-                                                                          : f(selected_shapes<3>(scene));
+  return scene.bodies[static_cast<std::size_t>(*scene.body)].index() == 0
+             ? f(selected_shapes<1>(scene))
+             : f(selected_shapes<3>(scene));
 }
 
 template <int D>
@@ -59,7 +60,8 @@ namespace {
 Expected<Surface> samples_as_field(const Load& load, const Surface& surface) {
   Points samples(static_cast<Eigen::Index>(load.samples.size()), 3);
   for (std::size_t k = 0; k < load.samples.size(); ++k) {
-    samples.row(static_cast<Eigen::Index>(k)) << load.samples[k][0], load.samples[k][1], load.samples[k][2];
+    samples.row(static_cast<Eigen::Index>(k)) << load.samples[k][0], load.samples[k][1],
+        load.samples[k][2];
   }
   auto field = sampled_load<2>(surface, load.counts, std::move(samples));
   if (!field) return std::unexpected(field.error().within("samples"));
@@ -67,12 +69,14 @@ Expected<Surface> samples_as_field(const Load& load, const Surface& surface) {
 }
 
 /// One component of a load.
-Expected<Surface> formula_as_field(const Load& load, std::size_t component, const Surface& surface) {
+Expected<Surface> formula_as_field(const Load& load, std::size_t component,
+                                   const Surface& surface) {
   const auto field = formula_field((*load.formula)[component], surface, load.tolerance);
   if (!field) return std::unexpected(field.error().within(fmt::format("component {}", component)));
   Points forces = Points::Zero(static_cast<Eigen::Index>(field->coefficients().size()), 3);
   for (std::size_t k = 0; k < field->coefficients().size(); ++k) {
-    forces(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(component)) = field->coefficients()[k];
+    forces(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(component)) =
+        field->coefficients()[k];
   }
   return Surface::create(field->knots(), std::move(forces));
 }
@@ -96,7 +100,8 @@ Expected<std::vector<Surface>> load_fields(const Load& load, const Surface& surf
 
 namespace {
 
-/// Σ over the selected surfaces of the loads that keep their direction, but the one per parameter domain.
+/// Σ over the selected surfaces of the loads that keep their direction, but the one per parameter
+/// domain.
 Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
   Points nodal = Points::Zero(model.rows().back(), 3);
   const std::vector<int> selection = scene.selection();
@@ -121,7 +126,8 @@ Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
 
 /// A spring or volcano and its mirror images. \param first row of the surface's first control point
 template <PullsAPoint F>
-Expected<void> append_point_force(const SceneSurface& s, const F& f, int first, std::vector<PointForce>& points) {
+Expected<void> append_point_force(const SceneSurface& s, const F& f, int first,
+                                  std::vector<PointForce>& points) {
   const auto u = parameters_at<2>(*s.current, f.at);
   if (!u) return std::unexpected(u.error());
   PointForce force = point_force(f, basis_terms<2>(*s.current, *u, first));
@@ -196,9 +202,10 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_m
   if ((nodal->array() != 0).any()) loads.nodal = std::move(*nodal);
   for (const SceneForce& f : scene.forces) {
     const std::vector<int> selection = scene.selection();
-    if (std::holds_alternative<MomentForce>(f.force) && std::ranges::find(selection, f.surface) != selection.end()) {
-      return input_error("a moment acts on shells only", f.name, R"(give {"do":"material","model":"shell"})",
-                         {ErrorCode::shell_needed});
+    if (std::holds_alternative<MomentForce>(f.force) &&
+        std::ranges::find(selection, f.surface) != selection.end()) {
+      return input_error("a moment acts on shells only", f.name,
+                         R"(give {"do":"material","model":"shell"})", {ErrorCode::shell_needed});
     }
   }
   auto points = active_point_forces(scene);
@@ -245,11 +252,13 @@ template <int D>
 Expected<ActiveLoads> body_loads(const Scene& scene) {
   const Load& load = scene.load;
   const auto of_surfaces = [&](const char* field, const char* remedy) {
-    return input_error(fmt::format("this load acts on surfaces, not on a {}", kind_of(D)), field, remedy);
+    return input_error(fmt::format("this load acts on surfaces, not on a {}", kind_of(D)), field,
+                       remedy);
   };
   if (load.pressure != 0) return of_surfaces("pressure", "leave it out");
   if (load.wind != Vector3{0, 0, 0}) return of_surfaces("wind", "leave it out");
-  if (load.varies()) return of_surfaces(load.formula ? "formula" : "samples", "use vector, or forces");
+  if (load.varies())
+    return of_surfaces(load.formula ? "formula" : "samples", "use vector, or forces");
   if (load.per == LoadMeasure::area && load.vector != Vector3{0, 0, 0}) {
     return of_surfaces("per", R"(use "per":"parameters")");
   }

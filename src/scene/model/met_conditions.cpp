@@ -14,19 +14,22 @@ namespace {
 bool only_pins_added(const SurfaceInput& was, const SurfaceInput& is) {
   const auto same = [](const SurfaceInput& a, const SurfaceInput& b) {
     return a.id == b.id && a.reference == b.reference && a.rest == b.rest && a.mode == b.mode &&
-           a.hold_rows == b.hold_rows && a.pins == b.pins && a.smooth_knot_lines == b.smooth_knot_lines &&
-           a.smooth_poles == b.smooth_poles && a.visible == b.visible && a.masked == b.masked;
+           a.hold_rows == b.hold_rows && a.pins == b.pins &&
+           a.smooth_knot_lines == b.smooth_knot_lines && a.smooth_poles == b.smooth_poles &&
+           a.visible == b.visible && a.masked == b.masked;
   };
   if (!same(was, is) || is.constraints.size() < was.constraints.size()) return false;
   const auto [end, added] = std::ranges::mismatch(was.constraints, is.constraints);
-  return end == was.constraints.end() && std::all_of(added, is.constraints.end(), [](const KeptConstraint& kept) {
+  return end == was.constraints.end() &&
+         std::all_of(added, is.constraints.end(), [](const KeptConstraint& kept) {
            return std::holds_alternative<PointPin>(kept.constraint);
          });
 }
 
 double size_of(const ModelInput& input) {
   double size = 0;
-  for (const SurfaceInput& s : input.shapes) size = std::max(size, bounding_box(*s.reference).diagonal());
+  for (const SurfaceInput& s : input.shapes)
+    size = std::max(size, bounding_box(*s.reference).diagonal());
   return size > 0 ? size : 1;
 }
 
@@ -44,14 +47,17 @@ Expected<void> MetConditions::check(const ModelInput& input) {
   const double size = size_of(input);
   for (LinearConstraint& c : conditions) c.value /= size;
   eliminated_ += static_cast<long long>(conditions.size());
-  auto elimination = ConstraintSpace::eliminated(joined->rows.back(), conditions, joined->settings.held);
+  auto elimination =
+      ConstraintSpace::eliminated(joined->rows.back(), conditions, joined->settings.held);
   if (!elimination) return std::unexpected(elimination.error());
   if (joined->entwined) return {};
-  met_.emplace(input, joined->rows, size, std::ranges::any_of(conditions, has_normal), std::move(*elimination));
+  met_.emplace(input, joined->rows, size, std::ranges::any_of(conditions, has_normal),
+               std::move(*elimination));
   return {};
 }
 
-/// Whether an input adds pins to what was met, and these are met too: nothing that they contradict is known then.
+/// Whether an input adds pins to what was met, and these are met too: nothing that they contradict
+/// is known then.
 bool MetConditions::meets_more(const ModelInput& input) {
   ModelInput& met = met_->input;
   if (!input.followed.empty() || !(input.seams == met.seams) ||

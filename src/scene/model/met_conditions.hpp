@@ -9,12 +9,13 @@
 
 namespace knead {
 
-/// What `check_conditions` found out last: conditions that can be met together. Of pins that come after them one by
-/// one, as those of a script do, each is eliminated alone, and not all of them anew.
+/// What `check_conditions` found out last: conditions that can be met together. Of pins that come
+/// after them one by one, as those of a script do, each is eliminated alone, and not all of them
+/// anew.
 class MetConditions {
  public:
-  /// As `check_conditions`, with the same errors. Cost: where pins were added to what was checked last, that of their
-  /// own conditions, and of comparing all others.
+  /// As `check_conditions`, with the same errors. Cost: where pins were added to what was checked
+  /// last, that of their own conditions, and of comparing all others.
   [[nodiscard]] Expected<void> check(const ModelInput& input);
   /// How many conditions were eliminated so far: what checking has cost.
   [[nodiscard]] long long eliminated() const { return eliminated_; }

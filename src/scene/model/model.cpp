@@ -21,7 +21,8 @@ namespace {
 
 constexpr CouplingTolerance smooth_tolerance{.position = 1e-3, .tangent = 1e-6};
 constexpr double exact_ratio = 1e-7;  // radians that derivatives at a seam may be off a fixed ratio
-constexpr SeamOptions along_edges{.rigid = false}, along_smooth_edges{.angle = exact_ratio, .rigid = false};
+constexpr SeamOptions along_edges{.rigid = false},
+    along_smooth_edges{.angle = exact_ratio, .rigid = false};
 
 template <int D>
 bool varies(const MaterialFieldOf<D>& material) {
@@ -30,8 +31,9 @@ bool varies(const MaterialFieldOf<D>& material) {
          field(material.mass) || field(material.damping);
 }
 
-/// Whether some constraint is measured from the rest shape: edges of faces are held, and symmetries kept, on the
-/// reference, so that the same model serves while strokes leave their mark on the rest shape.
+/// Whether some constraint is measured from the rest shape: edges of faces are held, and symmetries
+/// kept, on the reference, so that the same model serves while strokes leave their mark on the rest
+/// shape.
 bool measures_from_rest(const std::vector<KeptConstraint>& constraints) {
   return std::ranges::any_of(constraints, [](const KeptConstraint& kept) {
     const Constraint& c = kept.constraint;
@@ -44,8 +46,9 @@ bool measures_from_rest(const std::vector<KeptConstraint>& constraints) {
 template <int D>
 void set_material(const std::vector<ShapeInput<D>>& shapes, ActiveSettings<D>& settings) {
   const MaterialFieldOf<D>& material = shapes.front().material;
-  const bool varying = std::ranges::any_of(
-      shapes, [&](const ShapeInput<D>& s) { return varies(s.material) || !(s.material == material); });
+  const bool varying = std::ranges::any_of(shapes, [&](const ShapeInput<D>& s) {
+    return varies(s.material) || !(s.material == material);
+  });
   if (varying) {
     for (const ShapeInput<D>& s : shapes) settings.fields.push_back(s.material);
     return;
@@ -87,13 +90,16 @@ Expected<void> couple_followed(const ModelInput& input, std::span<const Surface*
                                std::span<const int> rows, ActiveSettings<2>& settings) {
   const auto edges = coupled_edges(input.followed, patches);
   if (edges.empty()) return {};
-  const auto coupled = couple_edges(patches, rows, edges, settings.constraints, settings.held, input.coupling);
+  const auto coupled =
+      couple_edges(patches, rows, edges, settings.constraints, settings.held, input.coupling);
   if (!coupled) return std::unexpected(coupled.error());
-  settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
+  settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(),
+                              coupled->constraints.end());
   return {};
 }
 
-/// Appends the conditions that keep tangent planes common at smooth seams whose sides are in no fixed ratio.
+/// Appends the conditions that keep tangent planes common at smooth seams whose sides are in no
+/// fixed ratio.
 Expected<void> keep_smooth(std::span<const Surface* const> patches, std::span<const int> rows,
                            std::span<SeamReport> reports, ActiveSettings<2>& settings) {
   std::vector<CoupledEdge> edges;
@@ -106,9 +112,11 @@ Expected<void> keep_smooth(std::span<const Surface* const> patches, std::span<co
     report.reason = "tangent planes are kept common at points along the seam";
   }
   if (edges.empty()) return {};
-  const auto coupled = couple_edges(patches, rows, edges, settings.constraints, settings.held, smooth_tolerance);
+  const auto coupled =
+      couple_edges(patches, rows, edges, settings.constraints, settings.held, smooth_tolerance);
   if (!coupled) return std::unexpected(coupled.error());
-  settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
+  settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(),
+                              coupled->constraints.end());
   return {};
 }
 
@@ -123,7 +131,8 @@ Expected<void> keep_varying_load(SceneModel& scene) {
     const auto fields = load_fields(*scene.input.varying, *s.reference);
     if (!fields) return std::unexpected(fields.error());
     for (const Surface& field : *fields) {
-      auto forces = by_area ? area_load_forces(*s.rest, field) : load_forces<2>(*s.reference, scaling, field);
+      auto forces =
+          by_area ? area_load_forces(*s.rest, field) : load_forces<2>(*s.reference, scaling, field);
       if (!forces) return std::unexpected(forces.error());
       if (by_area) *forces /= scaling.length * scaling.length;  // per area in lengths of the model
       scene.varying_load.middleRows(scene.model.rows()[patch], s.reference->size()) += *forces;
@@ -149,7 +158,8 @@ EvolutionPolicy trial_evolution() {
   return evolution;
 }
 
-Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches) {
+Expected<FoundSeams> seams_between(const SeamPolicy& policy,
+                                   std::span<const Surface* const> patches) {
   const double tolerance = policy.tolerance.value_or(suggested_seam_tolerance(patches));
   if (tolerance == 0) return FoundSeams{};  // surfaces that collapse to one point
   return find_seams(patches, tolerance);
@@ -198,9 +208,10 @@ template ModelInputOf<3> model_input<3>(const Scene&, const EvolutionPolicy&);
 
 Expected<void> check_model_size(Eigen::Index control_points) {
   if (control_points <= max_model_size) return {};
-  return input_error(fmt::format("{} control points are selected, and no more than {} can be moved together",
-                                 control_points, max_model_size),
-                     "net", "make the net coarser, or select fewer surfaces");
+  return input_error(
+      fmt::format("{} control points are selected, and no more than {} can be moved together",
+                  control_points, max_model_size),
+      "net", "make the net coarser, or select fewer surfaces");
 }
 
 template <int D>
@@ -225,28 +236,34 @@ Expected<JoinedShapes<2>> join_shapes(const ModelInput& input) {
     const auto found = seams_between(input.seams, pointers);
     if (!found) return std::unexpected(found.error());
     for (const SeamOptions& options : {SeamOptions{}, along_edges, along_smooth_edges}) {
-      // Along edges that follow, seams that would move stiffly as a whole are left to the coupling of these edges, and
-      // where these are smooth, tangent planes at a ratio that is not the same everywhere.
+      // Along edges that follow, seams that would move stiffly as a whole are left to the coupling
+      // of these edges, and where these are smooth, tangent planes at a ratio that is not the same
+      // everywhere.
       std::vector<Seam> seams;
       std::ranges::copy_if(found->seams, std::back_inserter(seams), [&](const Seam& s) {
         const auto edge = followed_at(input.followed, s);
-        return options.rigid ? edge == nullptr : edge != nullptr && is_smooth(*edge) == (options.angle == exact_ratio);
+        return options.rigid
+                   ? edge == nullptr
+                   : edge != nullptr && is_smooth(*edge) == (options.angle == exact_ratio);
       });
       auto coupled = couple_seams(pointers, joined.rows, seams, options);
       if (!coupled) return std::unexpected(coupled.error());
-      settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
+      settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(),
+                                  coupled->constraints.end());
       reports.insert(reports.end(), coupled->reports.begin(), coupled->reports.end());
     }
   }
   const std::size_t before = settings.constraints.size();
   if (input.seams.smooth) {
-    if (auto kept = keep_smooth(pointers, joined.rows, reports, settings); !kept) return std::unexpected(kept.error());
+    if (auto kept = keep_smooth(pointers, joined.rows, reports, settings); !kept)
+      return std::unexpected(kept.error());
   }
   joined.entwined = !input.followed.empty() || settings.constraints.size() > before;
   if (auto coupled = couple_followed(input, pointers, joined.rows, settings); !coupled) {
     return std::unexpected(coupled.error());
   }
-  if (std::ranges::any_of(input.shapes, [](const SurfaceInput& s) { return s.touched != nullptr; })) {
+  if (std::ranges::any_of(input.shapes,
+                          [](const SurfaceInput& s) { return s.touched != nullptr; })) {
     for (const SurfaceInput& s : input.shapes) settings.visible.push_back(s.touched);
   }
   return joined;
@@ -266,7 +283,8 @@ ModelInput part_of(const ModelInput& input, std::span<const int> surfaces) {
   }
   for (FollowedInput edge : input.followed) {
     for (int& patch : edge.patches) patch = place[static_cast<std::size_t>(patch)];
-    if (std::ranges::find(edge.patches, -1) == edge.patches.end()) part.followed.push_back(std::move(edge));
+    if (std::ranges::find(edge.patches, -1) == edge.patches.end())
+      part.followed.push_back(std::move(edge));
   }
   return part;
 }
@@ -276,7 +294,8 @@ bool asks_for_motion(const ModelInput& input) {
     return std::ranges::any_of(s.constraints, [&](const KeptConstraint& kept) {
       const auto* pin = std::get_if<PointPin>(&kept.constraint);
       if (pin != nullptr && pin->to) return true;
-      const bool keeps_place = pin != nullptr || std::holds_alternative<EdgeHold>(kept.constraint) ||
+      const bool keeps_place = pin != nullptr ||
+                               std::holds_alternative<EdgeHold>(kept.constraint) ||
                                std::holds_alternative<Keep>(kept.constraint);
       return keeps_place && kept.where != s.rest;
     });
@@ -302,7 +321,8 @@ Expected<SceneModelOf<D>> make_model(ModelInputOf<D> input) {
   auto model = ActiveSpline<D>::create(std::move(patches), settings);
   if (!model) return std::unexpected(model.error());
   note_engine(model->engine(), joined->notes);
-  SceneModelOf<D> made{std::move(input), std::move(*model), std::move(joined->seams), std::move(joined->notes)};
+  SceneModelOf<D> made{std::move(input), std::move(*model), std::move(joined->seams),
+                       std::move(joined->notes)};
   if constexpr (D == 2) {
     if (auto loaded = keep_varying_load(made); !loaded) return std::unexpected(loaded.error());
   }

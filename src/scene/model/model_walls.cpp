@@ -10,12 +10,14 @@
 namespace knead {
 namespace {
 
-/// By which a triangle may miss its face: h²/8 of the curvature along its sides, κ h being the turn of the normals.
+/// By which a triangle may miss its face: h²/8 of the curvature along its sides, κ h being the turn
+/// of the normals.
 double sag_of(const FaceMesh& face, const std::array<std::uint32_t, 3>& triangle) {
   double most = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto a = triangle[k], b = triangle[(k + 1) % 3];
-    most = std::max(most, (face.points[a] - face.points[b]).norm() * (face.normals[a] - face.normals[b]).norm() / 8);
+    most = std::max(most, (face.points[a] - face.points[b]).norm() *
+                              (face.normals[a] - face.normals[b]).norm() / 8);
   }
   return most;
 }
@@ -30,7 +32,8 @@ ModelWalls::ModelWalls(std::shared_ptr<const Surroundings> around) : around_(std
     const auto first = static_cast<std::uint32_t>(part.patch.from.size());
     part.patch.from.insert(part.patch.from.end(), face.points.begin(), face.points.end());
     for (const auto& triangle : face.triangles) {
-      part.patch.triangles.push_back({first + triangle[0], first + triangle[1], first + triangle[2]});
+      part.patch.triangles.push_back(
+          {first + triangle[0], first + triangle[1], first + triangle[2]});
       part.sags.push_back(sag_of(face, triangle));
       part.faces.push_back(k);
     }
@@ -53,7 +56,8 @@ SpanGrid* ModelWalls::grid_of(const WallMotion& wall) {
   if (!motion.from || !motion.to) return nullptr;
   auto& known = motion.moves() ? moving_ : still_;
   const auto found = known.find(wall.id);
-  if (found != known.end() && (motion.moves() || (found->second && found->second->motion().to == motion.to))) {
+  if (found != known.end() &&
+      (motion.moves() || (found->second && found->second->motion().to == motion.to))) {
     return found->second ? &*found->second : nullptr;
   }
   auto& made = known[wall.id] = SpanGrid::create(motion);
@@ -71,7 +75,8 @@ std::vector<char> spans_shown(const VisibleRegion& region, const Surface& surfac
     const Interval domain = knots.domain();
     for (const int s : knots.spans()) {
       spans[static_cast<std::size_t>(d)].push_back(
-          {(knots[s] - domain.lower) / domain.length(), (knots[s + 1] - domain.lower) / domain.length()});
+          {(knots[s] - domain.lower) / domain.length(),
+           (knots[s + 1] - domain.lower) / domain.length()});
     }
   }
   const std::size_t rows = spans[0].size(), columns = spans[1].size();
@@ -85,7 +90,9 @@ std::vector<char> spans_shown(const VisibleRegion& region, const Surface& surfac
   }
   const auto enter = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     const Eigen::Vector2d lower = a.cwiseMin(b), upper = a.cwiseMax(b);
-    const auto meets = [&](const Interval& span, int d) { return span.upper >= lower[d] && span.lower <= upper[d]; };
+    const auto meets = [&](const Interval& span, int d) {
+      return span.upper >= lower[d] && span.lower <= upper[d];
+    };
     for (std::size_t i = 0; i < rows; ++i) {
       if (!meets(spans[0][i], 0)) continue;
       for (std::size_t j = 0; j < columns; ++j) {
@@ -106,8 +113,10 @@ std::vector<char> spans_shown(const VisibleRegion& region, const Surface& surfac
 const std::vector<char>& ModelWalls::shown_spans(const WallMotion& wall) {
   ShownSpans& known = shown_[wall.id];
   const std::shared_ptr<const Surface>& shape = wall.motion.from;
-  if (known.like && known.region == wall.visible && same_basis(*known.like, *shape)) return known.shown;
-  known = {wall.visible, shape, wall.visible ? spans_shown(*wall.visible, *shape) : std::vector<char>()};
+  if (known.like && known.region == wall.visible && same_basis(*known.like, *shape))
+    return known.shown;
+  known = {wall.visible, shape,
+           wall.visible ? spans_shown(*wall.visible, *shape) : std::vector<char>()};
   return known.shown;
 }
 
@@ -118,14 +127,16 @@ double ModelWalls::diagonal(std::span<const WallMotion> motions) {
       if (const SpanGrid* grid = grid_of(wall)) box.extend(grid->box());
     } else {
       const Points& net = wall.opened->control_points();
-      box.extend(Point(net.colwise().minCoeff().transpose())).extend(Point(net.colwise().maxCoeff().transpose()));
+      box.extend(Point(net.colwise().minCoeff().transpose()))
+          .extend(Point(net.colwise().maxCoeff().transpose()));
     }
   }
   for (const auto& [_, part] : parts_) box.extend(part.tree.box());
   return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
-std::optional<FaceContact> ModelWalls::first_contact(std::span<const WallMotion> motions, double tolerance) {
+std::optional<FaceContact> ModelWalls::first_contact(std::span<const WallMotion> motions,
+                                                     double tolerance) {
   moving_.clear();
   ContactSearch search(*this, motions, tolerance);
   return search.first();

@@ -8,7 +8,8 @@
 namespace knead {
 namespace {
 
-Expected<ActiveLoads> loads_on(const SceneModel& made, const Scene& scene, const std::vector<PointForce>& grips) {
+Expected<ActiveLoads> loads_on(const SceneModel& made, const Scene& scene,
+                               const std::vector<PointForce>& grips) {
   auto loads = active_loads(scene, made);
   if (!loads) return loads;
   loads->points.insert(loads->points.end(), grips.begin(), grips.end());
@@ -37,14 +38,17 @@ class LinearModel final : public Model {
     input.detail = made_.input.detail;
     return input == made_.input;
   }
-  [[nodiscard]] Expected<ActiveLoads> loads(const Scene& scene, const std::vector<PointForce>& grips) const override {
+  [[nodiscard]] Expected<ActiveLoads> loads(const Scene& scene,
+                                            const std::vector<PointForce>& grips) const override {
     return loads_on(made_, scene, grips);
   }
   [[nodiscard]] Expected<ActiveStep> step(const ActiveState& from, std::span<const Tool> tools,
                                           const ActiveLoads& loads, int /*increments*/) override {
     return made_.model.step(from, tools, loads);
   }
-  [[nodiscard]] double energy(const ActiveState& of) const override { return made_.model.energy(of); }
+  [[nodiscard]] double energy(const ActiveState& of) const override {
+    return made_.model.energy(of);
+  }
   [[nodiscard]] std::span<const SeamReport> seams() const override { return made_.seams; }
   [[nodiscard]] std::span<const std::string> notes() const override { return made_.notes; }
   [[nodiscard]] Eigen::Index size() const override { return made_.model.rows().back(); }
@@ -54,7 +58,8 @@ class LinearModel final : public Model {
 };
 
 template <int D>
-Expected<std::unique_ptr<Model>> linear_model(const Scene& scene, const EvolutionPolicy& evolution) {
+Expected<std::unique_ptr<Model>> linear_model(const Scene& scene,
+                                              const EvolutionPolicy& evolution) {
   auto made = make_model(model_input<D>(scene, evolution));
   if (!made) return std::unexpected(made.error());
   return std::make_unique<LinearModel<D>>(*std::move(made));
@@ -69,20 +74,24 @@ Expected<std::unique_ptr<Model>> model_of(const Scene& scene, const EvolutionPol
   if (has_shells(scene)) return shell_model(scene, evolution);
   if (!scene.body) return linear_model<2>(scene, evolution);
   const auto of_body = [&]<int D>(const SceneShape<D>& shape) {
-    return is_nonlinear(shape.elasticity) ? form_model<D>(scene, evolution) : linear_model<D>(scene, evolution);
+    return is_nonlinear(shape.elasticity) ? form_model<D>(scene, evolution)
+                                          : linear_model<D>(scene, evolution);
   };
   return std::visit(of_body, scene.bodies[static_cast<std::size_t>(*scene.body)]);
 }
 
 Expected<Model*> Models::of(const Scene& scene, const EvolutionPolicy& evolution) {
-  const auto found = std::ranges::find_if(kept_, [&](const auto& m) { return m->serves(scene, evolution); });
+  const auto found =
+      std::ranges::find_if(kept_, [&](const auto& m) { return m->serves(scene, evolution); });
   if (found != kept_.end()) {
     std::rotate(kept_.begin(), found, found + 1);
     return kept_.front().get();
   }
   Eigen::Index size = 0;
   std::size_t keep = 0;
-  while (keep < kept_.size() && keep + 1 < most_models && (size += kept_[keep]->size()) <= most_kept_points) ++keep;
+  while (keep < kept_.size() && keep + 1 < most_models &&
+         (size += kept_[keep]->size()) <= most_kept_points)
+    ++keep;
   kept_.resize(keep);  // before another one needs the memory
   auto made = model_of(scene, evolution);
   if (!made) return std::unexpected(made.error());

@@ -16,7 +16,8 @@ namespace {
 
 Expected<void> check_scope(const SceneSurface& s) {
   if (!is_nonlinear(s.elasticity)) {
-    return input_error("it is no shell, but is selected with shells", s.id, "give all of them the same kind of model");
+    return input_error("it is no shell, but is selected with shells", s.id,
+                       "give all of them the same kind of model");
   }
   if (s.mode == RestMode::none)
     return input_error("a shell needs a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})",
@@ -26,7 +27,8 @@ Expected<void> check_scope(const SceneSurface& s) {
 
 /// Whether all forces are known before the shape is.
 bool keep_direction(const ActiveLoads& loads) {
-  return loads.limit == 0 && loads.pressure == 0 && loads.wind == Point::Zero() && loads.points.empty();
+  return loads.limit == 0 && loads.pressure == 0 && loads.wind == Point::Zero() &&
+         loads.points.empty();
 }
 
 /// On the surface of this index.
@@ -34,23 +36,26 @@ Expected<Points> load_on(const Scene& scene, int surface, const ShellEnergy& she
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   const Point vector(scene.load.vector.data()), gravity(scene.load.gravity.data());
   if (gravity != Point::Zero() && shell.mass_per_area() == 0) {
-    return input_error(
-        "a shell without density has no weight", "gravity",
-        std::holds_alternative<ShellMaterial>(s.elasticity) ? "give its material a density" : "use vector");
+    return input_error("a shell without density has no weight", "gravity",
+                       std::holds_alternative<ShellMaterial>(s.elasticity)
+                           ? "give its material a density"
+                           : "use vector");
   }
   Points load = shell.weight(gravity);
   const bool by_area = scene.load.per.value_or(LoadMeasure::area) == LoadMeasure::area;
   if (by_area) {
     load += shell.area_load(vector);
   } else {
-    const auto forces = load_forces<2>(*s.rest, {}, [&](const std::array<double, 2>&) { return vector; });
+    const auto forces =
+        load_forces<2>(*s.rest, {}, [&](const std::array<double, 2>&) { return vector; });
     if (!forces) return std::unexpected(forces.error());
     load += *forces;
   }
   const auto fields = load_fields(scene.load, *s.reference);
   if (!fields) return std::unexpected(fields.error());
   for (const Surface& field : *fields) {
-    const auto forces = by_area ? area_load_forces(*s.rest, field) : load_forces<2>(*s.rest, {}, field);
+    const auto forces =
+        by_area ? area_load_forces(*s.rest, field) : load_forces<2>(*s.rest, {}, field);
     if (!forces) return std::unexpected(forces.error());
     load += *forces;
   }
@@ -63,7 +68,8 @@ Expected<Points> load_on(const Scene& scene, int surface, const ShellEnergy& she
   return load;
 }
 
-Expected<void> append_moments(const Scene& scene, int surface, int first, int size, std::vector<EdgeMoment>& moments) {
+Expected<void> append_moments(const Scene& scene, int surface, int first, int size,
+                              std::vector<EdgeMoment>& moments) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   for (const SceneForce& f : scene.forces) {
     const auto* acting = std::get_if<MomentForce>(&f.force);
@@ -75,7 +81,8 @@ Expected<void> append_moments(const Scene& scene, int surface, int first, int si
                          "sculpt one half, with a symmetry of its edge, or release the mirror");
     }
     for (const SurfaceEdge edge : edges_of(acting->edge)) {
-      auto moment = EdgeMoment::create(*s.rest, edge_across(edge), edge_at_end(edge), acting->moment, first, size);
+      auto moment = EdgeMoment::create(*s.rest, edge_across(edge), edge_at_end(edge),
+                                       acting->moment, first, size);
       if (!moment) return std::unexpected(moment.error());
       moments.push_back(std::move(*moment));
     }
@@ -83,16 +90,22 @@ Expected<void> append_moments(const Scene& scene, int surface, int first, int si
   return {};
 }
 
-/// What keeps the angle at a seam that constraints join in position only; none where it cannot have one.
-Expected<std::optional<ShellCrease>> crease_at(const SeamReport& report, std::span<const SceneSurface* const> surfaces,
-                                               std::span<const ShellEnergy> shells, std::span<const int> rows) {
-  // A moment that bends the shell to a radius of ten thicknesses opens the seam by a ten-thousandth.
+/// What keeps the angle at a seam that constraints join in position only; none where it cannot have
+/// one.
+Expected<std::optional<ShellCrease>> crease_at(const SeamReport& report,
+                                               std::span<const SceneSurface* const> surfaces,
+                                               std::span<const ShellEnergy> shells,
+                                               std::span<const int> rows) {
+  // A moment that bends the shell to a radius of ten thicknesses opens the seam by a
+  // ten-thousandth.
   constexpr double stiffening = 1000;
   const Seam& seam = report.seam;
-  if (report.continuity != SeamContinuity::c0 || report.rigid || seam.kind != SeamKind::whole) return std::nullopt;
+  if (report.continuity != SeamContinuity::c0 || report.rigid || seam.kind != SeamKind::whole)
+    return std::nullopt;
   const auto side = [&](const PatchEdge& edge) {
     const auto k = static_cast<std::size_t>(edge.patch);
-    return CreaseSide{surfaces[k]->rest.get(), rows[k], edge_across(edge.edge), edge_at_end(edge.edge)};
+    return CreaseSide{surfaces[k]->rest.get(), rows[k], edge_across(edge.edge),
+                      edge_at_end(edge.edge)};
   };
   const auto stiffness = [&](const PatchEdge& edge) {
     const ShellEnergy& shell = shells[static_cast<std::size_t>(edge.patch)];
@@ -105,7 +118,8 @@ Expected<std::optional<ShellCrease>> crease_at(const SeamReport& report, std::sp
 }
 
 Expected<ShellEnergy> energy_of(const SceneSurface& s) {
-  if (const auto* shell = std::get_if<ShellMaterial>(&s.elasticity)) return ShellEnergy::create(*s.rest, *shell);
+  if (const auto* shell = std::get_if<ShellMaterial>(&s.elasticity))
+    return ShellEnergy::create(*s.rest, *shell);
   return ShellEnergy::of_forms(*s.rest, std::get<FundamentalMaterial>(s.elasticity));
 }
 
@@ -118,7 +132,8 @@ ModelInput shell_input(const Scene& scene, const EvolutionPolicy& evolution) {
 }
 
 /// The energies of the surfaces and of the creases between them.
-Expected<ShellStructure> structure_of(std::span<const SceneSurface* const> surfaces, const JoinedShapes<2>& joined) {
+Expected<ShellStructure> structure_of(std::span<const SceneSurface* const> surfaces,
+                                      const JoinedShapes<2>& joined) {
   std::vector<ShellEnergy> shells;
   for (const SceneSurface* s : surfaces) {
     auto shell = energy_of(*s);
@@ -157,7 +172,8 @@ Expected<ActiveLoads> forces_on(const Scene& scene, const ShellStructure& struct
     const auto forces = load_on(scene, selection[k], structure.shells()[k]);
     if (!forces) return std::unexpected(forces.error());
     loads.nodal.middleRows(first, n) = *forces;
-    if (auto ok = append_moments(scene, selection[k], first, structure.size(), loads.moments); !ok) {
+    if (auto ok = append_moments(scene, selection[k], first, structure.size(), loads.moments);
+        !ok) {
       return std::unexpected(ok.error());
     }
   }
@@ -166,9 +182,10 @@ Expected<ActiveLoads> forces_on(const Scene& scene, const ShellStructure& struct
 
 /// Equilibrium under dead loads and moments, which need not be stable, from the rest shape.
 Expected<ActiveStep> equilibrium_of(const ShellStructure& structure, const Points& rest,
-                                    const std::vector<LinearConstraint>& constraints, const ActiveLoads& loads,
-                                    int increments) {
-  auto found = shell_equilibrium(structure, rest, constraints, loads.nodal, {.increments = increments}, loads.moments);
+                                    const std::vector<LinearConstraint>& constraints,
+                                    const ActiveLoads& loads, int increments) {
+  auto found = shell_equilibrium(structure, rest, constraints, loads.nodal,
+                                 {.increments = increments}, loads.moments);
   if (!found) return std::unexpected(found.error());
   ActiveStep step;
   step.control_points = std::move(found->control_points);
@@ -195,7 +212,8 @@ class ShellModel final : public Model {
     input.detail = setup_.input.detail;
     return input == setup_.input;
   }
-  [[nodiscard]] Expected<ActiveLoads> loads(const Scene& scene, const std::vector<PointForce>& grips) const override;
+  [[nodiscard]] Expected<ActiveLoads> loads(const Scene& scene,
+                                            const std::vector<PointForce>& grips) const override;
   [[nodiscard]] Expected<ActiveStep> step(const ActiveState& from, std::span<const Tool> tools,
                                           const ActiveLoads& loads, int increments) override;
   [[nodiscard]] double energy(const ActiveState& of) const override {
@@ -206,16 +224,19 @@ class ShellModel final : public Model {
   [[nodiscard]] Eigen::Index size() const override { return setup_.structure.size(); }
 
  private:
-  [[nodiscard]] bool is_stationary() const { return setup_.input.evolution.mode == Evolution::stationary; }
+  [[nodiscard]] bool is_stationary() const {
+    return setup_.input.evolution.mode == Evolution::stationary;
+  }
   [[nodiscard]] Expected<ActiveShell> pressed() const;
-  Expected<ActiveStep> press(const ActiveState& from, std::span<const Tool> tools, const ActiveLoads& loads,
-                             int increments);
+  Expected<ActiveStep> press(const ActiveState& from, std::span<const Tool> tools,
+                             const ActiveLoads& loads, int increments);
 
   ShellSetup setup_;
   std::optional<ActiveShell> pressed_ = {};  // made by the first step that needs it
 };
 
-Expected<ActiveLoads> ShellModel::loads(const Scene& scene, const std::vector<PointForce>& grips) const {
+Expected<ActiveLoads> ShellModel::loads(const Scene& scene,
+                                        const std::vector<PointForce>& grips) const {
   auto loads = forces_on(scene, setup_.structure);
   if (!loads) return loads;
   loads->pressure = scene.load.pressure;
@@ -235,15 +256,17 @@ Expected<ActiveLoads> ShellModel::loads(const Scene& scene, const std::vector<Po
   return loads;
 }
 
-Expected<ActiveStep> ShellModel::step(const ActiveState& from, std::span<const Tool> tools, const ActiveLoads& loads,
-                                      int increments) {
-  const std::vector<LinearConstraint> constraints = conditions_of(setup_.joined, from.control_points - from.rest);
+Expected<ActiveStep> ShellModel::step(const ActiveState& from, std::span<const Tool> tools,
+                                      const ActiveLoads& loads, int increments) {
+  const std::vector<LinearConstraint> constraints =
+      conditions_of(setup_.joined, from.control_points - from.rest);
   const bool dead = is_stationary() && tools.empty() && keep_direction(loads);
   auto step = dead ? equilibrium_of(setup_.structure, from.rest, constraints, loads, increments)
                    : press(from, tools, loads, is_stationary() ? increments : 1);
   if (!step) return step;
   if (!from.balanced) {
-    step->control_points = with_held_bits(std::move(step->control_points), from.control_points, from.rest, constraints);
+    step->control_points = with_held_bits(std::move(step->control_points), from.control_points,
+                                          from.rest, constraints);
   }
   if (!dead) return step;
   const ShellParts energy = setup_.structure.energy(step->control_points);
@@ -257,26 +280,29 @@ Expected<ActiveStep> ShellModel::step(const ActiveState& from, std::span<const T
 Expected<ActiveShell> ShellModel::pressed() const {
   const auto& [input, joined, structure] = setup_;
   const MaterialFieldOf<2>& material = input.shapes.front().material;
-  const auto *mass = std::get_if<double>(&material.mass), *damping = std::get_if<double>(&material.damping);
-  const bool forms = std::ranges::none_of(
-      input.shapes, [](const SurfaceInput& s) { return std::holds_alternative<ShellMaterial>(s.elasticity); });
-  ActiveShellSettings settings{.evolution = input.evolution.mode,
-                               .lambda = input.evolution.lambda,
-                               .time_step = input.evolution.time_step,
-                               .damping = mass != nullptr && damping != nullptr && *mass > 0 ? *damping / *mass : 0,
-                               .mass = forms && mass != nullptr ? *mass : 0,
-                               .held = joined.settings.held,
-                               .constraints = joined.settings.constraints,
-                               .visible = joined.settings.visible,
-                               .detail = input.detail,
-                               .accuracy = input.evolution.accuracy};
+  const auto *mass = std::get_if<double>(&material.mass),
+             *damping = std::get_if<double>(&material.damping);
+  const bool forms = std::ranges::none_of(input.shapes, [](const SurfaceInput& s) {
+    return std::holds_alternative<ShellMaterial>(s.elasticity);
+  });
+  ActiveShellSettings settings{
+      .evolution = input.evolution.mode,
+      .lambda = input.evolution.lambda,
+      .time_step = input.evolution.time_step,
+      .damping = mass != nullptr && damping != nullptr && *mass > 0 ? *damping / *mass : 0,
+      .mass = forms && mass != nullptr ? *mass : 0,
+      .held = joined.settings.held,
+      .constraints = joined.settings.constraints,
+      .visible = joined.settings.visible,
+      .detail = input.detail,
+      .accuracy = input.evolution.accuracy};
   std::vector<Surface> patches;
   for (const SurfaceInput& s : input.shapes) patches.push_back(*s.rest);
   return ActiveShell::create(std::move(patches), structure, std::move(settings));
 }
 
-Expected<ActiveStep> ShellModel::press(const ActiveState& from, std::span<const Tool> tools, const ActiveLoads& loads,
-                                       int increments) {
+Expected<ActiveStep> ShellModel::press(const ActiveState& from, std::span<const Tool> tools,
+                                       const ActiveLoads& loads, int increments) {
   if (!pressed_) {
     auto made = pressed();
     if (!made) return std::unexpected(made.error());
@@ -317,8 +343,9 @@ Expected<ShellProblem> shell_problem(const Scene& scene) {
   if (!loads) return std::unexpected(loads.error());
   ActiveState now = active_state(scene);
   auto constraints = conditions_of(setup->joined, now.control_points - now.rest);
-  return ShellProblem{*std::move(setup),      std::move(now.rest),     std::move(now.control_points),
-                      std::move(constraints), std::move(loads->nodal), std::move(loads->moments)};
+  return ShellProblem{
+      *std::move(setup),      std::move(now.rest),     std::move(now.control_points),
+      std::move(constraints), std::move(loads->nodal), std::move(loads->moments)};
 }
 
 Expected<std::unique_ptr<Model>> shell_model(const Scene& scene, const EvolutionPolicy& evolution) {

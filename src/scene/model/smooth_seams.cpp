@@ -9,7 +9,8 @@ namespace knead {
 namespace {
 
 constexpr int points_per_span = 4;
-constexpr double on_plane = 1e-2;  // of its length, that a direction may leave the tangent plane of the other side
+// Of its length, that a direction may leave the tangent plane of the other side.
+constexpr double on_plane = 1e-2;
 
 struct EdgeJet {
   std::array<double, 2> at;
@@ -19,7 +20,8 @@ struct EdgeJet {
 /// At the fraction t of an edge.
 Expected<EdgeJet> jet_at(const Surface& surface, SurfaceEdge edge, double t) {
   const auto across = static_cast<std::size_t>(edge_across(edge));
-  const Interval fixed = surface.knots()[across].domain(), along = surface.knots()[1 - across].domain();
+  const Interval fixed = surface.knots()[across].domain(),
+                 along = surface.knots()[1 - across].domain();
   EdgeJet result;
   result.at[across] = edge_at_end(edge) ? fixed.upper : fixed.lower;
   result.at[1 - across] = std::min(along.lower + t * along.length(), along.upper);
@@ -36,7 +38,8 @@ Expected<EdgeJet> jet_at(const Surface& surface, SurfaceEdge edge, double t) {
 std::vector<double> breaks_of(std::span<const Surface* const> patches, const Seam& seam) {
   std::vector<double> breaks;
   for (const PatchEdge& side : {seam.a, seam.b}) {
-    const KnotVector& knots = patches[static_cast<std::size_t>(side.patch)]->knots(edge_along(side.edge));
+    const KnotVector& knots =
+        patches[static_cast<std::size_t>(side.patch)]->knots(edge_along(side.edge));
     const bool turned = seam.reversed && !(side == seam.a);
     for (int span : knots.spans()) {
       for (const double knot : {knots[span], knots[span + 1]}) {
@@ -46,16 +49,17 @@ std::vector<double> breaks_of(std::span<const Surface* const> patches, const Sea
     }
   }
   std::ranges::sort(breaks);
-  breaks.erase(std::unique(breaks.begin(), breaks.end(), [](double a, double b) { return b - a < 1e-9; }),
-               breaks.end());
+  breaks.erase(
+      std::unique(breaks.begin(), breaks.end(), [](double a, double b) { return b - a < 1e-9; }),
+      breaks.end());
   return breaks;
 }
 
 }  // namespace
 
 bool may_crease(const SeamReport& report) {
-  return report.continuity == SeamContinuity::c0 && !report.rigid && report.seam.kind == SeamKind::whole &&
-         report.angle <= smooth_seam;
+  return report.continuity == SeamContinuity::c0 && !report.rigid &&
+         report.seam.kind == SeamKind::whole && report.angle <= smooth_seam;
 }
 
 Expected<CoupledEdge> smooth_seam_edge(std::span<const Surface* const> patches, const Seam& seam) {
@@ -66,7 +70,8 @@ Expected<CoupledEdge> smooth_seam_edge(std::span<const Surface* const> patches, 
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     for (int i = k == 0 ? 0 : 1; i <= points_per_span; ++i) {
       const double t = breaks[k] + (breaks[k + 1] - breaks[k]) * i / points_per_span;
-      const auto on_a = jet_at(a, seam.a.edge, t), on_b = jet_at(b, seam.b.edge, seam.reversed ? 1 - t : t);
+      const auto on_a = jet_at(a, seam.a.edge, t),
+                 on_b = jet_at(b, seam.b.edge, seam.reversed ? 1 - t : t);
       if (!on_a) return std::unexpected(on_a.error());
       if (!on_b) return std::unexpected(on_b.error());
       Eigen::Vector2d d = Eigen::Vector2d::Zero();
@@ -74,7 +79,8 @@ Expected<CoupledEdge> smooth_seam_edge(std::span<const Surface* const> patches, 
       const Point way = on_a->jacobian * d;
       const auto other = detail::least_squares(on_b->jacobian, way);
       if (!other) return std::unexpected(other.error());
-      if (!(way.norm() > 0) || !((on_b->jacobian * *other - way).norm() <= on_plane * way.norm())) continue;
+      if (!(way.norm() > 0) || !((on_b->jacobian * *other - way).norm() <= on_plane * way.norm()))
+        continue;
       edge.points.push_back({{seam.a.patch, on_a->at}, {seam.b.patch, on_b->at}});
       edge.across.push_back({d, *other});
     }

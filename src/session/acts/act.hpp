@@ -22,8 +22,9 @@ struct ActCache {
   KnownFaces faces;          ///< of the document
 };
 
-/// One command as it is carried out, on a copy of the state that takes effect only if no error is returned. Each
-/// command's file defines `execute` for its fields; what commands share are functions of an act, in headers by subject.
+/// One command as it is carried out, on a copy of the state that takes effect only if no error is
+/// returned. Each command's file defines `execute` for its fields; what commands share are
+/// functions of an act, in headers by subject.
 struct Act {
   const Document& document;
   SessionState& state;  ///< with the steps and notes so far

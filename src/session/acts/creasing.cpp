@@ -17,7 +17,8 @@ struct Kink {
   Point at = Point::Zero();
 };
 
-/// The largest angle between tangent planes at the points of a seam, whichever way their normals point.
+/// The largest angle between tangent planes at the points of a seam, whichever way their normals
+/// point.
 Expected<Kink> kink_along(std::span<const Surface* const> shapes, const CoupledEdge& edge) {
   Kink kink;
   for (const SharedPoint& point : edge.points) {
@@ -33,7 +34,8 @@ Expected<Kink> kink_along(std::span<const Surface* const> shapes, const CoupledE
       normals[side] = su.cross(sv).stableNormalized();
       at = jet->points().row(0);
     }
-    const double angle = std::atan2(normals[0].cross(normals[1]).norm(), std::abs(normals[0].dot(normals[1])));
+    const double angle =
+        std::atan2(normals[0].cross(normals[1]).norm(), std::abs(normals[0].dot(normals[1])));
     if (angle > kink.angle) kink = {angle, at};
   }
   return kink;
@@ -55,12 +57,15 @@ void note_creases(Act& act, std::span<const SeamReport> seams) {
       const auto index = static_cast<std::size_t>(selection[static_cast<std::size_t>(side.patch)]);
       return fmt::format("{} {}", act.state.surfaces[index].id, edge_name(side.edge));
     };
-    const std::string begin = fmt::format("the seam {} – {} was smooth", name(report.seam.a), name(report.seam.b));
-    std::erase_if(act.state.notes, [&](const std::string& note) { return note.starts_with(begin); });
+    const std::string begin =
+        fmt::format("the seam {} – {} was smooth", name(report.seam.a), name(report.seam.b));
+    std::erase_if(act.state.notes,
+                  [&](const std::string& note) { return note.starts_with(begin); });
     const auto edge = smooth_seam_edge(references, report.seam);
     const auto kink = edge ? kink_along(shapes, *edge) : std::unexpected(edge.error());
     if (!kink || kink->angle <= accepted_angle) continue;
-    const std::string why = report.reason.starts_with("C0: ") ? report.reason.substr(4) : report.reason;
+    const std::string why =
+        report.reason.starts_with("C0: ") ? report.reason.substr(4) : report.reason;
     const Diagnostic crease{ErrorCode::seam_creased,
                             {{"first", name(report.seam.a)},
                              {"second", name(report.seam.b)},
@@ -70,9 +75,11 @@ void note_creases(Act& act, std::span<const SeamReport> seams) {
                              {"z", kink->at.z()},
                              {"reason", why}}};
     act.state.notes.emplace_back(
-        fmt::format(
-            R"({} and has a crease of {:.2g} degrees now at ({:.6g}, {:.6g}, {:.6g}): it keeps its position only, as {}; undo and let it stay smooth with {{"do":"seams","smooth":true}})",
-            begin, kink->angle * 180 / std::numbers::pi, kink->at.x(), kink->at.y(), kink->at.z(), why),
+        fmt::format(R"({} and has a crease of {:.2g} degrees now at ({:.6g}, {:.6g}, )"
+                    R"({:.6g}): it keeps its position only, )"
+                    R"(as {}; undo and let it stay smooth with {{"do":"seams","smooth":true}})",
+                    begin, kink->angle * 180 / std::numbers::pi, kink->at.x(), kink->at.y(),
+                    kink->at.z(), why),
         crease);
   }
 }

@@ -24,8 +24,8 @@ namespace {
 
 constexpr double least_coupling = 1e-9;
 constexpr double tighter = 0.4, much_tighter = 0.03, half = 0.5;
-constexpr double kept_motion =
-    0.9;  // of their motion that edges keep when they are coupled more tightly than they must
+// Of their motion that edges keep when they are coupled more tightly than they must.
+constexpr double kept_motion = 0.9;
 
 std::string list_of(std::vector<std::string> ids) {
   ids.erase(std::ranges::unique(ids).begin(), ids.end());  // both sides of a closed surface
@@ -34,8 +34,10 @@ std::string list_of(std::vector<std::string> ids) {
   return text;
 }
 
-Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, const std::string& id) {
-  if (document.source() == nullptr) return input_error("only edges of faces in a file can follow", id);
+Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document,
+                                                      const std::string& id) {
+  if (document.source() == nullptr)
+    return input_error("only edges of faces in a file can follow", id);
   if (auto can = document.source()->can_move_edge(id); !can) return std::unexpected(can.error());
   auto edge = SharedEdge::create(*document.model(), id);
   if (!edge) {
@@ -43,10 +45,12 @@ Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, 
     const brep::Model& model = *document.model();
     const std::vector<std::string> all = brep::surfaces_at_edge(model, id);
     std::vector<std::string> others = all;
-    std::erase_if(others, [&](const std::string& surface) { return model.find_surface(surface) != nullptr; });
+    std::erase_if(
+        others, [&](const std::string& surface) { return model.find_surface(surface) != nullptr; });
     if (!others.empty()) {
       error.remedy = fmt::format(
-          R"(convert it, {{"do":"convert","surfaces":[{}]}}, and select all of its surfaces, {{"do":"select","surfaces":[{}]}}, or hold the edge)",
+          R"(convert it, {{"do":"convert","surfaces":[{}]}}, and select all of its surfaces, )"
+          R"({{"do":"select","surfaces":[{}]}}, or hold the edge)",
           list_of(others), list_of(all));
       if (error.diagnostic) {
         Diagnostic more = *error.diagnostic;
@@ -76,7 +80,9 @@ double share_of(const std::vector<Point>& first, const std::vector<Point>& other
 }
 
 /// The angle up to which faces may meet at a smooth edge.
-double accepted_bend(const Parting& parting) { return std::max(accepted_angle, 2 * parting.angle_before); }
+double accepted_bend(const Parting& parting) {
+  return std::max(accepted_angle, 2 * parting.angle_before);
+}
 
 double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
@@ -91,17 +97,22 @@ Expected<void> follow_edge(Act& act, const std::string& id) {
     found->course = std::move(*course);
   }
   const auto is_selected = [&act](const std::string& surface) {
-    return std::ranges::any_of(act.state.selection(),
-                               [&](int k) { return act.state.surfaces[static_cast<std::size_t>(k)].id == surface; });
+    return std::ranges::any_of(act.state.selection(), [&](int k) {
+      return act.state.surfaces[static_cast<std::size_t>(k)].id == surface;
+    });
   };
   const std::vector<std::string>& surfaces = found->course->surfaces();
   for (const std::string& surface : surfaces) {
     if (is_selected(surface)) continue;
     return input_error(
-        fmt::format("the face on {} would have to follow the edge, but it is not selected", surface), id,
-        fmt::format(R"(select all of its surfaces, {{"do":"select","surfaces":[{}]}}, or hold the edge)",
-                    list_of(surfaces)),
-        {ErrorCode::edge_face_not_selected, {{"edge", id}, {"surface", surface}, {"surfaces", surfaces}}});
+        fmt::format("the face on {} would have to follow the edge, but it is not selected",
+                    surface),
+        id,
+        fmt::format(
+            R"(select all of its surfaces, {{"do":"select","surfaces":[{}]}}, or hold the edge)",
+            list_of(surfaces)),
+        {ErrorCode::edge_face_not_selected,
+         {{"edge", id}, {"surface", surface}, {"surfaces", surfaces}}});
   }
   return {};
 }
@@ -119,13 +130,15 @@ Expected<void> know_followed(Act& act) {
 
 Expected<void> unite_followed(Act& act) {
   if (auto known = know_followed(act); !known) return known;
-  if (act.state.permission == RefinePermission::never || followed_inputs(act.state).empty()) return {};
+  if (act.state.permission == RefinePermission::never || followed_inputs(act.state).empty())
+    return {};
   return refine_seams(act, true);
 }
 
 Expected<void> check_followed(const Scene& scene, const Scene& before) {
-  if (std::ranges::equal(scene.surfaces, before.surfaces,
-                         [](const SceneSurface& a, const SceneSurface& b) { return a.current == b.current; })) {
+  if (std::ranges::equal(
+          scene.surfaces, before.surfaces,
+          [](const SceneSurface& a, const SceneSurface& b) { return a.current == b.current; })) {
     return {};  // nothing moved
   }
   for (const FollowedEdge& edge : scene.followed) {
@@ -135,7 +148,8 @@ Expected<void> check_followed(const Scene& scene, const Scene& before) {
       const auto is = std::ranges::find(scene.surfaces, id, &SceneSurface::id);
       const auto was = std::ranges::find(before.surfaces, id, &SceneSurface::id);
       following = following && is != scene.surfaces.end() && follows(*is, edge.id);
-      changed = changed || was == before.surfaces.end() || is == scene.surfaces.end() || was->current != is->current;
+      changed = changed || was == before.surfaces.end() || is == scene.surfaces.end() ||
+                was->current != is->current;
     }
     if (!following || !changed) continue;
     const auto apart = parting(scene, *edge.course);
@@ -143,27 +157,34 @@ Expected<void> check_followed(const Scene& scene, const Scene& before) {
     if (apart->distance > apart->tolerance) {
       const Point& p = apart->place;
       return numerical_error(
-          fmt::format("the faces at the edge {} would part by {:.2g} at ({:.6g}, {:.6g}, {:.6g}), more than the "
+          fmt::format("the faces at the edge {} would part by {:.2g} at ({:.6g}, {:.6g}, {:.6g}), "
+                      "more than the "
                       "tolerance of {:.2g}; this was refused",
                       edge.id, apart->distance, p.x(), p.y(), p.z(), apart->tolerance),
-          "edge", R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it)",
+          "edge",
+          R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it)",
           {ErrorCode::edge_would_part, {{"edge", edge.id}}});
     }
     if (apart->angle > accepted_bend(*apart)) {
       const Point& p = apart->kink_place;
       return numerical_error(
-          fmt::format("the faces at the smooth edge {} would meet at {:.2g} degrees at ({:.6g}, {:.6g}, {:.6g}), more "
+          fmt::format("the faces at the smooth edge {} would meet at {:.2g} degrees at ({:.6g}, "
+                      "{:.6g}, {:.6g}), more "
                       "than the {:.2g} that are accepted; this was refused",
-                      edge.id, in_degrees(apart->angle), p.x(), p.y(), p.z(), in_degrees(accepted_bend(*apart))),
-          "edge", R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it "clamped")",
+                      edge.id, in_degrees(apart->angle), p.x(), p.y(), p.z(),
+                      in_degrees(accepted_bend(*apart))),
+          "edge",
+          R"(refine the surfaces near the edge with {"do":"refine"}, move it less, )"
+          R"(or hold it "clamped")",
           {ErrorCode::edge_would_part, {{"edge", edge.id}}});
     }
     const auto stuck = stuck_vertex(scene, *edge.course);
     if (!stuck) return std::unexpected(stuck.error());
     if (*stuck) {
-      return numerical_error(fmt::format("the vertex {} of the edge {} would move by {:.2g}, but the edge {} stays",
-                                         (*stuck)->vertex, edge.id, (*stuck)->distance, (*stuck)->edge),
-                             "edge", "let that edge follow too, or hold this one");
+      return numerical_error(
+          fmt::format("the vertex {} of the edge {} would move by {:.2g}, but the edge {} stays",
+                      (*stuck)->vertex, edge.id, (*stuck)->distance, (*stuck)->edge),
+          "edge", "let that edge follow too, or hold this one");
     }
   }
   return {};
@@ -181,9 +202,11 @@ namespace {
 
 /// By how much points of an edge moved, on its first surface.
 Expected<void> append_motion(const Scene& scene, const SharedEdge& edge,
-                             std::span<const std::shared_ptr<const Surface>> before, std::vector<Point>& to) {
+                             std::span<const std::shared_ptr<const Surface>> before,
+                             std::vector<Point>& to) {
   const auto k = static_cast<std::size_t>(
-      std::ranges::find(scene.surfaces, edge.surfaces().front(), &SceneSurface::id) - scene.surfaces.begin());
+      std::ranges::find(scene.surfaces, edge.surfaces().front(), &SceneSurface::id) -
+      scene.surfaces.begin());
   for (const SharedEdge::Sample& sample : edge.samples()) {
     const auto way = displacement_at(*before[k], *scene.surfaces[k].current, sample.feet.front());
     if (!way) return std::unexpected(way.error());
@@ -208,15 +231,17 @@ Expected<bool> Attempts::together(SessionState& state) {
       return std::unexpected(moved.error());
     }
   }
-  if (best_ &&
-      share_of(best_->motion, motion) < kept_motion) {  // what is asked for would take the freedom that the edges have
+  if (best_ && share_of(best_->motion, motion) <
+                   kept_motion) {  // what is asked for would take the freedom that the edges have
     state.surfaces = std::move(best_->surfaces);
     state.coupling = best_->coupling;
     state.bend = accepted_angle;
-    state.notes.push_back(fmt::format(
-        "smooth edges that follow may open by up to {:.2g} degrees from here on: within the {:.2g} that are "
-        "asked for they could hardly move; finer nets beside them would help, {{\"do\":\"refine\"}}",
-        in_degrees(accepted_angle), in_degrees(asked_angle)));
+    state.notes.push_back(
+        fmt::format("smooth edges that follow may open by up to {:.2g} degrees from here on: "
+                    "within the {:.2g} that are "
+                    "asked for they could hardly move; finer nets beside them would help, "
+                    "{{\"do\":\"refine\"}}",
+                    in_degrees(accepted_angle), in_degrees(asked_angle)));
     return true;
   }
   const CouplingTolerance was = state.coupling;
@@ -238,7 +263,8 @@ Expected<bool> Attempts::accept(Act& act, const ActiveStep& step) {
     act.state.surfaces = before.surfaces;
     return false;
   }
-  if (auto checked = check_followed(act.state, before); !checked) return std::unexpected(checked.error());
+  if (auto checked = check_followed(act.state, before); !checked)
+    return std::unexpected(checked.error());
   return true;
 }
 

@@ -26,34 +26,40 @@ std::string place_of(const MovedTrim& edge) {
 std::string all_follow(const std::vector<std::string>& ids) {
   std::string text;
   for (std::size_t k = 0; k < std::min(ids.size(), most_listed); ++k) {
-    text += fmt::format(R"({}{{"do":"edge","edge":"{}","hold":"follow"}})", k == 0 ? "" : ", ", ids[k]);
+    text +=
+        fmt::format(R"({}{{"do":"edge","edge":"{}","hold":"follow"}})", k == 0 ? "" : ", ", ids[k]);
   }
   return ids.size() > most_listed ? text + ", …" : text;
 }
 
 /// \param worst moved farthest, of the surface with this id
-Error opened_edge(const MovedTrim& worst, const std::string& surface, const std::vector<std::string>& ids) {
+Error opened_edge(const MovedTrim& worst, const std::string& surface,
+                  const std::vector<std::string>& ids) {
   std::string between;
-  if (worst.neighbours.size() > 1) between = fmt::format(" between the faces {}", fmt::join(worst.neighbours, " and "));
+  if (worst.neighbours.size() > 1)
+    between = fmt::format(" between the faces {}", fmt::join(worst.neighbours, " and "));
   std::string what;
   if (worst.distance > 0) {
-    what = fmt::format("the edge {} on {}{} is held, and would open by {:.3g} at {}", worst.id, surface, between,
-                       worst.distance, place_of(worst));
+    what = fmt::format("the edge {} on {}{} is held, and would open by {:.3g} at {}", worst.id,
+                       surface, between, worst.distance, place_of(worst));
   } else {
-    what = fmt::format("the tangent planes along the edge {} on {}{} are held, and would turn by {:.3g} degrees at {}",
-                       worst.id, surface, between, worst.turn * 180 / std::numbers::pi, place_of(worst));
+    what = fmt::format(
+        "the tangent planes along the edge {} on {}{} are held, and would turn by {:.3g} degrees "
+        "at {}",
+        worst.id, surface, between, worst.turn * 180 / std::numbers::pi, place_of(worst));
   }
-  if (ids.size() > 1) what += fmt::format("; {} other edge{} likewise", ids.size() - 1, ids.size() == 2 ? "" : "s");
+  if (ids.size() > 1)
+    what += fmt::format("; {} other edge{} likewise", ids.size() - 1, ids.size() == 2 ? "" : "s");
   const bool opens = worst.distance > 0;
-  return Error(
-             ErrorKind::numerical, what + "; this was refused", "edge",
-             fmt::format(
-                 R"(move less of the surface, or let what moves follow: {}; {{"do":"hold","mode":"free"}} lets it open)",
-                 all_follow(ids)))
+  return Error(ErrorKind::numerical, what + "; this was refused", "edge",
+               fmt::format(R"(move less of the surface, or let what moves follow: {}; )"
+                           R"({{"do":"hold","mode":"free"}} lets it open)",
+                           all_follow(ids)))
       .with({opens ? ErrorCode::edge_would_open : ErrorCode::edge_would_turn,
              {{"edge", worst.id},
               {"surface", surface},
-              {opens ? "distance" : "angle", opens ? worst.distance : worst.turn * 180 / std::numbers::pi},
+              {opens ? "distance" : "angle",
+               opens ? worst.distance : worst.turn * 180 / std::numbers::pi},
               {"edges", ids}}});
 }
 
@@ -61,7 +67,8 @@ Error opened_edge(const MovedTrim& worst, const std::string& surface, const std:
 
 namespace {
 
-/// The order at which the edges of faces on a surface are held, all alike; none: nothing is said of them all.
+/// The order at which the edges of faces on a surface are held, all alike; none: nothing is said of
+/// them all.
 std::optional<int> order_of_all(const SceneSurface& s) {
   std::optional<int> order;
   for (const KeptConstraint& kept : s.constraints) {
@@ -72,7 +79,8 @@ std::optional<int> order_of_all(const SceneSurface& s) {
 
 /// Whether nothing is said of what holds a surface, but of edges that follow.
 bool nothing_said(const SceneSurface& s) {
-  return s.hold_rows == 0 && s.pins.empty() && std::ranges::all_of(s.constraints, [](const KeptConstraint& kept) {
+  return s.hold_rows == 0 && s.pins.empty() &&
+         std::ranges::all_of(s.constraints, [](const KeptConstraint& kept) {
            const auto* edge = std::get_if<TrimEdgeHold>(&kept.constraint);
            return edge != nullptr && edge->follow;
          });
@@ -134,18 +142,21 @@ Expected<void> check_held_edges(Act& act, const Scene& before) {
   for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
     const SceneSurface& present = std::as_const(act.state.surfaces)[k];
     const SceneSurface* const was = find_surface(before, present.id, k);
-    if (was == nullptr || was->current == present.current || !holds_trims(present.constraints)) continue;
+    if (was == nullptr || was->current == present.current || !holds_trims(present.constraints))
+      continue;
     SceneSurface& s = act.state.surfaces[k];
     const auto region = visible(act, s);
     if (!region) return std::unexpected(region.error());
     std::vector<int> orders = trim_orders(s.constraints, **region);
     for (std::size_t e = 0; e < orders.size(); ++e) {
-      if ((*region)->edges[e].neighbours.empty()) orders[e] = -1;  // a side where no face would part from another
+      if ((*region)->edges[e].neighbours.empty())
+        orders[e] = -1;  // a side where no face would part from another
     }
     const auto moved = moved_trims(*was->current, *s.current, orders, **region);
     if (!moved) return std::unexpected(moved.error());
     for (const MovedTrim& edge : *moved) {
-      const bool more = edge.distance != worst.distance ? edge.distance > worst.distance : edge.turn > worst.turn;
+      const bool more =
+          edge.distance != worst.distance ? edge.distance > worst.distance : edge.turn > worst.turn;
       if (ids.empty() || more) {
         worst = edge;
         surface = s.id;
@@ -162,7 +173,8 @@ Expected<std::vector<PartedEdge>> Session::parted_edges() const {
   std::vector<std::string> moved;
   for (std::size_t k = 0; model != nullptr && k < state().surfaces.size(); ++k) {
     const std::string& id = state().surfaces[k].id;
-    if (model->find_surface(id) != nullptr && moved_control_points(static_cast<int>(k)) > 0) moved.push_back(id);
+    if (model->find_surface(id) != nullptr && moved_control_points(static_cast<int>(k)) > 0)
+      moved.push_back(id);
   }
   if (moved.empty()) return std::vector<PartedEdge>();
   const auto contacts = edge_contacts(*model, moved);
@@ -171,8 +183,9 @@ Expected<std::vector<PartedEdge>> Session::parted_edges() const {
 }
 
 bool holds_edges(const Scene& scene) {
-  return std::ranges::any_of(
-      scene.selection(), [&](int k) { return holds_trims(scene.surfaces[static_cast<std::size_t>(k)].constraints); });
+  return std::ranges::any_of(scene.selection(), [&](int k) {
+    return holds_trims(scene.surfaces[static_cast<std::size_t>(k)].constraints);
+  });
 }
 
 Error all_held(const Scene& scene, const std::string& tool) {
@@ -186,8 +199,10 @@ Error all_held(const Scene& scene, const std::string& tool) {
     std::string what;
     if (s.hold_rows > 0) {
       what = fmt::format("hold of {} rows on its net of {} x {}", s.hold_rows, m, n);
-      remedy = R"(hold the edges of the face instead, {"do":"hold","mode":"trim"}, or fewer rows, or refine first)";
-      say(ErrorCode::nothing_free_in_rows, {"surface", s.id}, {"rows", static_cast<double>(s.hold_rows)});
+      remedy = R"(hold the edges of the face instead, {"do":"hold","mode":"trim"}, or fewer rows, )"
+               R"(or refine first)";
+      say(ErrorCode::nothing_free_in_rows, {"surface", s.id},
+          {"rows", static_cast<double>(s.hold_rows)});
     } else if (holds_trims(s.constraints)) {
       what = fmt::format("hold of the edges of its faces on its net of {} x {}", m, n);
       remedy = scene.permission == RefinePermission::never
@@ -201,7 +216,8 @@ Error all_held(const Scene& scene, const std::string& tool) {
     }
     by += fmt::format("{}{}: {}", by.empty() ? "" : "; ", s.id, what);
   }
-  return Error(ErrorKind::numerical, fmt::format("nothing is free to move under the tool {} ({})", tool, by), "step",
+  return Error(ErrorKind::numerical,
+               fmt::format("nothing is free to move under the tool {} ({})", tool, by), "step",
                remedy + R"(; or go on regardless with "allow":"held")")
       .with(std::move(diagnostic));
 }

@@ -30,17 +30,20 @@ std::vector<SeamReport> seams_in_scene(std::span<const SeamReport> reports, cons
 double depth_in_shapes(std::span<const OpenStroke::Before> shapes, std::span<const Tool> tools) {
   double depth = 0;
   for (const OpenStroke::Before& shape : shapes) {
-    depth = std::max({depth, depth_in(*shape.current, tools, nullptr), standing_in(*shape.current, tools)});
+    depth = std::max(
+        {depth, depth_in(*shape.current, tools, nullptr), standing_in(*shape.current, tools)});
   }
   return depth;
 }
 
 void MotionLaw::count_standing() {
-  for (const OpenStroke::Before& before : from_) reach_ = std::max(reach_, standing_in(*before.current, tools_));
+  for (const OpenStroke::Before& before : from_)
+    reach_ = std::max(reach_, standing_in(*before.current, tools_));
   standing_ = true;
 }
 
-/// Motion is measured from the rest shapes as they are now, on the present nets, unless it is already.
+/// Motion is measured from the rest shapes as they are now, on the present nets, unless it is
+/// already.
 void MotionLaw::measure_from_rest(const Scene& scene) {
   const std::vector<int> selection = scene.selection();
   from_.resize(selection.size());
@@ -87,7 +90,8 @@ Expected<void> MotionLaw::ask_of_steps(const Scene& scene, const EvolutionPolicy
   for (std::size_t k = 0; k < selection.size(); ++k) {
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(selection[k])];
     const Surface& shape = first ? *s.current : *from_[k].current;
-    deepest = std::max(deepest, depth_in(shape, *tools, holds_trims(s.constraints) ? s.visible.get() : nullptr));
+    deepest = std::max(
+        deepest, depth_in(shape, *tools, holds_trims(s.constraints) ? s.visible.get() : nullptr));
   }
   const Points places = first ? active_state(scene).control_points : points_from(scene);
   for (const PointForce& grip : grips) {
@@ -136,7 +140,8 @@ void MotionLaw::ask_of_brush(const OpenBrush& brush, double asked) {
   from_ = brush.before;
 }
 
-bool MotionLaw::shortens(const Scene& scene, const ActiveStep& step, ActiveLoads& loads, const Model& model) {
+bool MotionLaw::shortens(const Scene& scene, const ActiveStep& step, ActiveLoads& loads,
+                         const Model& model) {
   if (!bounds() || loads.limit > 0 || has_shells(scene) ||
       !held_all_round(scene, seams_in_scene(model.seams(), scene))) {
     return false;
@@ -144,7 +149,8 @@ bool MotionLaw::shortens(const Scene& scene, const ActiveStep& step, ActiveLoads
   double room = (1 + 0.5 * law_tolerance) * reach_, moved = 0;
   Eigen::Index first = 0;
   for (const OpenStroke::Before& from : from_) {
-    const auto there = from.current->with_control_points(step.control_points.middleRows(first, from.current->size()));
+    const auto there = from.current->with_control_points(
+        step.control_points.middleRows(first, from.current->size()));
     first += from.current->size();
     if (there) moved = std::max(moved, largest_motion(*there, *from.current, room));
   }
@@ -177,7 +183,8 @@ double MotionLaw::static_motion(Scene scene) const {
   Eigen::Index first = 0;
   for (const OpenStroke::Before& from : from_) {
     const Surface& rest = *from.current;
-    const auto there = rest.with_control_points(step->control_points.middleRows(first, rest.size()));
+    const auto there =
+        rest.with_control_points(step->control_points.middleRows(first, rest.size()));
     first += rest.size();
     if (there) largest = std::max(largest, largest_distance(*there, rest));
   }
@@ -192,18 +199,22 @@ std::optional<double> MotionLaw::share_allowed(SessionState& state) {
     reach_ = std::max(reach_, depth_in(*from.current, tools_, nullptr));
   }
   count_standing();
-  const bool lever = (!tools_.empty() || !grips_.empty()) && !held_all_round(state, state.seam_reports);
+  const bool lever =
+      (!tools_.empty() || !grips_.empty()) && !held_all_round(state, state.seam_reports);
   if (!(moved > most * reach_) || (lever && has_shells(state))) return {};
   const double bound = lever ? std::max(reach_, static_motion(state)) : reach_;
   if (!(moved > most * bound)) {
     note_last(state, "free sides move",
-              fmt::format(" {:.2f} times as far as was asked for, as a lever does at rest; hold them to prevent that",
+              fmt::format(" {:.2f} times as far as was asked for, as a lever does at rest; hold "
+                          "them to prevent that",
                           moved / reach_));
     return {};
   }
-  note_last(state, "made smaller",
-            fmt::format(": {:.3g} of what it would have been, which moves {:.4g} where {:.4g} was asked for",
-                        bound / moved, moved, bound));
+  note_last(
+      state, "made smaller",
+      fmt::format(
+          ": {:.3g} of what it would have been, which moves {:.4g} where {:.4g} was asked for",
+          bound / moved, moved, bound));
   return bound / moved;
 }
 

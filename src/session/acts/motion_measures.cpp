@@ -46,7 +46,8 @@ bool is_closed(const Surface& s, int direction) {
   for (int k = 0; k <= samples; ++k) {
     const double t = std::min(along.lower + along.length() * k / samples, along.upper);
     const auto at = [&](double end) {
-      return evaluate_point<2>(s, direction == 0 ? std::array<double, 2>{end, t} : std::array<double, 2>{t, end});
+      return evaluate_point<2>(
+          s, direction == 0 ? std::array<double, 2>{end, t} : std::array<double, 2>{t, end});
     };
     const auto a = at(across.lower), b = at(across.upper);
     if (!a || !b || (*a - *b).norm() > 1e-9 * box.diagonal()) return false;
@@ -73,7 +74,8 @@ bool trims_are_held(const SceneSurface& s) {
          });
 }
 
-/// Values of a displacement at (p + 3)(q + 3) places of every span where a control point goes beyond `reach`.
+/// Values of a displacement at (p + 3)(q + 3) places of every span where a control point goes
+/// beyond `reach`.
 struct FarValues {
   std::vector<std::array<double, 2>> places;
   Points values;
@@ -90,7 +92,8 @@ std::optional<FarValues> values_beyond(const Surface& shape, const Points& way, 
     for (const int b : v.spans()) {
       double largest = 0;
       for (int i = a - u.degree(); i <= a; ++i) {
-        for (int j = b - v.degree(); j <= b; ++j) largest = std::max(largest, lengths[i * columns + j]);
+        for (int j = b - v.degree(); j <= b; ++j)
+          largest = std::max(largest, lengths[i * columns + j]);
       }
       for (int i = 0; largest > reach && i <= last_u; ++i) {
         for (int j = 0; j <= last_v; ++j) {
@@ -101,7 +104,8 @@ std::optional<FarValues> values_beyond(const Surface& shape, const Points& way, 
     }
   }
   if (result.places.empty()) return std::nullopt;
-  const Eigen::Map<const Parameters<2>> at(result.places.front().data(), std::ssize(result.places), 2);
+  const Eigen::Map<const Parameters<2>> at(result.places.front().data(), std::ssize(result.places),
+                                           2);
   auto values = evaluate<2>(*field, Parameters<2>(at), 0);
   if (!values) return std::nullopt;
   result.values = values->points();
@@ -111,7 +115,9 @@ std::optional<FarValues> values_beyond(const Surface& shape, const Points& way, 
 bool is_joined(const std::vector<SeamReport>& seams, int surface, SurfaceEdge edge) {
   return std::ranges::any_of(seams, [&](const SeamReport& report) {
     if (report.continuity == SeamContinuity::none) return false;
-    const auto at = [&](const PatchEdge& side) { return side.patch == surface && side.edge == edge; };
+    const auto at = [&](const PatchEdge& side) {
+      return side.patch == surface && side.edge == edge;
+    };
     return at(report.seam.a) || at(report.seam.b);
   });
 }
@@ -132,7 +138,8 @@ double largest_motion(const Surface& a, const Surface& b, double enough) {
   return sampled > 0.9 * enough ? largest_distance(a, b) : sampled;
 }
 
-Expected<std::shared_ptr<const Surface>> part_of_way(const Surface& from, const std::shared_ptr<const Surface>& to,
+Expected<std::shared_ptr<const Surface>> part_of_way(const Surface& from,
+                                                     const std::shared_ptr<const Surface>& to,
                                                      double share) {
   const Points &start = from.control_points(), &end = to->control_points();
   if (start == end) return to;
@@ -173,7 +180,8 @@ bool held_all_round(const Scene& scene, const std::vector<SeamReport>& seams) {
   for (const int k : scene.selection()) {
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
     if (trims_are_held(s)) continue;
-    for (const SurfaceEdge edge : {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1}) {
+    for (const SurfaceEdge edge :
+         {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1}) {
       const int direction = edge == SurfaceEdge::u0 || edge == SurfaceEdge::u1 ? 0 : 1;
       if (side_is_held(s, edge) || is_joined(seams, k, edge)) continue;
       if (is_pole(*s.reference, edge) || is_closed(*s.reference, direction)) continue;
@@ -184,11 +192,15 @@ bool held_all_round(const Scene& scene, const std::vector<SeamReport>& seams) {
 }
 
 bool only_pressed(const Scene& scene, const EvolutionPolicy& evolution) {
-  if (evolution.mode == Evolution::dynamic || !scene.forces.empty() || !(scene.load == Load{})) return false;
-  if (std::ranges::any_of(scene.tools, [](const Tool& t) { return !t.collides() || t.friction > 0; })) return false;
+  if (evolution.mode == Evolution::dynamic || !scene.forces.empty() || !(scene.load == Load{}))
+    return false;
+  if (std::ranges::any_of(scene.tools,
+                          [](const Tool& t) { return !t.collides() || t.friction > 0; }))
+    return false;
   return std::ranges::all_of(scene.selection(), [&](int k) {
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-    return s.mode == RestMode::shape && std::ranges::none_of(s.constraints, [](const KeptConstraint& kept) {
+    return s.mode == RestMode::shape &&
+           std::ranges::none_of(s.constraints, [](const KeptConstraint& kept) {
              const auto* pin = std::get_if<PointPin>(&kept.constraint);
              return pin != nullptr && pin->to;
            });

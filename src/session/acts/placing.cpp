@@ -25,10 +25,13 @@ constexpr double limit_tolerance = 1e-6;     // relative, as for steps
 constexpr double frozen_tolerance = 1e-7;    // of the size, on another basis
 constexpr double seam_tolerance = 1e-6;      // of the size, beyond what a seam was open
 
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 
 bool same_bits(const Points& a, const Points& b, Eigen::Index row) {
-  return same_bits(a(row, 0), b(row, 0)) && same_bits(a(row, 1), b(row, 1)) && same_bits(a(row, 2), b(row, 2));
+  return same_bits(a(row, 0), b(row, 0)) && same_bits(a(row, 1), b(row, 1)) &&
+         same_bits(a(row, 2), b(row, 2));
 }
 
 /// p + 2 places in every span of a part of a domain, its ends included.
@@ -38,7 +41,8 @@ std::vector<double> places_in(const KnotVector& knots, const Interval& part) {
   const auto all = knots.knots();
   for (std::size_t k = 0; k + 1 < all.size(); ++k) {
     const double lower = std::max(all[k], part.lower), upper = std::min(all[k + 1], part.upper);
-    for (int i = 1; i <= count && lower < upper; ++i) places.push_back(lower + (upper - lower) * i / count);
+    for (int i = 1; i <= count && lower < upper; ++i)
+      places.push_back(lower + (upper - lower) * i / count);
   }
   return places;
 }
@@ -66,23 +70,26 @@ struct Placed {
           weight(before, k) == weight(*now.current, k)) {
         continue;
       }
-      return input_error(fmt::format("{}: control point {} ({}, {}) is frozen", now.id, k, k / n, k % n),
-                         std::string(command), "leave it as it is, or release it first",
-                         {ErrorCode::point_frozen, {{"point", static_cast<double>(k)}}});
+      return input_error(
+          fmt::format("{}: control point {} ({}, {}) is frozen", now.id, k, k / n, k % n),
+          std::string(command), "leave it as it is, or release it first",
+          {ErrorCode::point_frozen, {{"point", static_cast<double>(k)}}});
     }
     return {};
   }
 
   /// Of a surface on another basis.
   [[nodiscard]] Expected<void> check_frozen_points(const FrozenRegion& frozen) const {
-    const std::vector<double> u = places_in(before.knots(0), frozen.u), v = places_in(before.knots(1), frozen.v);
+    const std::vector<double> u = places_in(before.knots(0), frozen.u),
+                              v = places_in(before.knots(1), frozen.v);
     const auto then = evaluate_grid<2>(before, {u, v}), is = evaluate_grid<2>(*now.current, {u, v});
     if (!then) return std::unexpected(then.error());
     if (!is) return std::unexpected(is.error());
     const double farthest = (is->points() - then->points()).rowwise().norm().maxCoeff();
     if (farthest <= frozen_tolerance * net_size(before)) return {};
-    return input_error(fmt::format("{}: a frozen region would move by {:.3g}", now.id, farthest), std::string(command),
-                       "release it first", {ErrorCode::region_frozen, {{"surface", now.id}, {"distance", farthest}}});
+    return input_error(fmt::format("{}: a frozen region would move by {:.3g}", now.id, farthest),
+                       std::string(command), "release it first",
+                       {ErrorCode::region_frozen, {{"surface", now.id}, {"distance", farthest}}});
   }
 
   template <class Symmetry>
@@ -92,26 +99,32 @@ struct Placed {
     if (!base || base->knots() != now.current->knots()) return {};
     const Points motion = now.current->control_points() - base->control_points();
     const double largest = motion.cwiseAbs().maxCoeff();
-    // Knots were inserted: where their mirror images are missing, the next model inserts them or says so.
-    if (before.knots() != now.current->knots() && largest <= frozen_tolerance * net_size(before)) return {};
+    // Knots were inserted: where their mirror images are missing, the next model inserts them or
+    // says so.
+    if (before.knots() != now.current->knots() && largest <= frozen_tolerance * net_size(before))
+      return {};
     ConstraintList list(now.reference->size());
     if (auto made = symmetry_constraints(*now.reference, symmetry, list); !made) return made;
     for (const LinearConstraint& c : list.constraints) {
       Point sum = Point::Zero();
-      for (const auto& [row, coefficient] : c.terms) sum += coefficient * motion.row(row).transpose();
+      for (const auto& [row, coefficient] : c.terms)
+        sum += coefficient * motion.row(row).transpose();
       const double off = c.normal ? std::abs(c.normal->normalized().dot(sum)) : sum.norm();
       if (off <= symmetry_tolerance * largest) continue;
-      return input_error(fmt::format("{}: the kept symmetry would be lost", now.id), std::string(command),
-                         "move the mirror images too, each mirrored, or release the symmetry first");
+      return input_error(
+          fmt::format("{}: the kept symmetry would be lost", now.id), std::string(command),
+          "move the mirror images too, each mirrored, or release the symmetry first");
     }
     return {};
   }
 
   [[nodiscard]] Expected<void> check_limit(double limit) const {
-    const double was = largest_distance(before, *now.opened), is = largest_distance(*now.current, *now.opened);
+    const double was = largest_distance(before, *now.opened),
+                 is = largest_distance(*now.current, *now.opened);
     if (is <= limit * (1 + limit_tolerance) || is <= was) return {};
     return input_error(
-        fmt::format("{} would be {:.6g} from where it was opened, and {:.6g} is the limit", now.id, is, limit),
+        fmt::format("{} would be {:.6g} from where it was opened, and {:.6g} is the limit", now.id,
+                    is, limit),
         std::string(command), R"(move it less, or end the limit: {"do":"limit"})",
         {ErrorCode::beyond_limit, {{"distance", is}, {"limit", limit}}});
   }
@@ -157,15 +170,16 @@ Expected<void> check_seams(const Scene& scene, const Scene& before, std::string_
     const auto edge = [&](const PatchEdge& e) {
       return fmt::format("{}, edge {}", ids[static_cast<std::size_t>(e.patch)], edge_name(e.edge));
     };
-    return std::unexpected(Error(ErrorKind::numerical,
-                                 fmt::format("the seam between {} and {} would open by {:.3g}; this was refused",
-                                             edge(seam.a), edge(seam.b), *gap),
-                                 std::string(command),
-                                 R"(move less, or let the surfaces part: {"do":"seams","couple":false})")
-                               .with({ErrorCode::seam_would_open,
-                                      {{"first", ids[static_cast<std::size_t>(seam.a.patch)]},
-                                       {"second", ids[static_cast<std::size_t>(seam.b.patch)]},
-                                       {"distance", *gap}}}));
+    return std::unexpected(
+        Error(ErrorKind::numerical,
+              fmt::format("the seam between {} and {} would open by {:.3g}; this was refused",
+                          edge(seam.a), edge(seam.b), *gap),
+              std::string(command),
+              R"(move less, or let the surfaces part: {"do":"seams","couple":false})")
+            .with({ErrorCode::seam_would_open,
+                   {{"first", ids[static_cast<std::size_t>(seam.a.patch)]},
+                    {"second", ids[static_cast<std::size_t>(seam.b.patch)]},
+                    {"distance", *gap}}}));
   }
   return {};
 }
@@ -173,9 +187,9 @@ Expected<void> check_seams(const Scene& scene, const Scene& before, std::string_
 }  // namespace
 
 template <int D>
-Expected<std::shared_ptr<const Spline<D>>> moved_along(const std::shared_ptr<const Spline<D>>& shape,
-                                                       const Spline<D>& before,
-                                                       const std::shared_ptr<const Spline<D>>& after) {
+Expected<std::shared_ptr<const Spline<D>>> moved_along(
+    const std::shared_ptr<const Spline<D>>& shape, const Spline<D>& before,
+    const std::shared_ptr<const Spline<D>>& after) {
   const Points &from = before.control_points(), &to = after->control_points();
   Points points = shape->control_points();
   bool any = false, all = true;
@@ -222,12 +236,13 @@ Expected<void> check_placed(Act& act, const Scene& before, std::string_view comm
   return check_held_edges(act, before);
 }
 
-template Expected<std::shared_ptr<const Curve>> moved_along<1>(const std::shared_ptr<const Curve>&, const Curve&,
+template Expected<std::shared_ptr<const Curve>> moved_along<1>(const std::shared_ptr<const Curve>&,
+                                                               const Curve&,
                                                                const std::shared_ptr<const Curve>&);
-template Expected<std::shared_ptr<const Surface>> moved_along<2>(const std::shared_ptr<const Surface>&, const Surface&,
-                                                                 const std::shared_ptr<const Surface>&);
-template Expected<std::shared_ptr<const Volume>> moved_along<3>(const std::shared_ptr<const Volume>&, const Volume&,
-                                                                const std::shared_ptr<const Volume>&);
+template Expected<std::shared_ptr<const Surface>> moved_along<2>(
+    const std::shared_ptr<const Surface>&, const Surface&, const std::shared_ptr<const Surface>&);
+template Expected<std::shared_ptr<const Volume>> moved_along<3>(
+    const std::shared_ptr<const Volume>&, const Volume&, const std::shared_ptr<const Volume>&);
 template Expected<void> put<1>(SceneShape<1>&, std::shared_ptr<const Spline<1>>);
 template Expected<void> put<2>(SceneShape<2>&, std::shared_ptr<const Spline<2>>);
 template Expected<void> put<3>(SceneShape<3>&, std::shared_ptr<const Spline<3>>);

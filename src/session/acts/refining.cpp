@@ -19,15 +19,17 @@ namespace knead {
 
 std::string net_note(const SceneSurface& s) {
   const auto [m, n] = s.current->net();
-  return fmt::format("{}: the net is now {} x {}, degree {} x {}", s.id, m, n, s.current->knots(0).degree(),
-                     s.current->knots(1).degree());
+  return fmt::format("{}: the net is now {} x {}, degree {} x {}", s.id, m, n,
+                     s.current->knots(0).degree(), s.current->knots(1).degree());
 }
 
 namespace {
 
-constexpr int least_limit = 40'000, grown = 4;  // of control points, and times those of the file, where nobody asked
+constexpr int least_limit = 40'000,
+              grown = 4;  // of control points, and times those of the file, where nobody asked
 
-/// The rectangle of parameters of all spans whose control points come near the tool; none if there are none.
+/// The rectangle of parameters of all spans whose control points come near the tool; none if there
+/// are none.
 std::optional<std::array<Interval, 2>> reach_of(const Surface& surface, const Tool& tool) {
   const ModelTool probe(tool, Point::Zero(), 1);
   const std::vector<int> us = surface.knots(0).spans(), vs = surface.knots(1).spans();
@@ -43,12 +45,15 @@ std::optional<std::array<Interval, 2>> reach_of(const Surface& surface, const To
         }
       }
       if (!probe.may_reach(lower, upper)) continue;
-      const Interval u{surface.knots(0)[a], surface.knots(0)[a + 1]}, v{surface.knots(1)[b], surface.knots(1)[b + 1]};
+      const Interval u{surface.knots(0)[a], surface.knots(0)[a + 1]},
+          v{surface.knots(1)[b], surface.knots(1)[b + 1]};
       if (!result) {
         result = {u, v};
       } else {
-        (*result)[0] = {std::min((*result)[0].lower, u.lower), std::max((*result)[0].upper, u.upper)};
-        (*result)[1] = {std::min((*result)[1].lower, v.lower), std::max((*result)[1].upper, v.upper)};
+        (*result)[0] = {std::min((*result)[0].lower, u.lower),
+                        std::max((*result)[0].upper, u.upper)};
+        (*result)[1] = {std::min((*result)[1].lower, v.lower),
+                        std::max((*result)[1].upper, v.upper)};
       }
     }
   }
@@ -60,12 +65,15 @@ double distance_from(const Surface& surface, SurfaceEdge edge, const Point& plac
   constexpr int samples = 65;
   const auto across = static_cast<std::size_t>(edge_across(edge));
   std::array<std::vector<double>, 2> at;
-  const Interval fixed = surface.knots()[across].domain(), along = surface.knots()[1 - across].domain();
+  const Interval fixed = surface.knots()[across].domain(),
+                 along = surface.knots()[1 - across].domain();
   at[across] = {edge_at_end(edge) ? fixed.upper : fixed.lower};
   for (int k = 0; k < samples; ++k) {
-    at[1 - across].push_back(std::min(along.lower + along.length() * k / (samples - 1), along.upper));
+    at[1 - across].push_back(
+        std::min(along.lower + along.length() * k / (samples - 1), along.upper));
   }
-  const auto points = evaluate_grid<2>(surface, {std::span<const double>(at[0]), std::span<const double>(at[1])}, 0);
+  const auto points = evaluate_grid<2>(
+      surface, {std::span<const double>(at[0]), std::span<const double>(at[1])}, 0);
   if (!points) return std::numeric_limits<double>::infinity();
   return (points->points().rowwise() - place.transpose()).rowwise().norm().minCoeff();
 }
@@ -74,8 +82,9 @@ double distance_from(const Surface& surface, SurfaceEdge edge, const Point& plac
 
 Expected<void> change_basis(Act& act, SceneSurface& surface, const SurfaceChange& change) {
   if (act.state.limit) {
-    return input_error("a limit is measured on the weights and knots that the surface was opened with", "limit",
-                       R"(end it first: {"do":"limit"})", {ErrorCode::limit_keeps_basis});
+    return input_error(
+        "a limit is measured on the weights and knots that the surface was opened with", "limit",
+        R"(end it first: {"do":"limit"})", {ErrorCode::limit_keeps_basis});
   }
   // `opened` is unchanged: deviations are measured from it.
   if (auto done = knead::change_basis(surface, change); !done) return done;
@@ -113,11 +122,14 @@ Expected<bool> refine_under(Act& act, const Tool& tool, bool limited) {
       if (!limited || !finer || finer->size() <= limit) return finer;
       const auto [m, n] = finer->net();
       return numerical_error(
-          fmt::format("the tool {} needs a net of {} x {} on {}, more than the {} control points to which a command "
+          fmt::format("the tool {} needs a net of {} x {} on {}, more than the {} control points "
+                      "to which a command "
                       "refines by itself",
                       tool.name, m, n, s.id, limit),
           tool.name,
-          R"(take a larger tool, refine where it matters, {"do":"refine","region":[[0.4,0.6],[0.4,0.6]]}, or go on with a coarse net: {"do":"refine","permission":"never"})",
+          R"(take a larger tool, refine where it matters, )"
+          R"({"do":"refine","region":[[0.4,0.6],[0.4,0.6]]}, )"
+          R"(or go on with a coarse net: {"do":"refine","permission":"never"})",
           {ErrorCode::net_too_large, {{"tool", tool.name}, {"surface", s.id}}});
     });
     if (!done) return std::unexpected(done.error());
@@ -130,7 +142,8 @@ namespace {
 Expected<void> refine_as(Act& act, const std::vector<SeamRefinement>& refinements) {
   const std::vector<int> selection = act.state.selection();
   for (const SeamRefinement& r : refinements) {
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[static_cast<std::size_t>(r.patch)])];
+    SceneSurface& s =
+        act.state.surfaces[static_cast<std::size_t>(selection[static_cast<std::size_t>(r.patch)])];
     auto done = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {
       Expected<Surface> result = shape;
       if (r.elevate > 0) result = elevate_degree<2>(shape, r.direction, r.elevate);
@@ -150,7 +163,8 @@ Expected<void> refine_seams(Act& act, bool followed) {
   if (!act.state.seams.couple) return {};
   std::vector<const Surface*> patches;
   const std::vector<int> selection = act.state.selection();
-  for (int index : selection) patches.push_back(act.state.surfaces[static_cast<std::size_t>(index)].reference.get());
+  for (int index : selection)
+    patches.push_back(act.state.surfaces[static_cast<std::size_t>(index)].reference.get());
   const auto found = seams_between(act.state.seams, patches);
   if (!found) return std::unexpected(found.error());
   std::vector<Seam> whole;
@@ -161,7 +175,8 @@ Expected<void> refine_seams(Act& act, bool followed) {
   return refine_as(act, seam_refinements(patches, whole));
 }
 
-Expected<void> unite_restricted(Act& act, std::span<const SeamReport> reports, const Point& place, double reach) {
+Expected<void> unite_restricted(Act& act, std::span<const SeamReport> reports, const Point& place,
+                                double reach) {
   if (act.state.permission == RefinePermission::never) return {};
   std::vector<const SceneSurface*> surfaces;
   std::vector<const Surface*> patches;
@@ -171,10 +186,12 @@ Expected<void> unite_restricted(Act& act, std::span<const SeamReport> reports, c
   }
   std::vector<Seam> near;
   for (const SeamReport& report : reports) {
-    const auto a = static_cast<std::size_t>(report.seam.a.patch), b = static_cast<std::size_t>(report.seam.b.patch);
+    const auto a = static_cast<std::size_t>(report.seam.a.patch),
+               b = static_cast<std::size_t>(report.seam.b.patch);
     if (!report.restricted || report.seam.kind != SeamKind::whole) continue;
     if (!surfaces[a]->pins.empty() || !surfaces[b]->pins.empty()) continue;
-    if (distance_from(*surfaces[a]->current, report.seam.a.edge, place) <= reach) near.push_back(report.seam);
+    if (distance_from(*surfaces[a]->current, report.seam.a.edge, place) <= reach)
+      near.push_back(report.seam);
   }
   return refine_as(act, seam_refinements(patches, near));
 }
@@ -187,7 +204,8 @@ Expected<Surface> onto_net(Surface shape, const Surface& like) {
       if (!elevated) return std::unexpected(elevated.error());
       shape = std::move(*elevated);
     }
-    std::ranges::set_difference(like.knots()[d].knots(), shape.knots()[d].knots(), std::back_inserter(more[d]));
+    std::ranges::set_difference(like.knots()[d].knots(), shape.knots()[d].knots(),
+                                std::back_inserter(more[d]));
   }
   return insert_knots<2>(shape, more);
 }
@@ -203,12 +221,14 @@ const Surface* document_surface(const Act& act, const SceneSurface& surface) {
 
 Expected<void> refine_round(Act& act, SceneSurface& s, const TrimContact& contact, double size) {
   if (act.state.permission == RefinePermission::never || !s.pins.empty()) return {};
-  const auto refinement = trim_refinement(*s.reference, contact.at, contact.distance, std::isfinite(size) ? size : 0,
-                                          trim_refinement_cap(*document_surface(act, s)));
+  const auto refinement =
+      trim_refinement(*s.reference, contact.at, contact.distance, std::isfinite(size) ? size : 0,
+                      trim_refinement_cap(*document_surface(act, s)));
   if (!refinement) return std::unexpected(refinement.error());
   if (refinement->capped) {
     act.state.notes.push_back(
-        fmt::format("{}: the net between tool and held edges stays coarser than it should be, as it is limited to {} "
+        fmt::format("{}: the net between tool and held edges stays coarser than it should be, as "
+                    "it is limited to {} "
                     "control points; "
                     "refine it where it matters with {{\"do\":\"refine\"}}",
                     s.id, trim_refinement_cap(*document_surface(act, s))));
@@ -217,14 +237,15 @@ Expected<void> refine_round(Act& act, SceneSurface& s, const TrimContact& contac
   return change_net(act, s, [&](const Surface& shape) { return refinement->apply(shape); });
 }
 
-Expected<void> refine_followed(Act& act, const SceneSurface& touched, const TrimContact& contact, double size) {
+Expected<void> refine_followed(Act& act, const SceneSurface& touched, const TrimContact& contact,
+                               double size) {
   const auto place = evaluate_point<2>(*touched.opened, contact.at);
   if (!place) return std::unexpected(place.error());
   for (const FollowedEdge& edge : act.state.followed) {
     if (!edge.course || !follows(touched, edge.id)) continue;
     const auto& samples = edge.course->samples();
-    const auto near =
-        std::ranges::min_element(samples, {}, [&](const SharedEdge::Sample& s) { return (s.point - *place).norm(); });
+    const auto near = std::ranges::min_element(
+        samples, {}, [&](const SharedEdge::Sample& s) { return (s.point - *place).norm(); });
     if ((near->point - *place).norm() >= contact.distance) continue;
     for (std::size_t k = 0; k < near->feet.size(); ++k) {
       const auto index = find_surface(act, edge.course->surfaces()[k]);
@@ -234,7 +255,8 @@ Expected<void> refine_followed(Act& act, const SceneSurface& touched, const Trim
       if ((&s == &touched && !itself) || !s.visible) continue;
       std::vector<bool> held;
       for (const int order : trim_orders(s.constraints, *s.visible)) held.push_back(order >= 0);
-      TrimContact there{parameters_at_foot(*s.current, near->feet[k]), s.visible->distance(near->point, held)};
+      TrimContact there{parameters_at_foot(*s.current, near->feet[k]),
+                        s.visible->distance(near->point, held)};
       there.distance = std::min(there.distance, contact.distance);
       if (!(there.distance > 0)) continue;
       if (auto done = refine_round(act, s, there, size); !done) return done;
@@ -267,7 +289,8 @@ Expected<void> refine_at_trims(Act& act, SceneSurface& surface, const Fractions&
   const auto place = evaluate_point<2>(*surface.opened, contact.at);
   if (!place) return std::unexpected(place.error());
   std::vector<bool> held;
-  for (const int order : trim_orders(surface.constraints, *surface.visible)) held.push_back(order >= 0);
+  for (const int order : trim_orders(surface.constraints, *surface.visible))
+    held.push_back(order >= 0);
   contact.distance = surface.visible->distance(*place, held);
   if (auto done = refine_round(act, surface, contact, size); !done) return done;
   return refine_followed(act, surface, contact, size);

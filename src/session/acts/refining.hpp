@@ -11,27 +11,34 @@ namespace knead {
 
 // Finer nets of the same shapes.
 
-/// The same control points on other knots or with other weights. Errors: a limit is set (input), and those of `change`.
-[[nodiscard]] Expected<void> change_basis(Act& act, SceneSurface& surface, const SurfaceChange& change);
+/// The same control points on other knots or with other weights. Errors: a limit is set (input),
+/// and those of `change`.
+[[nodiscard]] Expected<void> change_basis(Act& act, SceneSurface& surface,
+                                          const SurfaceChange& change);
 /// The same shapes on another net, which is noted.
-[[nodiscard]] Expected<void> change_net(Act& act, SceneSurface& surface, const SurfaceChange& change);
+[[nodiscard]] Expected<void> change_net(Act& act, SceneSurface& surface,
+                                        const SurfaceChange& change);
 
-/// Refines what seams between selected surfaces need; with `followed` only those between faces at edges that follow.
+/// Refines what seams between selected surfaces need; with `followed` only those between faces at
+/// edges that follow.
 [[nodiscard]] Expected<void> refine_seams(Act& act, bool followed = false);
-/// Unites the knots of coupled edges within reach of a place that have too little in common to bend there
-/// (`SeamReport::restricted`), unless refining is not permitted. `reports` are those of the selected surfaces.
-[[nodiscard]] Expected<void> unite_restricted(Act& act, std::span<const SeamReport> reports, const Point& place,
-                                              double reach);
-/// Halves the spans of the selected surfaces that a tool reaches. Returns whether there were any. Errors (numerical):
-/// `limited`, where nobody asked for it, and a net would get more than 40 000 control points, and four times those that
-/// it has in the file.
+/// Unites the knots of coupled edges within reach of a place that have too little in common to bend
+/// there
+/// (`SeamReport::restricted`), unless refining is not permitted. `reports` are those of the
+/// selected surfaces.
+[[nodiscard]] Expected<void> unite_restricted(Act& act, std::span<const SeamReport> reports,
+                                              const Point& place, double reach);
+/// Halves the spans of the selected surfaces that a tool reaches. Returns whether there were any.
+/// Errors (numerical): `limited`, where nobody asked for it, and a net would get more than 40 000
+/// control points, and four times those that it has in the file.
 [[nodiscard]] Expected<bool> refine_under(Act& act, const Tool& tool, bool limited = false);
 
-/// Refines the selected surfaces of which edges of faces are held, so that something is free under each tool that
-/// touches them.
+/// Refines the selected surfaces of which edges of faces are held, so that something is free under
+/// each tool that touches them.
 [[nodiscard]] Expected<void> refine_trims(Act& act);
 /// The same at one place, for something of this size.
-[[nodiscard]] Expected<void> refine_at_trims(Act& act, SceneSurface& surface, const Fractions& at, double size);
+[[nodiscard]] Expected<void> refine_at_trims(Act& act, SceneSurface& surface, const Fractions& at,
+                                             double size);
 
 /// A shape on the net of another one, whose degrees are these or more, as are its knots then.
 [[nodiscard]] Expected<Surface> onto_net(Surface shape, const Surface& like);

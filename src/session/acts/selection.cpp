@@ -16,7 +16,8 @@ SceneBody* body(Act& act) {
 }
 
 std::unexpected<Error> of_surfaces(Act& act, std::string_view field, const char* remedy) {
-  return input_error(fmt::format("a {} has no {}", kind_of(*body(act)), field), std::string(field), remedy);
+  return input_error(fmt::format("a {} has no {}", kind_of(*body(act)), field), std::string(field),
+                     remedy);
 }
 
 Expected<void> some_selected(Act& act) {
@@ -29,32 +30,40 @@ Expected<SceneSurface*> selected(Act& act) {
   if (act.state.selected) return &act.state.surfaces[static_cast<std::size_t>(*act.state.selected)];
   if (act.state.body) {
     const SceneBody& b = *body(act);
-    return input_error(fmt::format("the {} {} is selected, and this acts on surfaces", kind_of(b), common_of(b).id), {},
-                       "select a surface first");
+    return input_error(fmt::format("the {} {} is selected, and this acts on surfaces", kind_of(b),
+                                   common_of(b).id),
+                       {}, "select a surface first");
   }
   if (act.document.is_fresh() && act.state.surfaces.empty()) {
-    return input_error("there is no surface yet", {}, R"(make one first: {"do":"new","size":[1,1],"net":[8,8]})",
+    return input_error("there is no surface yet", {},
+                       R"(make one first: {"do":"new","size":[1,1],"net":[8,8]})",
                        {ErrorCode::no_surface});
   }
   if (act.state.surfaces.empty() && !act.state.bodies.empty()) {
     return input_error(
         "the file has no B-spline surface", act.document.name(),
-        fmt::format(R"(select one of its curves: {{"do":"select","body":"{}"}})", common_of(act.state.bodies[0]).id),
+        fmt::format(R"(select one of its curves: {{"do":"select","body":"{}"}})",
+                    common_of(act.state.bodies[0]).id),
         {ErrorCode::no_spline_surface, {{"body", common_of(act.state.bodies[0]).id}}});
   }
   if (act.state.surfaces.empty()) {
-    const auto others = act.document.model() == nullptr ? std::vector<brep::OtherSurface>()
-                                                        : brep::other_surfaces(*act.document.model());
+    const auto others = act.document.model() == nullptr
+                            ? std::vector<brep::OtherSurface>()
+                            : brep::other_surfaces(*act.document.model());
     if (others.empty())
-      return input_error("the file has no B-spline surface that could be sculpted", act.document.name());
-    return input_error("the file has no B-spline surface that could be sculpted", act.document.name(),
-                       fmt::format(R"(make one of another surface: {{"do":"convert","surface":"{}"}})", others[0].id),
-                       {ErrorCode::no_spline_surface, {{"surface", others[0].id}}});
+      return input_error("the file has no B-spline surface that could be sculpted",
+                         act.document.name());
+    return input_error(
+        "the file has no B-spline surface that could be sculpted", act.document.name(),
+        fmt::format(R"(make one of another surface: {{"do":"convert","surface":"{}"}})",
+                    others[0].id),
+        {ErrorCode::no_spline_surface, {{"surface", others[0].id}}});
   }
-  return input_error(
-      fmt::format("none of the {} surfaces is selected", act.state.surfaces.size()), {},
-      fmt::format(R"(select one first: {{"do":"select","surface":"{}"}})", act.state.surfaces.front().id),
-      {ErrorCode::none_selected, {{"surface", act.state.surfaces.front().id}}});
+  return input_error(fmt::format("none of the {} surfaces is selected", act.state.surfaces.size()),
+                     {},
+                     fmt::format(R"(select one first: {{"do":"select","surface":"{}"}})",
+                                 act.state.surfaces.front().id),
+                     {ErrorCode::none_selected, {{"surface", act.state.surfaces.front().id}}});
 }
 
 Expected<SceneSurface*> selected_alone(Act& act) {
@@ -62,7 +71,8 @@ Expected<SceneSurface*> selected_alone(Act& act) {
   if (!surface || act.state.together.empty()) return surface;
   return input_error(
       fmt::format("{} surfaces are selected", act.state.together.size() + 1), "select",
-      fmt::format(R"(select only the one that is meant: {{"do":"select","surface":"{}"}})", (*surface)->id),
+      fmt::format(R"(select only the one that is meant: {{"do":"select","surface":"{}"}})",
+                  (*surface)->id),
       {ErrorCode::several_selected, {{"surface", (*surface)->id}}});
 }
 
@@ -78,7 +88,8 @@ Expected<int> find_surface(const Act& act, const std::string& id) {
     const auto others = brep::other_surfaces(*act.document.model());
     const auto other = std::ranges::find(others, id, &brep::OtherSurface::id);
     if (other != others.end()) {
-      return input_error(fmt::format("{} is a {}, not a B-spline surface", id, other->form), "surface",
+      return input_error(fmt::format("{} is a {}, not a B-spline surface", id, other->form),
+                         "surface",
                          fmt::format(R"(convert it first: {{"do":"convert","surface":"{}"}})", id),
                          {ErrorCode::not_a_spline, {{"surface", id}, {"form", other->form}}});
     }
@@ -89,9 +100,9 @@ Expected<int> find_surface(const Act& act, const std::string& id) {
     }
   }
   if (act.state.surfaces.size() > listed) known += ", …";
-  return input_error(
-      fmt::format("{} has no surface {}", act.document.name(), id), "surface",
-      known.empty() ? "the file has no B-spline surface that could be sculpted" : "its surfaces are: " + known);
+  return input_error(fmt::format("{} has no surface {}", act.document.name(), id), "surface",
+                     known.empty() ? "the file has no B-spline surface that could be sculpted"
+                                   : "its surfaces are: " + known);
 }
 
 Expected<int> selected_surface(Act& act, const std::optional<std::string>& id, const char* field) {
@@ -110,9 +121,10 @@ Expected<Tool*> find_tool(Act& act, const std::optional<std::string>& name) {
     if (name ? t.name == *name : act.state.tools.size() == 1) return &t;
     known += (known.empty() ? "" : ", ") + t.name;
   }
-  if (known.empty()) return input_error("there is no tool", "tool", "make one first with the command tool");
-  return input_error(name ? fmt::format("there is no tool \"{}\"", *name) : "no tool is named", "tool",
-                     "the tools are: " + known);
+  if (known.empty())
+    return input_error("there is no tool", "tool", "make one first with the command tool");
+  return input_error(name ? fmt::format("there is no tool \"{}\"", *name) : "no tool is named",
+                     "tool", "the tools are: " + known);
 }
 
 Expected<double> diagonal(Act& act) {
@@ -121,8 +133,9 @@ Expected<double> diagonal(Act& act) {
   if (!surface) return std::unexpected(surface.error());
   const double length = bounding_box(*(*surface)->reference).diagonal();
   if (length > 0) return length;
-  return numerical_error("all of the surface is one point", (*surface)->id,
-                         "select another surface, or give lengths and positions that are not relative");
+  return numerical_error(
+      "all of the surface is one point", (*surface)->id,
+      "select another surface, or give lengths and positions that are not relative");
 }
 
 }  // namespace knead

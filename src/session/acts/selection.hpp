@@ -14,8 +14,9 @@ namespace knead {
 
 /// The selected surfaces of a scene, the first one first. The scene must outlive them.
 [[nodiscard]] inline auto selected_surfaces(auto& scene) {
-  return scene.selection() |
-         std::views::transform([&scene](int k) -> auto& { return scene.surfaces[static_cast<std::size_t>(k)]; });
+  return scene.selection() | std::views::transform([&scene](int k) -> auto& {
+           return scene.surfaces[static_cast<std::size_t>(k)];
+         });
 }
 
 /// The selected curve or volume; null if none is.
@@ -32,14 +33,16 @@ Expected<void> each_selected(Act& act, const F& f) {
   return {};
 }
 /// The error (input) of a field that the selected curve or volume does not have.
-[[nodiscard]] std::unexpected<Error> of_surfaces(Act& act, std::string_view field, const char* remedy = "leave it out");
+[[nodiscard]] std::unexpected<Error> of_surfaces(Act& act, std::string_view field,
+                                                 const char* remedy = "leave it out");
 
 /// The first selected surface, or an error that says how to select one.
 [[nodiscard]] Expected<SceneSurface*> selected(Act& act);
 /// The only selected surface. Error: there are several.
 [[nodiscard]] Expected<SceneSurface*> selected_alone(Act& act);
 [[nodiscard]] Expected<int> find_surface(const Act& act, const std::string& id);
-/// The selected surface of this id; without one the first selected. Errors (input), named `field`: it is not selected.
+/// The selected surface of this id; without one the first selected. Errors (input), named `field`:
+/// it is not selected.
 [[nodiscard]] Expected<int> selected_surface(Act& act, const std::optional<std::string>& id,
                                              const char* field = "surface");
 [[nodiscard]] Expected<Tool*> find_tool(Act& act, const std::optional<std::string>& name);

@@ -71,8 +71,9 @@ Expected<void> check_limit(const Scene& scene) {
     const double largest = largest_distance(*s.current, *s.opened);
     if (largest <= *scene.limit * (1 + tolerance)) continue;
     return numerical_error(
-        fmt::format("the step leads {:.6g} away from the surface as opened, beyond the limit of {:.6g}", largest,
-                    *scene.limit),
+        fmt::format(
+            "the step leads {:.6g} away from the surface as opened, beyond the limit of {:.6g}",
+            largest, *scene.limit),
         s.id, "refine the net, soften or move the tool, or set a larger limit");
   }
   return {};
@@ -102,7 +103,9 @@ namespace {
 
 /// Whether what the tools have done becomes the rest shape.
 bool imprints(const Scene& scene, const ActiveStep& step) {
-  return step.gap > 0 && std::ranges::any_of(scene.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
+  return step.gap > 0 && std::ranges::any_of(scene.tools, [](const Tool& t) {
+           return t.mode == ToolMode::imprint;
+         });
 }
 
 }  // namespace
@@ -117,7 +120,8 @@ Expected<void> take(Act& act, const ActiveStep& step) {
     if (moved->control_points() != s.current->control_points()) {
       s.current = std::make_shared<const Spline<D>>(*std::move(moved));
     }
-    s.velocity = step.velocity.rows() > 0 ? Points(step.velocity.middleRows(first, n)) : Points(0, 3);
+    s.velocity =
+        step.velocity.rows() > 0 ? Points(step.velocity.middleRows(first, n)) : Points(0, 3);
     if (imprinting) s.rest = s.current;
     first += n;
     return {};
@@ -144,9 +148,11 @@ void record(SessionState& state, const ActiveStep& step, double seconds, std::st
   record.note = std::move(note);
   record.surface = state.selected.value_or(-1);
   if (state.body)
-    record.largest_displacement = largest_displacement(state.bodies[static_cast<std::size_t>(*state.body)]);
+    record.largest_displacement =
+        largest_displacement(state.bodies[static_cast<std::size_t>(*state.body)]);
   for (const SceneSurface& s : selected_surfaces(state)) {
-    record.largest_displacement = std::max(record.largest_displacement, largest_distance(*s.current, *s.opened));
+    record.largest_displacement =
+        std::max(record.largest_displacement, largest_distance(*s.current, *s.opened));
   }
   state.steps.push_back(std::move(record));
 }
@@ -164,8 +170,9 @@ Expected<void> yield(Act& act, double plasticity) {
       s.rest = s.current;
       continue;
     }
-    auto rest = s.rest->with_control_points(s.rest->control_points() +
-                                            plasticity * (s.current->control_points() - s.rest->control_points()));
+    auto rest = s.rest->with_control_points(
+        s.rest->control_points() +
+        plasticity * (s.current->control_points() - s.rest->control_points()));
     if (!rest) return std::unexpected(rest.error());
     s.rest = std::make_shared<const Surface>(std::move(*rest));
   }
@@ -188,12 +195,14 @@ class Stepping {
       if (!*stepped) continue;
       ++made_.count;
       if (made_.at_fold) break;
-      const auto on = tell_progress(act_, asked_.before + made_.count, asked_.of > 0 ? asked_.of : asked_.count);
+      const auto on = tell_progress(act_, asked_.before + made_.count,
+                                    asked_.of > 0 ? asked_.of : asked_.count);
       if (!on && keeps_steps()) break;
       if (!on) return std::unexpected(on.error());
     }
     const Model* const model = act_.cache.models.last();
-    if (!state_.body && made_.count > 0 && model != nullptr) note_model(act_, model->seams(), model->notes());
+    if (!state_.body && made_.count > 0 && model != nullptr)
+      note_model(act_, model->seams(), model->notes());
     return made_;
   }
 
@@ -203,9 +212,10 @@ class Stepping {
     if (state_.body) return {};
     if (auto surface = selected(act_); !surface) return std::unexpected(surface.error());
     if (asked_.increments && !has_shells(state_)) {
-      return input_error("only the load of a shell is increased in parts", "increments",
-                         R"(leave it out, or give {"do":"material","model":"shell"} with young and thickness)",
-                         {ErrorCode::shell_needed});
+      return input_error(
+          "only the load of a shell is increased in parts", "increments",
+          R"(leave it out, or give {"do":"material","model":"shell"} with young and thickness)",
+          {ErrorCode::shell_needed});
     }
     if (state_.permission == RefinePermission::automatic) {
       if (auto refined = refine_seams(act_); !refined) return refined;
@@ -261,12 +271,14 @@ class Stepping {
     if (!state_.energy_before) state_.energy_before = model.energy(before);
     const auto start = std::chrono::steady_clock::now();
     auto step = model.step(before, *tools, *loads, asked_.increments.value_or(1));
-    if (step && act_.law.shortens(state_, *step, *loads, model)) step = model.step(before, *tools, *loads);
+    if (step && act_.law.shortens(state_, *step, *loads, model))
+      step = model.step(before, *tools, *loads);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return step;
   }
 
-  /// Finer nets under tools that the present ones cannot follow. Whether there are any: then the step is made again.
+  /// Finer nets under tools that the present ones cannot follow. Whether there are any: then the
+  /// step is made again.
   Expected<bool> refine_nets(const ActiveStep& step) {
     if (step.coarseness <= coarse || state_.permission != RefinePermission::automatic ||
         refinements_ >= max_refinements || !asked_.grips.empty()) {
@@ -282,13 +294,15 @@ class Stepping {
     return any;
   }
 
-  /// Makes a step the shapes, as far as it may go; false: it is to be made again, with edges coupled more tightly.
+  /// Makes a step the shapes, as far as it may go; false: it is to be made again, with edges
+  /// coupled more tightly.
   Expected<bool> accept(const ActiveStep& step, double seconds) {
     std::string note = note_of(step);
     if (!asked_.allow_held && asked_.grips.empty() && step.gap > 0 && nothing_moved(state_, step)) {
       const Error error = all_held(state_, step.gap_tool);
       if (holds_edges(state_)) return std::unexpected(error);
-      note = error.what + "; " + error.remedy;  // requested, row by row or point by point: reported, not refused
+      note = error.what + "; " +
+             error.remedy;  // requested, row by row or point by point: reported, not refused
     }
     if (!tried_) tried_.emplace(state_);
     const auto taken = tried_->accept(act_, step);
@@ -300,7 +314,8 @@ class Stepping {
       made_.at_fold = true;
       note = *smaller;
     }
-    if (auto stops = act_.meeting.after_step(act_, tried_->before()); !stops) return std::unexpected(stops.error());
+    if (auto stops = act_.meeting.after_step(act_, tried_->before()); !stops)
+      return std::unexpected(stops.error());
     tried_.reset();
     if (auto within = check_limit(state_); !within) return std::unexpected(within.error());
     record(state_, step, seconds, std::move(note));

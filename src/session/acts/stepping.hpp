@@ -11,18 +11,21 @@ namespace knead {
 
 // Steps of what is selected, and what they leave on record.
 
-inline constexpr double coarse = 0.5;      // spans longer than this share of a tool follow it less accurately
-inline constexpr int max_refinements = 5;  // of the net under a tool at one place, if refining is permitted
+// Spans longer than this share of a tool follow it less accurately.
+inline constexpr double coarse = 0.5;
+// Of the net under a tool at one place, if refining is permitted.
+inline constexpr int max_refinements = 5;
 
 /// What a command asks of steps.
 struct Steps {
   int count = 1;
   EvolutionPolicy evolution;
   std::vector<PointForce> grips = {};  ///< besides the forces of the scene
-  int before = 0, of = 0;              ///< steps of the command made before these, and all of them; 0: these are all
+  int before = 0,
+      of = 0;  ///< steps of the command made before these, and all of them; 0: these are all
   std::optional<int> increments = {};  ///< of the load of a shell; default: 1
   bool allow_held = false;             ///< a tool may touch what is held alone
-  bool may_stop = false;               ///< stopped after some step, what has been made of them stays
+  bool may_stop = false;  ///< stopped after some step, what has been made of them stays
 };
 
 /// What became of it.
@@ -32,8 +35,9 @@ struct StepsMade {
   bool stopped = false;
 };
 
-/// Makes the selected shapes evolve. Errors: those of the model and of its steps (numerical), a face that would fold, a
-/// limit that would be exceeded, a tool under which nothing is free, a command that was stopped.
+/// Makes the selected shapes evolve. Errors: those of the model and of its steps (numerical), a
+/// face that would fold, a limit that would be exceeded, a tool under which nothing is free, a
+/// command that was stopped.
 [[nodiscard]] Expected<StepsMade> run(Act& act, const Steps& asked);
 /// Tells how many steps are done. Error: it was stopped, or interrupted.
 [[nodiscard]] Expected<void> tell_progress(const Act& act, int done, int of);
@@ -47,7 +51,8 @@ void record(SessionState& state, const ActiveStep& step, double seconds, std::st
 
 /// The note on a step for the user: its own, or that the net is too coarse for a tool.
 [[nodiscard]] std::string note_of(const ActiveStep& step);
-/// Puts the seams of the model on record, and what it has to say; which seams are not smooth any more is noted.
+/// Puts the seams of the model on record, and what it has to say; which seams are not smooth any
+/// more is noted.
 void note_model(Act& act, std::span<const SeamReport> seams, std::span<const std::string> notes);
 /// Notes where tools press on what nothing holds: it moves as a whole.
 void note_loose(SessionState& state, const MotionLaw& law);

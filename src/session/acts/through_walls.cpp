@@ -31,7 +31,8 @@ bool same_points(const Surface& a, const Surface& b) {
 }
 
 /// The way of a surface, both ends on the present net; null where there is no such net.
-Motion motion_of(const std::shared_ptr<const Surface>& from, const std::shared_ptr<const Surface>& to) {
+Motion motion_of(const std::shared_ptr<const Surface>& from,
+                 const std::shared_ptr<const Surface>& to) {
   if (from == to || !from) return {to, to};
   if (same_basis(*from, *to)) return {same_points(*from, *to) ? to : from, to};
   auto raised = onto_net(*from, *to);
@@ -43,7 +44,8 @@ std::shared_ptr<const Surroundings> surroundings_of(const Document& document) {
   const brep::Model* const model = document.model();
   if (model == nullptr) return nullptr;
   const auto trims = trim_loops(*model);
-  return surroundings(*model, shown_regions(trims ? std::span(trims->surfaces) : std::span<const SurfaceTrim>()));
+  return surroundings(
+      *model, shown_regions(trims ? std::span(trims->surfaces) : std::span<const SurfaceTrim>()));
 }
 
 }  // namespace
@@ -57,7 +59,8 @@ std::span<const Choice> choices(ThroughAllowance) {
 
 void describe_allowance(std::optional<ThroughAllowance>& allow, Fields& fields) {
   fields.add("allow", allow,
-             {.help = "where it comes to another face", .fallback = "a note if a face comes through another"});
+             {.help = "where it comes to another face",
+              .fallback = "a note if a face comes through another"});
 }
 
 std::optional<Through> through_of(const Command& command, bool stops) {
@@ -94,26 +97,33 @@ Command that_stops(const Command& command) {
 namespace {
 
 ModelWalls& known_walls(Act& act) {
-  if (!act.cache.faces.walls) act.cache.faces.walls = std::make_shared<ModelWalls>(surroundings_of(act.document));
+  if (!act.cache.faces.walls)
+    act.cache.faces.walls = std::make_shared<ModelWalls>(surroundings_of(act.document));
   return *act.cache.faces.walls;
 }
 
 /// "the face #45 on #20", by what is known of its edges.
 std::string face_on(Act& act, const std::string& surface) {
   std::set<std::string> ids;
-  const auto found = std::ranges::find(std::as_const(act.state.surfaces), surface, &SceneSurface::id);
-  SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(found - std::as_const(act.state.surfaces).begin())];
+  const auto found =
+      std::ranges::find(std::as_const(act.state.surfaces), surface, &SceneSurface::id);
+  SceneSurface& s =
+      act.state
+          .surfaces[static_cast<std::size_t>(found - std::as_const(act.state.surfaces).begin())];
   if (const auto region = visible(act, s)) {
     for (const TrimEdge& edge : (*region)->edges) {
       for (std::size_t k = 0; k < std::min(edge.supports.size(), edge.neighbours.size()); ++k) {
-        if (edge.supports[k].substr(0, edge.supports[k].find(' ')) == surface) ids.insert(edge.neighbours[k]);
+        if (edge.supports[k].substr(0, edge.supports[k].find(' ')) == surface)
+          ids.insert(edge.neighbours[k]);
       }
     }
   }
-  return ids.size() == 1 ? fmt::format("the face {} on {}", *ids.begin(), surface) : "the face on " + surface;
+  return ids.size() == 1 ? fmt::format("the face {} on {}", *ids.begin(), surface)
+                         : "the face on " + surface;
 }
 
-/// Of each surface the shape from which the motion of this command is measured; null: there was none.
+/// Of each surface the shape from which the motion of this command is measured; null: there was
+/// none.
 std::vector<std::shared_ptr<const Surface>> shapes_before(const Scene& scene, const Scene& before) {
   std::vector<std::shared_ptr<const Surface>> shapes;
   for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
@@ -133,7 +143,8 @@ std::vector<std::shared_ptr<const Surface>> shapes_before(const Scene& scene, co
 std::shared_ptr<const Surface> rest_before(const Scene& scene, int surface) {
   const std::vector<int> selection = scene.selection();
   const auto found = std::ranges::find(selection, surface);
-  if (!scene.brush || found == selection.end()) return scene.surfaces[static_cast<std::size_t>(surface)].rest;
+  if (!scene.brush || found == selection.end())
+    return scene.surfaces[static_cast<std::size_t>(surface)].rest;
   return scene.brush->before[static_cast<std::size_t>(found - selection.begin())].rest;
 }
 
@@ -147,7 +158,8 @@ Expected<void> stop_at_face(Act& act, std::span<const WallMotion> motions, doubl
     const bool same = s.rest == s.current;
     auto current = part_of_way(*motion.from, s.current, share);
     if (!current) return std::unexpected(current.error());
-    const Motion of_rest = same ? motion : motion_of(rest_before(act.state, static_cast<int>(k)), s.rest);
+    const Motion of_rest =
+        same ? motion : motion_of(rest_before(act.state, static_cast<int>(k)), s.rest);
     auto rest = same           ? current
                 : of_rest.from ? part_of_way(*of_rest.from, s.rest, share)
                                : Expected<std::shared_ptr<const Surface>>(s.rest);
@@ -161,7 +173,8 @@ Expected<void> stop_at_face(Act& act, std::span<const WallMotion> motions, doubl
 
 }  // namespace
 
-Expected<void> FaceMeeting::after_step(Act& act, std::span<const std::shared_ptr<const Surface>> before) {
+Expected<void> FaceMeeting::after_step(Act& act,
+                                       std::span<const std::shared_ptr<const Surface>> before) {
   if (through_ != Through::stop) return {};
   each_step_ = true;
   return meet(act, before);
@@ -187,7 +200,8 @@ Expected<void> FaceMeeting::meet(Act& act, std::span<const std::shared_ptr<const
   if (const Surroundings* const around = walls.around()) {
     for (WallMotion& wall : motions) {
       const auto shown = around->shown.find(wall.id);
-      if (wall.visible == nullptr && shown != around->shown.end()) wall.visible = shown->second.visible;
+      if (wall.visible == nullptr && shown != around->shown.end())
+        wall.visible = shown->second.visible;
       wall.part = around->part_of(wall.id);
     }
   }
@@ -198,14 +212,21 @@ Expected<void> FaceMeeting::meet(Act& act, std::span<const std::shared_ptr<const
   const Surface& home = s.rest != s.current ? *s.rest : *motions[contact->surface].motion.from;
   const auto begin = evaluate_point<2>(home, contact->at);
   const double deep = begin ? (contact->place - *begin).norm() : 0;
-  const std::string to = contact->met == contact->surface
-                             ? "its own other side"
-                             : (contact->met ? face_on(act, motions[*contact->met].id) : "the face " + contact->face);
+  const std::string to =
+      contact->met == contact->surface
+          ? "its own other side"
+          : (contact->met ? face_on(act, motions[*contact->met].id) : "the face " + contact->face);
   const Point& at = contact->place;
   const std::string place =
       fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}), {:.4g} deep", to, at.x(), at.y(), at.z(), deep);
   const auto read = [&](ErrorCode code) -> Diagnostic {
-    return {code, {{"surface", s.id}, {"other", to}, {"x", at.x()}, {"y", at.y()}, {"z", at.z()}, {"depth", deep}}};
+    return {code,
+            {{"surface", s.id},
+             {"other", to},
+             {"x", at.x()},
+             {"y", at.y()},
+             {"z", at.z()},
+             {"depth", deep}}};
   };
   if (through_ == Through::note) {
     note_last(act.state, "through another face",

@@ -18,12 +18,13 @@ struct Meeting {
   const VisibleRegion* visible;
   BoundingBox box = tool.shape.bounding_box();
 
-  /// False only where no point of the surface is in the tool: it lies in the box of its net, whose weights are
-  /// positive.
+  /// False only where no point of the surface is in the tool: it lies in the box of its net, whose
+  /// weights are positive.
   [[nodiscard]] bool may_touch() const {
     if (std::ranges::any_of(shape.weights(), [](double w) { return !(w > 0); })) return true;
     const Points& net = shape.control_points();
-    const Point lower = net.colwise().minCoeff().transpose(), upper = net.colwise().maxCoeff().transpose();
+    const Point lower = net.colwise().minCoeff().transpose(),
+                upper = net.colwise().maxCoeff().transpose();
     return (lower.array() <= box.upper.array()).all() && (upper.array() >= box.lower.array()).all();
   }
   [[nodiscard]] double depth(const Point& x) const {
@@ -56,7 +57,8 @@ struct Meeting {
   [[nodiscard]] double deepest(int pieces) const {
     const std::array<std::vector<double>, 2> at = {even_parameters(shape.knots(0), pieces),
                                                    even_parameters(shape.knots(1), pieces)};
-    const auto grid = evaluate_grid<2>(shape, {std::span<const double>(at[0]), std::span<const double>(at[1])});
+    const auto grid =
+        evaluate_grid<2>(shape, {std::span<const double>(at[0]), std::span<const double>(at[1])});
     if (!grid) return 0;
     double best = 0;
     std::array<double, 2> place{};
@@ -68,16 +70,20 @@ struct Meeting {
       best = here;
       place = u;
     }
-    return best > 0 ? refined(best, place, at, [this](const std::array<double, 2>& u) { return depth_at(u); }) : 0;
+    return best > 0 ? refined(best, place, at,
+                              [this](const std::array<double, 2>& u) { return depth_at(u); })
+                    : 0;
   }
 
-  /// How far the tool stands in the surface: the shorter of the longest way along the normal, to the nearer side, out
-  /// of the tool, and of the shortest translation that takes the surface out of it.
+  /// How far the tool stands in the surface: the shorter of the longest way along the normal, to
+  /// the nearer side, out of the tool, and of the shortest translation that takes the surface out
+  /// of it.
   [[nodiscard]] double standing(int pieces) const {
     constexpr std::size_t most = 400;
     const std::array<std::vector<double>, 2> at = {even_parameters(shape.knots(0), pieces),
                                                    even_parameters(shape.knots(1), pieces)};
-    const auto grid = evaluate_grid<2>(shape, {std::span<const double>(at[0]), std::span<const double>(at[1])});
+    const auto grid =
+        evaluate_grid<2>(shape, {std::span<const double>(at[0]), std::span<const double>(at[1])});
     if (!grid) return 0;
     std::vector<std::size_t> inside;
     for (Eigen::Index k = 0; k < grid->points().rows(); ++k) {
@@ -87,16 +93,19 @@ struct Meeting {
     double longest = 0;
     std::array<double, 2> place{};
     for (std::size_t i = 0; i < inside.size(); i += 1 + inside.size() / most) {
-      const std::array<double, 2> u = {at[0][inside[i] / at[1].size()], at[1][inside[i] % at[1].size()]};
+      const std::array<double, 2> u = {at[0][inside[i] / at[1].size()],
+                                       at[1][inside[i] % at[1].size()]};
       const double here = way(u);
       if (here <= longest) continue;
       longest = here;
       place = u;
     }
     if (!(longest > 0)) return 0;
-    std::vector<Point> directions = {tool.shape.nearest(deepest_point(grid->points(), inside, at)).normal};
+    std::vector<Point> directions = {
+        tool.shape.nearest(deepest_point(grid->points(), inside, at)).normal};
     for (std::size_t i = 0; i < inside.size(); i += 1 + inside.size() / most_normals) {
-      const std::array<double, 2> u = {at[0][inside[i] / at[1].size()], at[1][inside[i] % at[1].size()]};
+      const std::array<double, 2> u = {at[0][inside[i] / at[1].size()],
+                                       at[1][inside[i] % at[1].size()]};
       const auto jet = jet_at(u);
       if (!jet) continue;
       const Point normal = normal_of(*jet);
@@ -111,15 +120,19 @@ struct Meeting {
   /// The deepest of samples, refined.
   [[nodiscard]] Point deepest_point(const Points& points, const std::vector<std::size_t>& rows,
                                     const std::array<std::vector<double>, 2>& at) const {
-    const auto at_row = [&](std::size_t k) { return depth(points.row(static_cast<Eigen::Index>(k))); };
+    const auto at_row = [&](std::size_t k) {
+      return depth(points.row(static_cast<Eigen::Index>(k)));
+    };
     const std::size_t deepest = *std::ranges::max_element(rows, {}, at_row);
     std::array<double, 2> place = {at[0][deepest / at[1].size()], at[1][deepest % at[1].size()]};
-    refined(at_row(deepest), place, at, [this](const std::array<double, 2>& u) { return depth_at(u); });
+    refined(at_row(deepest), place, at,
+            [this](const std::array<double, 2>& u) { return depth_at(u); });
     const auto x = evaluate_point<2>(shape, place);
     return x ? *x : Point(points.row(static_cast<Eigen::Index>(deepest)));
   }
 
-  /// The least over these directions of the way after which no point is in the tool; `known`, where none is shorter.
+  /// The least over these directions of the way after which no point is in the tool; `known`, where
+  /// none is shorter.
   [[nodiscard]] double shortest_translation(const Points& points, std::span<const Point> directions,
                                             double known) const {
     constexpr Eigen::Index most = 600;
@@ -135,7 +148,8 @@ struct Meeting {
     return known;
   }
 
-  /// How far along a ray the tool is left for good; found from beyond it, by steps as long as the distance from it.
+  /// How far along a ray the tool is left for good; found from beyond it, by steps as long as the
+  /// distance from it.
   [[nodiscard]] double last_inside(const Point& from, const Point& direction) const {
     constexpr int most_steps = 64;
     constexpr double touching = 1e-3;  // of the tool's size
@@ -145,7 +159,8 @@ struct Meeting {
         if (from[c] < box.lower[c] || from[c] > box.upper[c]) return 0;
         continue;
       }
-      const double a = (box.lower[c] - from[c]) / direction[c], b = (box.upper[c] - from[c]) / direction[c];
+      const double a = (box.lower[c] - from[c]) / direction[c],
+                   b = (box.upper[c] - from[c]) / direction[c];
       enters = std::max(enters, std::min(a, b));
       way = std::min(way, std::max(a, b));
     }
@@ -179,8 +194,8 @@ struct Meeting {
   }
 
   template <class F>
-  double refined(double best, std::array<double, 2>& place, const std::array<std::vector<double>, 2>& at,
-                 const F& value) const {
+  double refined(double best, std::array<double, 2>& place,
+                 const std::array<std::vector<double>, 2>& at, const F& value) const {
     for (double h = 0.5; h > std::ldexp(1.0, -halvings); h /= 2) {
       for (std::size_t d = 0; d < 2; ++d) {
         const Interval domain = shape.knots()[d].domain();
@@ -207,7 +222,8 @@ double depth_in(const Surface& shape, std::span<const Tool> tools, const Visible
     const Meeting meeting{shape, tool, visible};
     if (!tool.collides() || !meeting.may_touch()) continue;
     double here = meeting.deepest(1);
-    if (here == 0) here = meeting.deepest(std::max(shape.knots(0).degree(), shape.knots(1).degree()) + 1);
+    if (here == 0)
+      here = meeting.deepest(std::max(shape.knots(0).degree(), shape.knots(1).degree()) + 1);
     deepest = std::max(deepest, here);
   }
   return deepest;
@@ -218,7 +234,8 @@ double standing_in(const Surface& shape, std::span<const Tool> tools) {
   double longest = 0;
   for (const Tool& tool : tools) {
     const Meeting meeting{shape, tool, nullptr};
-    if (tool.collides() && meeting.may_touch()) longest = std::max(longest, meeting.standing(pieces));
+    if (tool.collides() && meeting.may_touch())
+      longest = std::max(longest, meeting.standing(pieces));
   }
   return longest;
 }

@@ -19,9 +19,11 @@
 namespace knead {
 namespace {
 
-constexpr double beside = 0.1;  // of the size of a surface: folds nearer to a held edge than this are beside it
+// Of the size of a surface: folds nearer to a held edge than this are beside it.
+constexpr double beside = 0.1;
 
-/// The held edge of faces beside a place, in fractions; null where there is none. In space, on the surface as opened.
+/// The held edge of faces beside a place, in fractions; null where there is none. In space, on the
+/// surface as opened.
 const TrimEdge* held_beside(const SceneSurface& s, const Eigen::Vector2d& at) {
   const auto place = evaluate_point<2>(*s.opened, parameters_of(*s.opened, at));
   if (!place) return nullptr;
@@ -46,22 +48,28 @@ Error fold_error(const SceneSurface& s, const Eigen::Vector2d& at) {
   if (const TrimEdge* edge = held_beside(s, at)) {
     const bool side = edge->neighbours.empty();  // where nothing could follow
     return Error(ErrorKind::numerical,
-                 fmt::format("the step folds {} beside the edge {}, which is held, and was refused", place, edge->id),
+                 fmt::format("the step folds {} beside the edge {}, which is held, and was refused",
+                             place, edge->id),
                  "step",
-                 fmt::format(R"(press less deep or farther from it, or {}: {{"do":"edge","edge":"{}","hold":"{}"}})",
-                             side ? "let it go" : "let the edge follow", edge->id, side ? "free" : "follow"))
+                 fmt::format(R"(press less deep or farther from it, )"
+                             R"(or {}: {{"do":"edge","edge":"{}","hold":"{}"}})",
+                             side ? "let it go" : "let the edge follow", edge->id,
+                             side ? "free" : "follow"))
         .with({ErrorCode::step_folds_beside_edge,
                {{"surface", s.id}, {"edge", edge->id}, {"hold", side ? "free" : "follow"}}});
   }
-  return Error(ErrorKind::numerical, fmt::format("the step folds {} and was refused", place), "step",
-               "press less deep, go there in several steps with a larger lambda, or use a stiffer material")
+  return Error(ErrorKind::numerical, fmt::format("the step folds {} and was refused", place),
+               "step",
+               "press less deep, go there in several steps with a larger lambda, or use a stiffer "
+               "material")
       .with({ErrorCode::step_folds, {{"surface", s.id}}});
 }
 
 }  // namespace
 
 bool any_held(const SceneSurface& s) {
-  return s.visible && std::ranges::any_of(trim_orders(s.constraints, *s.visible), [](int order) { return order >= 0; });
+  return s.visible && std::ranges::any_of(trim_orders(s.constraints, *s.visible),
+                                          [](int order) { return order >= 0; });
 }
 
 Expected<const VisibleRegion*> visible(Act& act, SceneSurface& surface) {
@@ -71,9 +79,12 @@ Expected<const VisibleRegion*> visible(Act& act, SceneSurface& surface) {
     auto region = act.regions.of(surface.id);
     if (!region) {
       Error error = region.error();
-      error.what = fmt::format("the edges of the faces on {} cannot be followed: {}", surface.id, error.what);
-      error.remedy = R"(hold something else: {"do":"hold","rows":2}, or {"do":"hold","mode":"free"})";
-      return std::unexpected(std::move(error).with({ErrorCode::edges_unknown, {{"surface", surface.id}}}));
+      error.what = fmt::format("the edges of the faces on {} cannot be followed: {}", surface.id,
+                               error.what);
+      error.remedy =
+          R"(hold something else: {"do":"hold","rows":2}, or {"do":"hold","mode":"free"})";
+      return std::unexpected(
+          std::move(error).with({ErrorCode::edges_unknown, {{"surface", surface.id}}}));
     }
     known = std::make_shared<const VisibleRegion>(std::move(*region));
   }
@@ -115,10 +126,11 @@ Expected<Fractions> place_on(Act& act, SceneSurface& surface, const SurfacePlace
   if (!where) return std::unexpected(where.error());
   const auto near = visible_near(*surface.current, **region, *where);
   if (!near) return std::unexpected(near.error());
-  const std::string what =
-      fmt::format("[{:.6g}, {:.6g}] is not visible: the faces on {} leave it out", at.x(), at.y(), surface.id);
+  const std::string what = fmt::format(
+      "[{:.6g}, {:.6g}] is not visible: the faces on {} leave it out", at.x(), at.y(), surface.id);
   const std::string remedy =
-      fmt::format("the nearest visible point is [{:.4f}, {:.4f}], the middle \"middle\"", near->at.x(), near->at.y());
+      fmt::format("the nearest visible point is [{:.4f}, {:.4f}], the middle \"middle\"",
+                  near->at.x(), near->at.y());
   if (strict) return input_error(what, "at", remedy);
   act.state.notes.push_back(what + "; " + remedy);
   return place.at;
@@ -149,11 +161,13 @@ Expected<std::string> keep_unfolded(const Scene& scene, std::string_view what, d
   if (safe * flat < least * whole) return std::unexpected(sound.error());
   if (auto shown = shows(safe * flat); !shown) return std::unexpected(shown.error());
   if (auto still = check_folds(scene); !still) return std::unexpected(still.error());
-  return fmt::format("the {} keeps {:.0f} % of its depth, as more would fold a face", what, 100 * safe * flat);
+  return fmt::format("the {} keeps {:.0f} % of its depth, as more would fold a face", what,
+                     100 * safe * flat);
 }
 
-Expected<std::string> keep_step_unfolded(Scene& scene, std::span<const std::shared_ptr<const Surface>> from, bool first,
-                                         const EvolutionPolicy& evolution) {
+Expected<std::string> keep_step_unfolded(Scene& scene,
+                                         std::span<const std::shared_ptr<const Surface>> from,
+                                         bool first, const EvolutionPolicy& evolution) {
   const auto sound = check_folds(scene);
   if (sound) return std::string();
   if (evolution.mode == Evolution::stationary) return std::unexpected(sound.error());

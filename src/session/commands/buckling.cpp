@@ -8,7 +8,8 @@ namespace knead {
 
 void describe(BucklingCommand& c, Fields& fields) {
   fields.name("buckling", "report the factors of the present loads at which a shell buckles");
-  fields.add("count", c.count, {.help = "number of factors, the lowest first", .range = between(1, most_modes)});
+  fields.add("count", c.count,
+             {.help = "number of factors, the lowest first", .range = between(1, most_modes)});
 }
 
 Expected<void> execute(const BucklingCommand& c, Act& act) {
@@ -16,7 +17,8 @@ Expected<void> execute(const BucklingCommand& c, Act& act) {
   auto found = linear_buckling(act.state, c.count);
   if (!found) return std::unexpected(found.error());
   act.state.buckling.clear();
-  for (Eigenmode& mode : *found) act.state.buckling.push_back({mode.value, mode.residual, std::move(mode.shape)});
+  for (Eigenmode& mode : *found)
+    act.state.buckling.push_back({mode.value, mode.residual, std::move(mode.shape)});
   return {};
 }
 

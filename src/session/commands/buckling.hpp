@@ -4,8 +4,9 @@
 
 namespace knead {
 
-/// Finds the lowest factors of the present loads at which the selected shell buckles: `"buckling": [{"load_factor",
-/// "residual"}]` of the report. Changes nothing else: it is no part of the history.
+/// Finds the lowest factors of the present loads at which the selected shell buckles: `"buckling":
+/// [{"load_factor", "residual"}]` of the report. Changes nothing else: it is no part of the
+/// history.
 struct BucklingCommand {
   int count = 3;
 };

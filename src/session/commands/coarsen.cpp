@@ -12,7 +12,10 @@ namespace knead {
 void describe(CoarsenCommand& c, Fields& fields) {
   fields.name("coarsen", "remove knots where the shape changes by no more than a tolerance");
   fields.add("tolerance", c.tolerance,
-             {.help = "a length", .unit = Unit::length, .range = at_least(0), .presence = Presence::required});
+             {.help = "a length",
+              .unit = Unit::length,
+              .range = at_least(0),
+              .presence = Presence::required});
 }
 
 Expected<void> execute(const CoarsenCommand& c, Act& act) {
@@ -21,10 +24,12 @@ Expected<void> execute(const CoarsenCommand& c, Act& act) {
     const auto done = coarsen(s, c.tolerance);
     if (!done) return std::unexpected(done.error());
     act.state.notes.push_back(
-        fmt::format("{}: {} knots removed, the shape moved by less than {:.3g}", s.id, done->removed, done->bound));
+        fmt::format("{}: {} knots removed, the shape moved by less than {:.3g}", s.id,
+                    done->removed, done->bound));
     if (done->removed > 0) act.state.notes.push_back(net_note(s));
     if (done->stopped)
-      act.state.notes.push_back(fmt::format("{}: at rest, as its velocity does not fit the coarser net", s.id));
+      act.state.notes.push_back(
+          fmt::format("{}: at rest, as its velocity does not fit the coarser net", s.id));
   }
   return {};
 }

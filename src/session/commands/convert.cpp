@@ -17,12 +17,14 @@ namespace {
 /// The id of the surface in "#12 PLANE".
 std::string id_of(const std::string& support) { return support.substr(0, support.find(' ')); }
 
-/// The surfaces of other forms that meet the selected ones; those that cannot be converted are noted.
+/// The surfaces of other forms that meet the selected ones; those that cannot be converted are
+/// noted.
 Expected<std::vector<std::string>> neighbours(Act& act) {
   if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   std::vector<std::string> result;
   const brep::Model* const model = act.document.model();
-  const auto others = model == nullptr ? std::vector<brep::OtherSurface>() : brep::other_surfaces(*model);
+  const auto others =
+      model == nullptr ? std::vector<brep::OtherSurface>() : brep::other_surfaces(*model);
   for (const int k : act.state.selection()) {
     const auto region = visible(act, act.state.surfaces[static_cast<std::size_t>(k)]);
     if (!region) return std::unexpected(region.error());
@@ -36,26 +38,30 @@ Expected<std::vector<std::string>> neighbours(Act& act) {
   }
   std::erase_if(result, [&](const std::string& id) {
     const auto made = brep::exact_spline(*model, id);
-    if (!made) act.state.notes.push_back(fmt::format("{} stays as it is: {}", id, made.error().what));
+    if (!made)
+      act.state.notes.push_back(fmt::format("{} stays as it is: {}", id, made.error().what));
     return !made;
   });
   if (result.empty()) {
-    return input_error("the selected surfaces have no neighbour that could be converted", "neighbours",
-                       "their faces meet B-spline surfaces only, or what the notes of `knead info --faces` say");
+    return input_error(
+        "the selected surfaces have no neighbour that could be converted", "neighbours",
+        "their faces meet B-spline surfaces only, or what the notes of `knead info --faces` say");
   }
   return result;
 }
 
-/// Neighbours are named with the surfaces on which they lie: regions beside the converted ones are found again.
+/// Neighbours are named with the surfaces on which they lie: regions beside the converted ones are
+/// found again.
 Expected<void> refresh_neighbours(SessionState& state, const std::vector<std::string>& ids) {
   DocumentRegions regions(*state.document);
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
     const auto& visible = std::as_const(state.surfaces)[k].visible;
-    const bool beside = visible && std::ranges::any_of(visible->edges, [&](const TrimEdge& edge) {
-                          return std::ranges::any_of(edge.supports, [&](const std::string& support) {
-                            return std::ranges::find(ids, id_of(support)) != ids.end();
-                          });
-                        });
+    const bool beside =
+        visible && std::ranges::any_of(visible->edges, [&](const TrimEdge& edge) {
+          return std::ranges::any_of(edge.supports, [&](const std::string& support) {
+            return std::ranges::find(ids, id_of(support)) != ids.end();
+          });
+        });
     if (!beside) continue;
     SceneSurface& s = state.surfaces[k];
     auto region = regions.of(s.id);
@@ -69,8 +75,10 @@ Expected<void> refresh_neighbours(SessionState& state, const std::vector<std::st
 int order_of_holds(const SessionState& state) {
   int order = 0;
   if (!state.selected) return order;
-  for (const KeptConstraint& kept : state.surfaces[static_cast<std::size_t>(*state.selected)].constraints) {
-    if (const auto* holds = std::get_if<TrimHolds>(&kept.constraint)) order = std::max(0, holds->order);
+  for (const KeptConstraint& kept :
+       state.surfaces[static_cast<std::size_t>(*state.selected)].constraints) {
+    if (const auto* holds = std::get_if<TrimHolds>(&kept.constraint))
+      order = std::max(0, holds->order);
   }
   return order;
 }
@@ -78,9 +86,11 @@ int order_of_holds(const SessionState& state) {
 }  // namespace
 
 void describe(ConvertCommand& c, Fields& fields) {
-  fields.name("convert", "make planes, cylinders and the like exact B-spline surfaces that can be sculpted");
+  fields.name("convert",
+              "make planes, cylinders and the like exact B-spline surfaces that can be sculpted");
   fields.add("surface", c.surface,
-             {.help = "id of the surface, or of a face on it, as `knead info --faces` lists them; this, `surfaces` or "
+             {.help = "id of the surface, or of a face on it, as `knead info --faces` lists them; "
+                      "this, `surfaces` or "
                       "`neighbours`"});
   fields.add("surfaces", c.surfaces, {.help = "several of them"});
   fields.add("neighbours", c.neighbours, {.help = "all that meet faces on the selected surfaces"});
@@ -95,7 +105,8 @@ Expected<void> execute(const ConvertCommand& c, Act& act) {
     ids.insert(ids.end(), beside->begin(), beside->end());
   }
   if (ids.empty()) {
-    return input_error("the field is missing", "surface", R"(give "surface", "surfaces" or "neighbours":true)");
+    return input_error("the field is missing", "surface",
+                       R"(give "surface", "surfaces" or "neighbours":true)");
   }
   auto converted = act.document.with_splines(ids);
   if (!converted) return std::unexpected(converted.error());
@@ -103,7 +114,8 @@ Expected<void> execute(const ConvertCommand& c, Act& act) {
   const int order = order_of_holds(act.state);
   std::vector<std::string> made;
   for (const DocumentSurface& s : act.state.document->surfaces()) {
-    if (std::ranges::find(act.state.surfaces, s.id, &SceneSurface::id) != act.state.surfaces.end()) continue;
+    if (std::ranges::find(act.state.surfaces, s.id, &SceneSurface::id) != act.state.surfaces.end())
+      continue;
     SceneSurface surface = untouched<2>(s.id, s.name, s.unit, s.surface);
     surface.constraints.push_back({TrimHolds{order}, s.surface});
     act.state.surfaces.push_back(std::move(surface));

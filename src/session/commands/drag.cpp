@@ -19,10 +19,10 @@ namespace {
 
 constexpr int footprint_samples = 13;  // in either direction
 
-/// The points of a footprint: all samples of the domain within `radius` of the centre in space, each with its share of
-/// the force. Control points are numbered from `first`.
-Expected<std::vector<PointForce>> footprint(const Surface& surface, int first, const Fractions& at, double radius,
-                                            double strength) {
+/// The points of a footprint: all samples of the domain within `radius` of the centre in space,
+/// each with its share of the force. Control points are numbered from `first`.
+Expected<std::vector<PointForce>> footprint(const Surface& surface, int first, const Fractions& at,
+                                            double radius, double strength) {
   const auto centre_at = parameters_at(surface, at);
   if (!centre_at) return std::unexpected(centre_at.error());
   const auto centre = evaluate_point<2>(surface, *centre_at);
@@ -36,11 +36,13 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, int first, c
   for (std::size_t d = 0; d < 2; ++d) {
     const double speed = (d == 0 ? jet->at({1, 0}) : jet->at({0, 1})).row(0).norm();
     const Interval domain = surface.knots()[d].domain();
-    const double reach = speed > 0 ? std::min(1.5 * radius / speed, domain.length()) : domain.length();
+    const double reach =
+        speed > 0 ? std::min(1.5 * radius / speed, domain.length()) : domain.length();
     const double lower = std::max(domain.lower, (*centre_at)[d] - reach);
     const double upper = std::min(domain.upper, (*centre_at)[d] + reach);
     for (int k = 0; k < footprint_samples; ++k) {
-      parameters[d].push_back(std::min(lower + (upper - lower) * (k + 0.5) / footprint_samples, domain.upper));
+      parameters[d].push_back(
+          std::min(lower + (upper - lower) * (k + 0.5) / footprint_samples, domain.upper));
     }
   }
   std::vector<PointForce> forces;
@@ -74,23 +76,29 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, int first, c
 
 void describe(DragCommand& c, Fields& fields) {
   fields.name("drag", "grip a surface point, drag it and let it go, as one command");
-  fields.add("at", c.at,
-             {.help = "`[s, t]`: the point; or `\"middle\"`, the visible point farthest from all edges",
-              .unit = Unit::fraction,
-              .range = between(0, 1)});
-  fields.add("by", c.by, {.help = "`[dx, dy, dz]`", .unit = Unit::length, .presence = Presence::required});
+  fields.add(
+      "at", c.at,
+      {.help = "`[s, t]`: the point; or `\"middle\"`, the visible point farthest from all edges",
+       .unit = Unit::fraction,
+       .range = between(0, 1)});
+  fields.add("by", c.by,
+             {.help = "`[dx, dy, dz]`", .unit = Unit::length, .presence = Presence::required});
   fields.add("radius", c.radius,
              {.help = "of the footprint, a length",
               .unit = Unit::length,
               .range = above(0),
               .fallback = "a tenth of the diagonal"});
-  fields.add("strength", c.strength, {.help = "spring constant of the grip", .range = between(0, max_tool_stiffness)});
-  fields.add("steps", c.steps, {.help = "number of steps along the way", .range = between(1, max_steps)});
-  fields.add(
-      "plasticity", c.plasticity,
-      {.help = "share of the displacement that becomes rest shape", .unit = Unit::fraction, .range = between(0, 1)});
+  fields.add("strength", c.strength,
+             {.help = "spring constant of the grip", .range = between(0, max_tool_stiffness)});
+  fields.add("steps", c.steps,
+             {.help = "number of steps along the way", .range = between(1, max_steps)});
+  fields.add("plasticity", c.plasticity,
+             {.help = "share of the displacement that becomes rest shape",
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
   fields.add("relative", c.relative, {.help = "`by` and `radius` are fractions of the diagonal"});
-  fields.add("surface", c.surface, {.help = "id of the surface of the point", .fallback = "the first selected one"});
+  fields.add("surface", c.surface,
+             {.help = "id of the surface of the point", .fallback = "the first selected one"});
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
   describe_allowance(c.allow, fields);
 }
@@ -101,7 +109,8 @@ Expected<void> execute(const DragCommand& c, Act& act) {
   SceneSurface& surface = act.state.surfaces[static_cast<std::size_t>(*chosen)];
   const auto length = diagonal(act);
   if (!length) return std::unexpected(length.error());
-  const double unit = c.relative ? *length : 1, radius = c.radius ? *c.radius * unit : 0.1 * *length;
+  const double unit = c.relative ? *length : 1,
+               radius = c.radius ? *c.radius * unit : 0.1 * *length;
   if (auto possible = check_radius(radius); !possible) return possible;
   const auto at = place_on(act, surface, {c.at, c.middle.value_or(false)});
   if (!at) return std::unexpected(at.error());
@@ -117,7 +126,8 @@ Expected<void> execute(const DragCommand& c, Act& act) {
   for (int k = 0; k < c.steps && !at_fold; ++k) {
     Steps steps{.evolution = act.state.evolution, .grips = *grip, .before = k, .of = c.steps};
     const double share = static_cast<double>(k + 1) / c.steps;
-    for (PointForce& force : steps.grips) force.to += share * unit * Point(c.by[0], c.by[1], c.by[2]);
+    for (PointForce& force : steps.grips)
+      force.to += share * unit * Point(c.by[0], c.by[1], c.by[2]);
     const auto made = run(act, steps);
     if (!made) return std::unexpected(made.error());
     at_fold = made->at_fold;

@@ -20,9 +20,10 @@ void note_opening(SessionState& state, const SceneSurface& s, const TrimEdge& ed
   for (std::size_t k = 0; k < edge.neighbours.size(); ++k) {
     const std::string& on = edge.supports[k];
     if (on.substr(0, on.find(' ')) == s.id) continue;
-    state.notes.push_back(fmt::format(
-        "{}: the edge {} opens, as face {} on {} does not follow; use \"hold\":\"follow\" to keep it closed", s.id,
-        edge.id, edge.neighbours[k], on));
+    state.notes.push_back(
+        fmt::format("{}: the edge {} opens, as face {} on {} does not follow; use "
+                    "\"hold\":\"follow\" to keep it closed",
+                    s.id, edge.id, edge.neighbours[k], on));
   }
 }
 
@@ -49,9 +50,11 @@ Expected<void> hold_face_edge(Act& act, const EdgeCommand& c) {
     for (const TrimEdge& edge : (*region)->edges) {
       known += (known.empty() ? "" : ", ") + edge.id;
       if (edge.id != *c.edge) continue;
-      if (changed.empty() || changed.back() != static_cast<int>(k)) changed.push_back(static_cast<int>(k));
+      if (changed.empty() || changed.back() != static_cast<int>(k))
+        changed.push_back(static_cast<int>(k));
       forget(s, edge.id);
-      const bool side = edge.neighbours.empty();  // of a surface without faces: there is nothing to follow
+      // Of a surface without faces: there is nothing to follow.
+      const bool side = edge.neighbours.empty();
       if (c.hold == EdgeCondition::open) note_opening(act.state, s, edge);
       s.constraints.push_back({TrimEdgeHold{edge.id, order, follow && !side}, s.current});
       follows = follows || (follow && !side);
@@ -64,11 +67,12 @@ Expected<void> hold_face_edge(Act& act, const EdgeCommand& c) {
     }
     return check_constraints_on(act, changed);
   }
-  return input_error(fmt::format("no face on the selected surfaces has an edge {}", *c.edge), "which",
-                     known.empty() ? "no face lies on them" : "their edges are: " + known);
+  return input_error(fmt::format("no face on the selected surfaces has an edge {}", *c.edge),
+                     "which", known.empty() ? "no face lies on them" : "their edges are: " + known);
 }
 
-/// Where a surface without faces holds its sides as faces do their edges, what is asked of one replaces that.
+/// Where a surface without faces holds its sides as faces do their edges, what is asked of one
+/// replaces that.
 void hold_bare_sides(Act& act, SceneSurface& s, const std::vector<SurfaceEdge>& sides, bool free) {
   if (!holds_trims(s.constraints) || !visible(act, s)) return;  // what cannot be followed has faces
   for (const SurfaceEdge side : sides) {
@@ -91,13 +95,14 @@ std::span<const Choice> choices(EdgeChoice) {
 }
 
 std::span<const Choice> choices(SideChoice) {
-  static constexpr Choice list[] = {{"all", SideChoice::all, "every side"},
-                                    {"u0", SideChoice::u0, "where u is least; of a curve, its beginning"},
-                                    {"u1", SideChoice::u1, "where it is greatest; of a curve, its end"},
-                                    {"v0", SideChoice::v0, "where v is least"},
-                                    {"v1", SideChoice::v1, "where it is greatest"},
-                                    {"w0", SideChoice::w0, "of a volume, where w is least"},
-                                    {"w1", SideChoice::w1, "where it is greatest"}};
+  static constexpr Choice list[] = {
+      {"all", SideChoice::all, "every side"},
+      {"u0", SideChoice::u0, "where u is least; of a curve, its beginning"},
+      {"u1", SideChoice::u1, "where it is greatest; of a curve, its end"},
+      {"v0", SideChoice::v0, "where v is least"},
+      {"v1", SideChoice::v1, "where it is greatest"},
+      {"w0", SideChoice::w0, "of a volume, where w is least"},
+      {"w1", SideChoice::w1, "where it is greatest"}};
   return list;
 }
 
@@ -114,13 +119,18 @@ std::span<const Choice> choices(EdgeCondition) {
 
 void describe(EdgeCommand& c, Fields& fields) {
   fields.name("edge", "hold edges of the selected surfaces, ends of a curve, or sides of a volume");
-  fields.add("which", c.which, {.help = "sides of the domain; or `\"#456\"`, an edge of a face, as by `edge`"});
+  fields.add("which", c.which,
+             {.help = "sides of the domain; or `\"#456\"`, an edge of a face, as by `edge`"});
   fields.add("hold", c.hold, {.help = "what of them stays as it is"});
-  fields.add("edge", c.edge,
-             {.help = "`\"#456\"`: one edge of a face, as `knead info --faces` lists it, instead of `which`"});
-  fields.add("components", c.components,
-             {.help = "the coordinates that this holds or frees, as `\"xz\"`; the others stay as they were",
-              .fallback = "`\"xyz\"`"});
+  fields.add(
+      "edge", c.edge,
+      {.help =
+           "`\"#456\"`: one edge of a face, as `knead info --faces` lists it, instead of `which`"});
+  fields.add(
+      "components", c.components,
+      {.help =
+           "the coordinates that this holds or frees, as `\"xz\"`; the others stay as they were",
+       .fallback = "`\"xyz\"`"});
 }
 
 namespace {
@@ -128,7 +138,8 @@ namespace {
 SurfaceEdge side_of(const EdgeHold& hold) { return hold.edge; }
 DomainSide side_of(const SideHold& hold) { return hold.side; }
 
-/// Holds sides of a shape in these coordinates, or frees them, whatever was asked of them there before.
+/// Holds sides of a shape in these coordinates, or frees them, whatever was asked of them there
+/// before.
 template <class Hold, int D, class Side>
 void hold_sides(SceneShape<D>& s, const std::vector<Side>& sides, EdgeCondition condition,
                 const Components& components) {
@@ -139,7 +150,9 @@ void hold_sides(SceneShape<D>& s, const std::vector<Side>& sides, EdgeCondition 
     return std::ranges::none_of(hold->components, std::identity());
   });
   if (condition == EdgeCondition::free) return;
-  const int order = condition == EdgeCondition::position ? 0 : condition == EdgeCondition::clamped ? 1 : 2;
+  const int order = condition == EdgeCondition::position  ? 0
+                    : condition == EdgeCondition::clamped ? 1
+                                                          : 2;
   // One by one, so that they can be freed one by one.
   for (const Side side : sides) s.constraints.push_back({Hold{side, order, components}, s.current});
 }
@@ -149,7 +162,8 @@ std::vector<DomainSide> sides_of(SideChoice which, int directions) {
   std::vector<DomainSide> sides;
   for (int direction = 0; direction < directions; ++direction) {
     for (const bool upper : {false, true}) {
-      const auto choice = static_cast<SideChoice>(static_cast<int>(SideChoice::u0) + 2 * direction + (upper ? 1 : 0));
+      const auto choice = static_cast<SideChoice>(static_cast<int>(SideChoice::u0) + 2 * direction +
+                                                  (upper ? 1 : 0));
       if (which == SideChoice::all || which == choice) sides.push_back({direction, upper});
     }
   }
@@ -183,7 +197,8 @@ Expected<void> execute(const EdgeCommand& c, Act& act) {
                        "leave it out, or hold a boundary isocurve by which");
   }
   if (c.hold > EdgeCondition::free) {
-    return input_error(fmt::format("boundary isocurves do not {}", c.hold == EdgeCondition::open ? "open" : "follow"),
+    return input_error(fmt::format("boundary isocurves do not {}",
+                                   c.hold == EdgeCondition::open ? "open" : "follow"),
                        "hold", R"(name an edge of a face, "which":"#456", or use "free")");
   }
   if (c.which > SideChoice::v1) {
@@ -191,7 +206,8 @@ Expected<void> execute(const EdgeCommand& c, Act& act) {
   }
   const std::vector<SurfaceEdge> edges = edges_of(edge_choice(c.which));
   for (SceneSurface& s : selected_surfaces(act.state)) {
-    if (*components == all_components) hold_bare_sides(act, s, edges, c.hold == EdgeCondition::free);
+    if (*components == all_components)
+      hold_bare_sides(act, s, edges, c.hold == EdgeCondition::free);
     hold_sides<EdgeHold>(s, edges, c.hold, *components);
   }
   return c.hold == EdgeCondition::free ? Expected<void>() : check_constraints(act);

@@ -6,16 +6,19 @@ namespace knead {
 namespace {
 
 /// The tool's new position, rotation and scale.
-Expected<Placement> placement_of(const EditToolCommand& c, const Placement& before, double unit, Act& act) {
+Expected<Placement> placement_of(const EditToolCommand& c, const Placement& before, double unit,
+                                 Act& act) {
   if (c.axis && c.orientation) {
     return input_error("both axis and orientation are given", "orientation", "give one of them");
   }
   const bool on_surface = c.at || c.middle.value_or(false);
-  if (c.position && on_surface) return input_error("both position and at are given", "position", "give one of them");
+  if (c.position && on_surface)
+    return input_error("both position and at are given", "position", "give one of them");
   Placement placement = before;
   if (c.axis) {
     const Point axis((*c.axis)[0], (*c.axis)[1], (*c.axis)[2]);
-    if (!(axis.norm() > 0)) return input_error("the axis has no direction", "axis", "use a vector that is not zero");
+    if (!(axis.norm() > 0))
+      return input_error("the axis has no direction", "axis", "use a vector that is not zero");
     const Point present = before.rotation * Point::UnitZ();
     placement.rotation = (turn_between(present, axis) * before.rotation).normalized();
   }
@@ -25,15 +28,18 @@ Expected<Placement> placement_of(const EditToolCommand& c, const Placement& befo
     placement.rotation = *rotation;
   }
   if (c.scale) placement.scale = *c.scale;
-  if (c.position) placement.position = unit * Point((*c.position)[0], (*c.position)[1], (*c.position)[2]);
+  if (c.position)
+    placement.position = unit * Point((*c.position)[0], (*c.position)[1], (*c.position)[2]);
   if (on_surface) {
     const auto surface = selected(act);
     if (!surface) return std::unexpected(surface.error());
-    const auto point = point_at(act, **surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
+    const auto point =
+        point_at(act, **surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
     if (!point) return std::unexpected(point.error());
     placement.position = *point;
   }
-  if (!placement.position.allFinite()) return input_error("a coordinate is not a finite number", "position");
+  if (!placement.position.allFinite())
+    return input_error("a coordinate is not a finite number", "position");
   return placement;
 }
 
@@ -46,30 +52,38 @@ void describe(EditToolCommand& c, Fields& fields) {
   fields.add("tool", c.tool, {.help = "its name; or:", .fallback = "the only tool"});
   fields.add("name", c.name, {.help = "its name", .fallback = "the only tool"});
   fields.add("shape", c.shape,
-             {.help = "another shape: measures that both shapes have are kept, the others are those of a new tool",
+             {.help = "another shape: measures that both shapes have are kept, the others are "
+                      "those of a new tool",
               .choices = shape_choices()});
   add_measures(c.measures, fields, "as it was");
   fields.add("axis", c.axis,
-             {.help = "new direction of its own z axis, reached the shortest way, without twist about that axis; or:"});
+             {.help = "new direction of its own z axis, reached the shortest way, without twist "
+                      "about that axis; or:"});
   fields.add("orientation", c.orientation, as_of_tool);
-  fields.add("scale", c.scale, {.help = "as for `tool`; replaces the previous scale", .range = above(0)});
+  fields.add("scale", c.scale,
+             {.help = "as for `tool`; replaces the previous scale", .range = above(0)});
   fields.add("position", c.position, length);
   fields.add("at", c.at, {.help = "as for `tool`", .unit = Unit::fraction, .range = between(0, 1)});
   fields.add("middle", c.middle, as_of_tool);
   fields.add("mode", c.mode, {.help = "how it acts; the stiffness does not change"});
-  fields.add("stiffness", c.stiffness, {.help = "as for `tool`", .range = between(0, max_tool_stiffness)});
-  fields.add("range", c.range, {.help = "as for `tool`", .unit = Unit::length, .range = at_least(0)});
+  fields.add("stiffness", c.stiffness,
+             {.help = "as for `tool`", .range = between(0, max_tool_stiffness)});
+  fields.add("range", c.range,
+             {.help = "as for `tool`", .unit = Unit::length, .range = at_least(0)});
   fields.add("direction", c.direction, {.help = "of proximity"});
   fields.add("touches", c.touches, as_of_tool);
   fields.add("rigid", c.rigid, as_of_tool);
   fields.add("friction", c.friction, {.help = "as for `tool`", .range = at_least(0)});
-  fields.add("plasticity", c.plasticity, {.help = "as for `tool`", .unit = Unit::fraction, .range = between(0, 1)});
-  fields.add("relative", c.relative, {.help = "lengths and position of this command are fractions of the diagonal"});
+  fields.add("plasticity", c.plasticity,
+             {.help = "as for `tool`", .unit = Unit::fraction, .range = between(0, 1)});
+  fields.add("relative", c.relative,
+             {.help = "lengths and position of this command are fractions of the diagonal"});
 }
 
 Expected<void> execute(const EditToolCommand& c, Act& act) {
   if (c.tool && c.name && *c.tool != *c.name) {
-    return input_error("tool and name are different", "name", "give one of them: tools are not renamed");
+    return input_error("tool and name are different", "name",
+                       "give one of them: tools are not renamed");
   }
   auto found = find_tool(act, c.tool ? c.tool : c.name);
   if (!found) return std::unexpected(found.error());
@@ -82,7 +96,8 @@ Expected<void> execute(const EditToolCommand& c, Act& act) {
     if (c.relative) unit = length;
   }
   const Shape& before = edited.shape.shape();
-  const auto shape = edited_shape(before, c.shape ? *c.shape : shape_name(before), c.measures, unit, length, act);
+  const auto shape =
+      edited_shape(before, c.shape ? *c.shape : shape_name(before), c.measures, unit, length, act);
   if (!shape) return std::unexpected(shape.error());
   const Placement& at = edited.shape.placement();
   const auto placement = placement_of(c, at, unit, act);

@@ -11,7 +11,8 @@ struct EditToolCommand {
   std::optional<std::string> name;  ///< the same
   std::optional<std::string> shape;
   ShapeFields measures;
-  std::optional<Vector3> axis;  ///< rotated there the shortest way, without twist about its own axis
+  std::optional<Vector3>
+      axis;  ///< rotated there the shortest way, without twist about its own axis
   std::optional<std::array<double, 4>> orientation;
   std::optional<Vector3> scale;
   std::optional<Vector3> position;

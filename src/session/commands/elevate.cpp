@@ -23,10 +23,12 @@ Expected<void> execute(const ElevateCommand& c, Act& act) {
         const int degree = shape.knots(d).degree(), times = c.by[static_cast<std::size_t>(d)];
         if (times > max_degree - degree) {
           return input_error(
-              fmt::format("{} has degree {} in {}: it cannot be raised by {}", s.id, degree, d == 0 ? "u" : "v", times),
+              fmt::format("{} has degree {} in {}: it cannot be raised by {}", s.id, degree,
+                          d == 0 ? "u" : "v", times),
               "by",
-              degree < max_degree ? fmt::format("degrees go to {}: use at most {}", max_degree, max_degree - degree)
-                                  : fmt::format("{} is the highest degree there is: use 0", max_degree));
+              degree < max_degree
+                  ? fmt::format("degrees go to {}: use at most {}", max_degree, max_degree - degree)
+                  : fmt::format("{} is the highest degree there is: use 0", max_degree));
         }
         if (result && times > 0) result = elevate_degree<2>(*result, d, times);
       }

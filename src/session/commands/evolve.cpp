@@ -9,8 +9,9 @@
 namespace knead {
 
 std::span<const Choice> choices(StepWeight) {
-  static constexpr Choice list[] = {{"mass", StepWeight::mass, "refining the net does not change the evolution"},
-                                    {"identity", StepWeight::identity, "the thesis' step, which depends on the net"}};
+  static constexpr Choice list[] = {
+      {"mass", StepWeight::mass, "refining the net does not change the evolution"},
+      {"identity", StepWeight::identity, "the thesis' step, which depends on the net"}};
   return list;
 }
 
@@ -32,15 +33,17 @@ std::span<const Choice> choices(Evolution) {
 }
 
 std::span<const Choice> choices(StepAccuracy) {
-  static constexpr Choice list[] = {{"exact", StepAccuracy::exact, "to 1e-11 of the forces"},
-                                    {"interactive", StepAccuracy::interactive,
-                                     "to 1e-6 of each step's displacement, faster ([performance.md](performance.md))"}};
+  static constexpr Choice list[] = {
+      {"exact", StepAccuracy::exact, "to 1e-11 of the forces"},
+      {"interactive", StepAccuracy::interactive,
+       "to 1e-6 of each step's displacement, faster ([performance.md](performance.md))"}};
   return list;
 }
 
 std::span<const Choice> choices(StepSolver) {
   static constexpr Choice list[] = {
-      {"automatic", StepSolver::automatic, "by the number of control points, and by whether iteration converges fast"},
+      {"automatic", StepSolver::automatic,
+       "by the number of control points, and by whether iteration converges fast"},
       {"direct", StepSolver::direct, "with a factor of the matrix"},
       {"iterative", StepSolver::iterative,
        "by iteration over nested nets, with less memory ([multigrid.md](multigrid.md))"}};
@@ -51,22 +54,26 @@ void describe(EvolveCommand& c, Fields& fields) {
   fields.name("evolve", "what steps do; static solves at once");
   fields.add("mode", c.evolution.mode, {.help = "what a step solves"});
   fields.add("lambda", c.evolution.lambda,
-             {.help = "acm: λ, inverse step size: small goes straight to equilibrium, large creeps. 0 requires "
+             {.help = "acm: λ, inverse step size: small goes straight to equilibrium, large "
+                      "creeps. 0 requires "
                       "that something is held",
               .range = at_least(0)});
-  fields.add("time_step", c.evolution.time_step, {.help = "dynamic: time per step", .range = above(0)});
+  fields.add("time_step", c.evolution.time_step,
+             {.help = "dynamic: time per step", .range = above(0)});
   fields.add("weight", c.evolution.weight, {.help = "acm: the weights of a step"});
   fields.add("route", c.evolution.route, {.help = "how tool forces are integrated"});
   fields.add("accuracy", c.evolution.accuracy, {.help = "how exactly steps in contact are solved"});
   fields.add("solver", c.evolution.solver, {.help = "how the systems of steps are solved"});
   fields.add("energy_tolerance", c.evolution.energy_tolerance,
-             {.help = "rational shapes: the largest error of an entry of the energy's matrix, relative to its diagonal",
+             {.help = "rational shapes: the largest error of an entry of the energy's matrix, "
+                      "relative to its diagonal",
               .range = between(1e-14, 0.1)});
 }
 
 Expected<void> execute(const EvolveCommand& c, Act& act) {
   if (c.evolution.mode == Evolution::stationary) {
-    if (auto made = run(act, {.evolution = c.evolution}); !made) return std::unexpected(made.error());
+    if (auto made = run(act, {.evolution = c.evolution}); !made)
+      return std::unexpected(made.error());
   }
   act.state.evolution = c.evolution;
   return {};

@@ -16,7 +16,8 @@ std::span<const Choice> choices(ForceKind) {
       {"volcano", ForceKind::volcano, "drives it away from there"},
       {"dead", ForceKind::dead, "`vector`, whatever the point does"},
       {"line", ForceKind::line, "`vector` per length of the rest shape, along `edge`"},
-      {"moment", ForceKind::moment, "`moment` per length of the rest shape, about `edge`, following it"}};
+      {"moment", ForceKind::moment,
+       "`moment` per length of the rest shape, about `edge`, following it"}};
   return list;
 }
 
@@ -25,24 +26,28 @@ void describe(ForceCommand& c, Fields& fields) {
   fields.add("name", c.name, {.help = "what `remove` calls it"});
   fields.add("kind", c.kind, {.help = "how it acts"});
   fields.add("at", c.at,
-             {.help = "`[s, t]`: the surface point, of a curve `[s]`, of a volume `[s, t, r]`; of all kinds but line "
+             {.help = "`[s, t]`: the surface point, of a curve `[s]`, of a volume `[s, t, r]`; of "
+                      "all kinds but line "
                       "and moment",
               .unit = Unit::fraction,
               .range = between(0, 1)});
   fields.add("to", c.to, {.help = "`[x, y, z]`: of springs and volcanoes", .unit = Unit::length});
   fields.add("strength", c.strength,
-             {.help = "spring constant, or k of the volcano's k/r²", .range = between(0, max_tool_stiffness)});
+             {.help = "spring constant, or k of the volcano's k/r²",
+              .range = between(0, max_tool_stiffness)});
   fields.add("core", c.core,
              {.help = "distance within which the force of a volcano no longer grows",
               .unit = Unit::length,
               .range = above(0)});
-  fields.add(
-      "vector", c.vector,
-      {.help = "`[x, y, z]`: of a dead force, or of a line force per length; lengths and forces are those of the "
-               "model, in `scaling` raw those of the file"});
+  fields.add("vector", c.vector,
+             {.help = "`[x, y, z]`: of a dead force, or of a line force per length; lengths and "
+                      "forces are those of the "
+                      "model, in `scaling` raw those of the file"});
   fields.add("edge", c.edge, {.help = "of a line force or a moment"});
-  fields.add("moment", c.moment,
-             {.help = "of shells: force times length per length, right-handed about the edge's direction"});
+  fields.add(
+      "moment", c.moment,
+      {.help =
+           "of shells: force times length per length, right-handed about the edge's direction"});
 }
 
 namespace {
@@ -68,7 +73,8 @@ Expected<void> check_kind(const ForceCommand& f) {
   }
   if (f.vector && !point_of(*f.vector).allFinite())
     return input_error("a force is not finite", "vector", "use numbers");
-  if (f.moment && !std::isfinite(*f.moment)) return input_error("a moment is not finite", "moment", "use a number");
+  if (f.moment && !std::isfinite(*f.moment))
+    return input_error("a moment is not finite", "moment", "use a number");
   return {};
 }
 
@@ -76,7 +82,8 @@ Expected<void> check_kind(const ForceCommand& f) {
 
 Expected<Force> force_of(const ForceCommand& c) {
   if (auto valid = check_kind(c); !valid) return std::unexpected(valid.error());
-  if (auto valid = check_ranges(type_of<ForceCommand>(), &c); !valid) return std::unexpected(valid.error());
+  if (auto valid = check_ranges(type_of<ForceCommand>(), &c); !valid)
+    return std::unexpected(valid.error());
   switch (c.kind) {
     case ForceKind::spring:
       return SpringForce{*c.at, *c.to, c.strength};
@@ -120,7 +127,8 @@ Expected<void> execute(const ForceCommand& c, Act& act) {
   const SceneBody* const b = body(act);
   if (auto some = some_selected(act); !some) return some;
   if (b != nullptr && (c.kind == ForceKind::line || c.kind == ForceKind::moment)) {
-    return input_error(fmt::format("a {} has no edges", kind_of(*b)), "kind", "use spring, volcano or dead");
+    return input_error(fmt::format("a {} has no edges", kind_of(*b)), "kind",
+                       "use spring, volcano or dead");
   }
   auto force = force_of(c);
   if (!force) return std::unexpected(force.error());
@@ -129,8 +137,10 @@ Expected<void> execute(const ForceCommand& c, Act& act) {
     const auto u = parameters_at<D>(shape, *c.at);
     return u ? Expected<void>() : std::unexpected(u.error());
   };
-  auto there = b == nullptr ? exists(*act.state.surfaces[static_cast<std::size_t>(*act.state.selected)].current)
-                            : std::visit([&](const auto& s) { return exists(*s.current); }, *b);
+  auto there =
+      b == nullptr
+          ? exists(*act.state.surfaces[static_cast<std::size_t>(*act.state.selected)].current)
+          : std::visit([&](const auto& s) { return exists(*s.current); }, *b);
   if (!there) return there;
   put_force(act.state, {.name = c.name,
                         .surface = b == nullptr ? *act.state.selected : -1,

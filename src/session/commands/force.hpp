@@ -9,8 +9,8 @@ enum class ForceKind { spring, volcano, dead, line, moment };
 
 std::span<const Choice> choices(ForceKind);
 
-/// A force on one point or edge of the first selected surface, or on one point of the selected body, until it is
-/// removed (thesis Eq. 4.24). Each kind has some of the fields.
+/// A force on one point or edge of the first selected surface, or on one point of the selected
+/// body, until it is removed (thesis Eq. 4.24). Each kind has some of the fields.
 struct ForceCommand {
   static constexpr ActsOn acts_on = ActsOn::shapes;
   std::string name = "force";
@@ -23,8 +23,8 @@ struct ForceCommand {
   std::optional<double> moment = {};
 };
 
-/// The force that is meant. Errors (input): it lacks what its kind needs, has what its kind has not, or a number is out
-/// of range.
+/// The force that is meant. Errors (input): it lacks what its kind needs, has what its kind has
+/// not, or a number is out of range.
 [[nodiscard]] Expected<Force> force_of(const ForceCommand& c);
 
 /// The command that makes a force.

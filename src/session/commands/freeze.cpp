@@ -25,8 +25,9 @@ Expected<void> execute(const FreezeCommand& c, Act& act) {
   ConstraintList list((*surface)->rest->size());
   const auto frozen = freeze_region(*(*surface)->rest, (*region)[0], (*region)[1], list);
   if (!frozen) return std::unexpected(frozen.error());
-  act.state.notes.push_back(fmt::format("{}: frozen from u = {:.6g} to {:.6g}, v = {:.6g} to {:.6g}", (*surface)->id,
-                                        frozen->u.lower, frozen->u.upper, frozen->v.lower, frozen->v.upper));
+  act.state.notes.push_back(
+      fmt::format("{}: frozen from u = {:.6g} to {:.6g}, v = {:.6g} to {:.6g}", (*surface)->id,
+                  frozen->u.lower, frozen->u.upper, frozen->v.lower, frozen->v.upper));
   return {};
 }
 

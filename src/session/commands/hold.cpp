@@ -12,19 +12,22 @@
 namespace knead {
 
 std::span<const Choice> choices(HoldMode) {
-  static constexpr Choice names[] = {{"rows", HoldMode::rows, "outer rows of control points"},
-                                     {"trim", HoldMode::trim, "the edges of the faces"},
-                                     {"trim-g1", HoldMode::trim_g1, "with their tangent planes"},
-                                     {"trim-g2", HoldMode::trim_g2, "with their curvatures too"},
-                                     {"free", HoldMode::free, "neither: the edges of the faces may open"}};
+  static constexpr Choice names[] = {
+      {"rows", HoldMode::rows, "outer rows of control points"},
+      {"trim", HoldMode::trim, "the edges of the faces"},
+      {"trim-g1", HoldMode::trim_g1, "with their tangent planes"},
+      {"trim-g2", HoldMode::trim_g2, "with their curvatures too"},
+      {"free", HoldMode::free, "neither: the edges of the faces may open"}};
   return names;
 }
 
 void describe(HoldCommand& c, Fields& fields) {
   fields.name("hold", "hold the edges of faces, or the outer rows of control points on every side");
-  fields.add("rows", c.rows, {.help = "number of rows in mode `rows`; 0 holds none", .range = at_least(0)});
+  fields.add("rows", c.rows,
+             {.help = "number of rows in mode `rows`; 0 holds none", .range = at_least(0)});
   fields.add("mode", c.mode, {.help = "what is held", .fallback = "`\"rows\"`"});
-  fields.add("all", c.all, {.help = "for every surface of the document, not only the selected ones"});
+  fields.add("all", c.all,
+             {.help = "for every surface of the document, not only the selected ones"});
 }
 
 namespace {
@@ -35,10 +38,12 @@ bool holds_trims(HoldMode mode) { return mode != HoldMode::rows && mode != HoldM
 void hold_edges(SceneSurface& s, HoldMode mode) {
   std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
     const auto* edges = std::get_if<TrimHolds>(&kept.constraint);
-    if (edges != nullptr) return mode != HoldMode::rows || edges->order >= 0;  // rows hold no edge that was freed
+    if (edges != nullptr)
+      return mode != HoldMode::rows || edges->order >= 0;  // rows hold no edge that was freed
     return std::holds_alternative<TrimEdgeHold>(kept.constraint);
   });
-  const int order = holds_trims(mode) ? static_cast<int>(mode) - static_cast<int>(HoldMode::trim) : -1;
+  const int order =
+      holds_trims(mode) ? static_cast<int>(mode) - static_cast<int>(HoldMode::trim) : -1;
   if (mode != HoldMode::rows) s.constraints.push_back({TrimHolds{order}, s.current});
 }
 
@@ -49,7 +54,8 @@ Expected<void> execute(const HoldCommand& c, Act& act) {
   const HoldMode mode = c.mode.value_or(HoldMode::rows);
   if (!all) {
     if (auto some = some_selected(act); !some) return some;
-    if (act.state.body && holds_trims(mode)) return of_surfaces(act, "faces", R"(use "mode":"rows")");
+    if (act.state.body && holds_trims(mode))
+      return of_surfaces(act, "faces", R"(use "mode":"rows")");
   }
   const auto hold = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
     s.hold_rows = mode == HoldMode::rows ? c.rows : 0;
@@ -58,7 +64,9 @@ Expected<void> execute(const HoldCommand& c, Act& act) {
   };
   if (!all) {
     if (auto done = each_selected(act, hold); !done) return done;
-    return act.state.body ? check_constraints(act) : holds_trims(mode) ? know_trims(act) : Expected<void>();
+    return act.state.body      ? check_constraints(act)
+           : holds_trims(mode) ? know_trims(act)
+                               : Expected<void>();
   }
   for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
     if (auto done = hold(act.state.surfaces[k]); !done) return done;

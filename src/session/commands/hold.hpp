@@ -9,13 +9,14 @@ enum class HoldMode { rows, trim, trim_g1, trim_g2, free };
 
 std::span<const Choice> choices(HoldMode);
 
-/// Holds the outer `rows` rows of control points on every side, or the edges of the faces on a surface with their
-/// tangent planes (g1) and curvatures (g2); `free` holds neither. Replaces an earlier hold.
+/// Holds the outer `rows` rows of control points on every side, or the edges of the faces on a
+/// surface with their tangent planes (g1) and curvatures (g2); `free` holds neither. Replaces an
+/// earlier hold.
 struct HoldCommand {
   static constexpr ActsOn acts_on = ActsOn::shapes;
   int rows = 2;
   std::optional<HoldMode> mode = {};  ///< default: rows
-  std::optional<bool> all = {};       ///< for every surface of the document, not just the selected ones
+  std::optional<bool> all = {};  ///< for every surface of the document, not just the selected ones
 };
 
 Expected<void> execute(const HoldCommand& c, Act& act);

@@ -10,7 +10,8 @@ void describe(KeepCommand& c, Fields& fields) {
              {.help = "the line u = const at this fraction of the domain, exactly",
               .unit = Unit::fraction,
               .range = between(0, 1)});
-  fields.add("v", c.keep.v, {.help = "the line v = const", .unit = Unit::fraction, .range = between(0, 1)});
+  fields.add("v", c.keep.v,
+             {.help = "the line v = const", .unit = Unit::fraction, .range = between(0, 1)});
   fields.add("curve", c.keep.curve,
              {.help = "`[[s, t], …]`, a polyline in the domain, to the tolerance",
               .unit = Unit::fraction,

@@ -19,22 +19,28 @@ static constexpr Choice block_faces[] = {{"u0", "the first end along x"}, {"u1",
                                          {"w0", "the first along z"},     {"w1", "the last"}};
 
 void describe(LatticeCommand& c, Fields& fields) {
-  fields.name("lattice", "deform the surfaces with an elastic block of space that the tools act on");
+  fields.name("lattice",
+              "deform the surfaces with an elastic block of space that the tools act on");
   fields.add("net", c.net, {.help = "control points of the block along x, y, z"});
   fields.add("degree", c.degree, {.help = "along x, y, z"});
-  fields.add("margin", c.margin,
-             {.help = "how far the block reaches beyond the control points, as a share of their diagonal",
-              .unit = Unit::fraction});
+  fields.add(
+      "margin", c.margin,
+      {.help = "how far the block reaches beyond the control points, as a share of their diagonal",
+       .unit = Unit::fraction});
   fields.add("steps", c.steps, {.help = "number of steps", .range = between(1, max_steps)});
   fields.add("lambda", c.lambda, {.help = "inverse step size", .range = at_least(0)});
   fields.add("hold", c.hold, {.help = "faces of the block that stay", .choices = block_faces});
   fields.add("which", c.which,
-             {.help = "control points of the block that are moved by hand; that of indices i, j, k along x, y, z is "
+             {.help = "control points of the block that are moved by hand; that of indices i, j, k "
+                      "along x, y, z is "
                       "`(i · net[1] + j) · net[2] + k`"});
-  fields.add("by", c.by, {.help = "how far these are moved; tools do not act then", .unit = Unit::length});
+  fields.add("by", c.by,
+             {.help = "how far these are moved; tools do not act then", .unit = Unit::length});
   fields.add("again", c.again,
-             {.help = "go on with the block of the `lattice` before: its control points are moved from where they were "
-                      "pulled, and deform the shapes that it was put round. Net, degree, margin and selection are the "
+             {.help = "go on with the block of the `lattice` before: its control points are moved "
+                      "from where they were "
+                      "pulled, and deform the shapes that it was put round. Net, degree, margin "
+                      "and selection are the "
                       "same, and nothing else has changed the surfaces since"});
   describe_allowance(c.allow, fields);
 }
@@ -66,7 +72,9 @@ Expected<Points> pressed(const Act& act, const LatticeCommand& c, const Lattice&
 /// Control points of the block after the user's hand has moved some.
 Expected<Points> moved_by_hand(const LatticeCommand& c, Points points) {
   const auto count = static_cast<int>(points.rows());
-  if (c.which.empty()) return input_error("no control points are named", "which", "give their numbers, counted from 0");
+  if (c.which.empty())
+    return input_error("no control points are named", "which",
+                       "give their numbers, counted from 0");
   if (!c.by) return input_error("nothing says how far they are moved", "by", "give [dx, dy, dz]");
   const Eigen::RowVector3d by(c.by->data());
   if (!by.allFinite()) return input_error("the move is not finite", "by", "give three numbers");
@@ -74,7 +82,8 @@ Expected<Points> moved_by_hand(const LatticeCommand& c, Points points) {
   for (std::size_t k = 0; k < c.which.size(); ++k) {
     const int number = c.which[k];
     if (number < 0 || number >= count) {
-      return input_error(fmt::format("the block has no control point {}", number), fmt::format("which[{}]", k),
+      return input_error(fmt::format("the block has no control point {}", number),
+                         fmt::format("which[{}]", k),
                          fmt::format("use numbers from 0 to {}", count - 1));
     }
     if (!moved[static_cast<std::size_t>(number)]) points.row(number) += by;
@@ -89,10 +98,12 @@ Expected<void> execute(const LatticeCommand& c, Act& act) {
   auto surface = selected(act);
   if (!surface) return std::unexpected(surface.error());
   const bool by_hand = !c.which.empty() || c.by.has_value();
-  if (by_hand && !c.hold.empty()) return input_error("faces hold against tools only", "hold", "leave it out, or which");
+  if (by_hand && !c.hold.empty())
+    return input_error("faces hold against tools only", "hold", "leave it out, or which");
   if (c.again && !by_hand)
     return input_error("tools press a block of their own", "again", "leave it out, or add which");
-  const PulledLattice* on = c.again ? lattice_to_pull_on(act.state, c.margin, c.degree, c.net) : nullptr;
+  const PulledLattice* on =
+      c.again ? lattice_to_pull_on(act.state, c.margin, c.degree, c.net) : nullptr;
   if (c.again && on == nullptr) {
     return input_error("the surfaces are not as a block of this kind has left them", "again",
                        "leave it out: a block is put round them as they are");
@@ -103,13 +114,14 @@ Expected<void> execute(const LatticeCommand& c, Act& act) {
   }
   PulledLattice pulled{c.net, c.degree, c.margin, {}, act.state.selection(), {}, {}};
   for (std::size_t k = 0; k < pulled.surfaces.size(); ++k) {
-    pulled.before.push_back(on ? on->before[k]
-                               : act.state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])].current);
+    pulled.before.push_back(
+        on ? on->before[k]
+           : act.state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])].current);
   }
   const auto lattice = lattice_around(pulled.before, c.margin, c.degree, c.net);
   if (!lattice) return std::unexpected(lattice.error());
-  auto after =
-      by_hand ? moved_by_hand(c, on ? on->points : lattice->rest().control_points()) : pressed(act, c, *lattice);
+  auto after = by_hand ? moved_by_hand(c, on ? on->points : lattice->rest().control_points())
+                       : pressed(act, c, *lattice);
   if (!after) return std::unexpected(after.error());
   for (std::size_t k = 0; k < pulled.surfaces.size(); ++k) {
     const auto points = lattice->deformed(pulled.before[k]->control_points(), *after);

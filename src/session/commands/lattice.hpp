@@ -4,8 +4,8 @@
 
 namespace knead {
 
-/// Deforms the selected surfaces with a block of space around them, on which the tools act, or whose control points are
-/// moved by hand (thesis § 5.7).
+/// Deforms the selected surfaces with a block of space around them, on which the tools act, or
+/// whose control points are moved by hand (thesis § 5.7).
 struct LatticeCommand {
   std::array<int, 3> net = {6, 6, 6};
   std::array<int, 3> degree = {3, 3, 3};

@@ -24,11 +24,13 @@ Expected<void> execute(const LimitCommand& c, Act& act) {
   }
   for (const SceneSurface& s : act.state.surfaces) {
     if (same_basis(*s.opened, *s.current)) continue;
-    return input_error(fmt::format("weights or knots of {} were edited, and a limit is measured on those it was opened "
-                                   "with",
-                                   s.id),
-                       "limit", "save the file and open it again, or undo those edits",
-                       {ErrorCode::limit_needs_opened_basis, {{"surface", s.id}}});
+    return input_error(
+        fmt::format(
+            "weights or knots of {} were edited, and a limit is measured on those it was opened "
+            "with",
+            s.id),
+        "limit", "save the file and open it again, or undo those edits",
+        {ErrorCode::limit_needs_opened_basis, {{"surface", s.id}}});
   }
   double unit = 1;
   if (c.relative) {

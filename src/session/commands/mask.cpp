@@ -15,12 +15,13 @@ constexpr double default_mask_radius = 0.02;  // of the diagonal
 }  // namespace
 
 std::span<const Choice> choices(MaskChange) {
-  static constexpr Choice list[] = {{"clear", MaskChange::clear, "nothing is masked"},
-                                    {"fill", MaskChange::fill, "everything is"},
-                                    {"invert", MaskChange::invert, "what is masked is free, and the other way around"},
-                                    {"blur", MaskChange::blur, "the mean within the radius"},
-                                    {"grow", MaskChange::grow, "the largest within the radius"},
-                                    {"shrink", MaskChange::shrink, "the smallest within the radius"}};
+  static constexpr Choice list[] = {
+      {"clear", MaskChange::clear, "nothing is masked"},
+      {"fill", MaskChange::fill, "everything is"},
+      {"invert", MaskChange::invert, "what is masked is free, and the other way around"},
+      {"blur", MaskChange::blur, "the mean within the radius"},
+      {"grow", MaskChange::grow, "the largest within the radius"},
+      {"shrink", MaskChange::shrink, "the smallest within the radius"}};
   return list;
 }
 
@@ -39,7 +40,8 @@ Expected<void> execute(const MaskCommand& c, Act& act) {
   if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   const auto length = diagonal(act);
   if (!length) return std::unexpected(length.error());
-  const double radius = c.radius ? *c.radius * (c.relative ? *length : 1) : default_mask_radius * *length;
+  const double radius =
+      c.radius ? *c.radius * (c.relative ? *length : 1) : default_mask_radius * *length;
   if (auto possible = check_radius(radius); !possible) return possible;
   for (int k : act.state.selection()) {
     auto done = change_mask(act.state.surfaces[static_cast<std::size_t>(k)], c.change, radius);

@@ -7,8 +7,8 @@ namespace knead {
 /// Materials that there are by name.
 enum class MaterialPreset { clay, wax, rubber, sheet_metal, cloth, membrane };
 
-/// What resists: the linear active model, a shell, or the fundamental forms of a surface; a plate is a linear model
-/// with the coefficients of `thin_plate`.
+/// What resists: the linear active model, a shell, or the fundamental forms of a surface; a plate
+/// is a linear model with the coefficients of `thin_plate`.
 enum class MaterialModel { linear, shell, fundamental, plate };
 
 /// What lengths of a material are counted in.
@@ -29,8 +29,8 @@ void describe(NamedMaterial& m, Fields& fields);
 /// The material by name that a surface has; none where it has one of its own.
 [[nodiscard]] std::optional<MaterialPreset> preset_of(const SceneSurface& surface);
 
-/// Sets stretch and bend coefficients, mass and damping of the selected surfaces, everywhere or in a region. What is
-/// not named stays as it is.
+/// Sets stretch and bend coefficients, mass and damping of the selected surfaces, everywhere or in
+/// a region. What is not named stays as it is.
 struct MaterialCommand {
   static constexpr ActsOn acts_on = ActsOn::shapes;
   /// In the order 11, 12, 22 of surfaces; 11 of curves; 11, 12, 13, 22, 23, 33 of volumes.
@@ -38,7 +38,8 @@ struct MaterialCommand {
   std::optional<double> mass, damping;
   std::optional<FractionBox> region;
   double falloff = 0.1;  ///< width of the border between old and new, in fractions
-  /// One coefficient alone ("alpha11" … "beta22", "mass", "damping") by samples on a grid over the domain.
+  /// One coefficient alone ("alpha11" … "beta22", "mass", "damping") by samples on a grid over the
+  /// domain.
   std::optional<std::string> coefficient;
   std::array<int, 2> counts = {0, 0};
   std::vector<double> samples;         ///< last direction fastest, linear in between
@@ -49,10 +50,12 @@ struct MaterialCommand {
   std::optional<double> plasticity, yield, locality;
   std::optional<LengthUnit> lengths;  ///< default: radii
   std::optional<MaterialModel> model;
-  std::optional<double> young, poisson, thickness, density;  ///< of a shell, in units of the file; poisson of a plate
-  std::optional<double> rigidity;                            ///< of a plate, in units of beta
-  std::optional<std::array<double, 3>> w1, w2;               ///< of the fundamental forms, in the order 11, 12, 22
-  bool reset = false;                                        ///< first, all is as of a new surface
+  std::optional<double> young, poisson, thickness,
+      density;                     ///< of a shell, in units of the file; poisson of a plate
+  std::optional<double> rigidity;  ///< of a plate, in units of beta
+  std::optional<std::array<double, 3>> w1,
+      w2;              ///< of the fundamental forms, in the order 11, 12, 22
+  bool reset = false;  ///< first, all is as of a new surface
 };
 
 /// What resists, and what strokes leave, are as of a new shape.

@@ -9,9 +9,9 @@ const Preset presets[] = {
     {{{0.1, 0, 0.1}, {0.001, 0.001, 0.001}}, 100, {true, 1, 0, local, true}},            // clay
     {{{0.1, 0, 0.1}, {0.001, 0.001, 0.001}}, 100, {true, 0.9, 0.02, half_local, true}},  // wax
     {{{0.1, 0, 0.1}, {0.01, 0.01, 0.01}}, 1, {true, 0, 0, wide, true}},                  // rubber
-    {{{0.05, 0, 0.05}, {0.05, 0.05, 0.05}}, 20, {true, 1, 0.15, wide, true}},            // sheet metal
-    {{{1, 0, 1}, {0.0001, 0.0001, 0.0001}}, 1, {true, 0, 0, 0, true}},                   // cloth
-    {{{1, 0, 1}, {0, 0, 0}}, 1, {true, 0, 0, 0, true}},                                  // membrane
+    {{{0.05, 0, 0.05}, {0.05, 0.05, 0.05}}, 20, {true, 1, 0.15, wide, true}},  // sheet metal
+    {{{1, 0, 1}, {0.0001, 0.0001, 0.0001}}, 1, {true, 0, 0, 0, true}},         // cloth
+    {{{1, 0, 1}, {0, 0, 0}}, 1, {true, 0, 0, 0, true}},                        // membrane
 };
 
 }  // namespace
@@ -19,12 +19,13 @@ const Preset presets[] = {
 const Preset& preset_named(MaterialPreset name) { return presets[static_cast<std::size_t>(name)]; }
 
 std::span<const Choice> choices(MaterialPreset) {
-  static constexpr Choice list[] = {{"clay", MaterialPreset::clay, "local, stays"},
-                                    {"wax", MaterialPreset::wax, "local, springs back a little"},
-                                    {"rubber", MaterialPreset::rubber, "springs back"},
-                                    {"sheet metal", MaterialPreset::sheet_metal, "bends widely, stays past a yield"},
-                                    {"cloth", MaterialPreset::cloth, "is drawn along, springs back"},
-                                    {"membrane", MaterialPreset::membrane, "a soap film, springs back"}};
+  static constexpr Choice list[] = {
+      {"clay", MaterialPreset::clay, "local, stays"},
+      {"wax", MaterialPreset::wax, "local, springs back a little"},
+      {"rubber", MaterialPreset::rubber, "springs back"},
+      {"sheet metal", MaterialPreset::sheet_metal, "bends widely, stays past a yield"},
+      {"cloth", MaterialPreset::cloth, "is drawn along, springs back"},
+      {"membrane", MaterialPreset::membrane, "a soap film, springs back"}};
   return list;
 }
 
@@ -32,7 +33,8 @@ std::vector<NamedMaterial> named_materials() {
   std::vector<NamedMaterial> named;
   for (const Choice& choice : choices(MaterialPreset{})) {
     const Material& material = presets[static_cast<std::size_t>(choice.value)].material;
-    named.push_back({std::string(choice.name), std::string(choice.help), material.alpha[0], material.beta[0]});
+    named.push_back(
+        {std::string(choice.name), std::string(choice.help), material.alpha[0], material.beta[0]});
   }
   return named;
 }

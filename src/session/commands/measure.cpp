@@ -12,11 +12,12 @@ void describe(MeasureCommand& c, Fields& fields) {
   fields.name("measure", "report the final position of a surface point");
   fields.add("name", c.name, {.help = "what the report calls it"});
   fields.add("surface", c.surface, {.help = "its id", .fallback = "the first selected one"});
-  fields.add("at", c.at,
-             {.help = "`[s, t]`: a point of the surface; or `\"middle\"`, the visible point farthest "
-                      "from all edges",
-              .unit = Unit::fraction,
-              .range = between(0, 1)});
+  fields.add(
+      "at", c.at,
+      {.help = "`[s, t]`: a point of the surface; or `\"middle\"`, the visible point farthest "
+               "from all edges",
+       .unit = Unit::fraction,
+       .range = between(0, 1)});
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
 }
 
@@ -34,8 +35,9 @@ Expected<void> execute(const MeasureCommand& c, Act& act) {
   if (!at) return std::unexpected(at.error());
   if (auto u = parameters_at(*surface.current, *at); !u) return std::unexpected(u.error());
   Probe probe{"measurements", c.name, index, *at};
-  const auto same = std::ranges::find_if(act.state.probes,
-                                         [&](const Probe& p) { return p.list == probe.list && p.name == probe.name; });
+  const auto same = std::ranges::find_if(act.state.probes, [&](const Probe& p) {
+    return p.list == probe.list && p.name == probe.name;
+  });
   if (same != act.state.probes.end()) {
     *same = std::move(probe);
   } else {

@@ -4,8 +4,9 @@
 
 namespace knead {
 
-/// Makes the report give the final position of a surface point: `"measurements": [{"name", "surface", "at", "point",
-/// "displacement", "normal", "curvature"}]`. Replaces the measurement of that name.
+/// Makes the report give the final position of a surface point: `"measurements": [{"name",
+/// "surface", "at", "point", "displacement", "normal", "curvature"}]`. Replaces the measurement of
+/// that name.
 struct MeasureCommand {
   std::string name = "point";
   std::optional<std::string> surface = {};  ///< id; left out: the first selected one

@@ -11,7 +11,8 @@ namespace knead {
 
 void describe(ModesCommand& c, Fields& fields) {
   fields.name("modes", "report the lowest natural frequencies about the present state");
-  fields.add("count", c.count, {.help = "number of modes; rigid ones count too", .range = between(1, most_modes)});
+  fields.add("count", c.count,
+             {.help = "number of modes; rigid ones count too", .range = between(1, most_modes)});
 }
 
 Expected<void> execute(const ModesCommand& c, Act& act) {
@@ -20,7 +21,8 @@ Expected<void> execute(const ModesCommand& c, Act& act) {
   if (!found) return std::unexpected(found.error());
   act.state.modes.clear();
   for (Eigenmode& mode : *found) {
-    const double frequency = std::copysign(std::sqrt(std::abs(mode.value)), mode.value) / (2 * std::numbers::pi);
+    const double frequency =
+        std::copysign(std::sqrt(std::abs(mode.value)), mode.value) / (2 * std::numbers::pi);
     act.state.modes.push_back({frequency, mode.residual, std::move(mode.shape)});
   }
   return {};

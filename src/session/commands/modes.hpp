@@ -4,8 +4,9 @@
 
 namespace knead {
 
-/// Finds the lowest natural frequencies of the selected surfaces about their present state: `"modes": [{"frequency",
-/// "residual"}]` of the report. Changes nothing else: it is no part of the history.
+/// Finds the lowest natural frequencies of the selected surfaces about their present state:
+/// `"modes": [{"frequency", "residual"}]` of the report. Changes nothing else: it is no part of the
+/// history.
 struct ModesCommand {
   int count = 10;
 };

@@ -7,7 +7,8 @@ namespace knead {
 void describe(MoveCommand& c, Fields& fields) {
   fields.name("move", "move a tool");
   fields.add("tool", c.tool, {.help = "its name", .fallback = "the only tool"});
-  fields.add("by", c.by, {.help = "`[dx, dy, dz]`", .unit = Unit::length, .presence = Presence::required});
+  fields.add("by", c.by,
+             {.help = "`[dx, dy, dz]`", .unit = Unit::length, .presence = Presence::required});
   fields.add("relative", c.relative, {.help = "`by` is in fractions of the diagonal"});
 }
 
@@ -21,7 +22,8 @@ Expected<void> execute(const MoveCommand& c, Act& act) {
     unit = *length;
   }
   const Placement& at = (*tool)->shape.placement();
-  auto moved = (*tool)->shape.moved(at.rotation, at.position + unit * Point(c.by[0], c.by[1], c.by[2]));
+  auto moved =
+      (*tool)->shape.moved(at.rotation, at.position + unit * Point(c.by[0], c.by[1], c.by[2]));
   if (!moved) return std::unexpected(moved.error());
   (*tool)->shape = std::move(*moved);
   return {};

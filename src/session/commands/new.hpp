@@ -9,18 +9,19 @@ enum class BodyForm { line, circle, helix, box, cylinder };
 
 std::span<const Choice> choices(BodyForm);
 
-/// Makes a surface, a curve or a volume in a document without a file, and selects it: a flat sheet, a surface of
-/// revolution about z, a line, a box, and the like, or any control points.
+/// Makes a surface, a curve or a volume in a document without a file, and selects it: a flat sheet,
+/// a surface of revolution about z, a line, a box, and the like, or any control points.
 struct NewCommand {
   static constexpr ActsOn acts_on = ActsOn::scene;
   std::string shape = "plane";
-  std::optional<BodyForm> form;             ///< of curves and volumes; default: line, box
-  std::optional<std::vector<double>> size;  ///< of a plane, a line and a box; default: 1; one number stands for all
-  std::optional<double> radius;             ///< of what is round; default: 0.5
-  std::optional<double> height;             ///< of a cylinder; default: twice the radius; of a helix: 1
-  std::optional<double> minor;              ///< tube radius of a torus; default: a quarter of the radius
-  std::optional<double> turns;              ///< of a helix; default: 3
-  std::vector<Fractions> profile;           ///< of a revolution: control points (r, z)
+  std::optional<BodyForm> form;  ///< of curves and volumes; default: line, box
+  std::optional<std::vector<double>>
+      size;  ///< of a plane, a line and a box; default: 1; one number stands for all
+  std::optional<double> radius;    ///< of what is round; default: 0.5
+  std::optional<double> height;    ///< of a cylinder; default: twice the radius; of a helix: 1
+  std::optional<double> minor;     ///< tube radius of a torus; default: a quarter of the radius
+  std::optional<double> turns;     ///< of a helix; default: 3
+  std::vector<Fractions> profile;  ///< of a revolution: control points (r, z)
   /// In each direction; one number stands for all.
   std::vector<int> degree = {3}, net = {8};
   std::vector<double> knots_u, knots_v;        ///< empty: clamped, uniform on [0, 1]

@@ -12,9 +12,11 @@ namespace knead {
 void describe(PointsCommand& c, Fields& fields) {
   fields.name("points", "move control points of the selected surface by hand, permanently");
   describe(c.points, fields);
-  fields.add("by", c.by, {.help = "`[dx, dy, dz]` for all of them; this or `to`", .unit = Unit::length});
+  fields.add("by", c.by,
+             {.help = "`[dx, dy, dz]` for all of them; this or `to`", .unit = Unit::length});
   fields.add("to", c.to,
-             {.help = "`[[x, y, z], …]`: a place for each, in the order in which they are named, each counted once",
+             {.help = "`[[x, y, z], …]`: a place for each, in the order in which they are named, "
+                      "each counted once",
               .unit = Unit::length});
   fields.add("relative", c.relative, {.help = "`by` is in fractions of the diagonal"});
   describe_allowance(c.allow, fields);
@@ -33,28 +35,32 @@ Expected<std::vector<int>> named_of(Act& act, const NamedPoints& named, const Sp
     for (std::size_t k = 0; k < named.which.size(); ++k) {
       const int number = named.which[k];
       if (number < 0 || number >= shape.size()) {
-        return input_error(fmt::format("there is no control point {}", number), fmt::format("which[{}]", k),
+        return input_error(fmt::format("there is no control point {}", number),
+                           fmt::format("which[{}]", k),
                            fmt::format("use numbers from 0 to {}", shape.size() - 1));
       }
       if (std::ranges::find(points, number) == points.end()) points.push_back(number);
     }
     if (!points.empty()) return points;
-    return input_error("no control points are named", "which", "give their numbers, counted from 0");
+    return input_error("no control points are named", "which",
+                       "give their numbers, counted from 0");
   }
 }
 
 /// All control points after the command.
-Expected<Points> points_after(Act& act, const PointsCommand& c, const std::vector<int>& named, const Points& before) {
+Expected<Points> points_after(Act& act, const PointsCommand& c, const std::vector<int>& named,
+                              const Points& before) {
   if (c.by.has_value() == !c.to.empty()) {
-    return input_error("one of by and to is needed", "by", "give [dx, dy, dz], or a list of positions");
+    return input_error("one of by and to is needed", "by",
+                       "give [dx, dy, dz], or a list of positions");
   }
   if (!c.to.empty() && c.relative) {
     return input_error("positions are not relative", "relative",
                        act.state.body ? "leave it out" : "leave it out, or give by");
   }
   if (!c.to.empty() && c.to.size() != named.size()) {
-    return input_error(fmt::format("{} positions for {} control points", c.to.size(), named.size()), "to",
-                       "give one for each; a point named twice counts once");
+    return input_error(fmt::format("{} positions for {} control points", c.to.size(), named.size()),
+                       "to", "give one for each; a point named twice counts once");
   }
   double unit = 1;
   if (c.relative) {
@@ -98,7 +104,8 @@ Expected<void> move_by_hand(Act& act, SceneShape<D>& s, const PointsCommand& c) 
 }  // namespace
 
 Expected<void> execute(const PointsCommand& c, Act& act) {
-  if (act.state.body) return std::visit([&](auto& s) { return move_by_hand(act, s, c); }, *body(act));
+  if (act.state.body)
+    return std::visit([&](auto& s) { return move_by_hand(act, s, c); }, *body(act));
   auto surface = selected_alone(act);
   return surface ? move_by_hand(act, **surface, c) : std::unexpected(surface.error());
 }

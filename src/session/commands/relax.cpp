@@ -16,14 +16,16 @@
 namespace knead {
 namespace {
 
-/// Of the bump w = (1 - ρ²)² on a disc of radius 1, clamped at its edge: ∫|∇w|² / ∫w² = 20/3 and ∫(Δw)² / ∫w² = 320/3.
-/// A plate under tension with β = r²/16 · α resists it equally by stretch and by bend, with 2 · 20/3 · α / r² in all.
+/// Of the bump w = (1 - ρ²)² on a disc of radius 1, clamped at its edge: ∫|∇w|² / ∫w² = 20/3 and
+/// ∫(Δw)² / ∫w² = 320/3. A plate under tension with β = r²/16 · α resists it equally by stretch and
+/// by bend, with 2 · 20/3 · α / r² in all.
 constexpr double bend_share = 1. / 16;
 constexpr double resistance = 2 * 20. / 3;
 
-/// Whether each control point acts mainly within the ball: the surface point at its Greville abscissae lies there. With
-/// `some` the one whose point is nearest to the centre always counts.
-Expected<std::vector<bool>> within(const Surface& surface, const Point& centre, double radius, bool some) {
+/// Whether each control point acts mainly within the ball: the surface point at its Greville
+/// abscissae lies there. With `some` the one whose point is nearest to the centre always counts.
+Expected<std::vector<bool>> within(const Surface& surface, const Point& centre, double radius,
+                                   bool some) {
   const auto [m, n] = surface.net();
   Parameters<2> places(surface.size(), 2);
   for (int i = 0; i < m; ++i) {
@@ -35,9 +37,11 @@ Expected<std::vector<bool>> within(const Surface& surface, const Point& centre, 
   }
   const auto points = evaluate<2>(surface, places, 0);
   if (!points) return std::unexpected(points.error());
-  const Eigen::VectorXd distances = (points->points().rowwise() - centre.transpose()).rowwise().norm();
+  const Eigen::VectorXd distances =
+      (points->points().rowwise() - centre.transpose()).rowwise().norm();
   std::vector<bool> result(static_cast<std::size_t>(surface.size()));
-  for (Eigen::Index k = 0; k < distances.size(); ++k) result[static_cast<std::size_t>(k)] = distances[k] <= radius;
+  for (Eigen::Index k = 0; k < distances.size(); ++k)
+    result[static_cast<std::size_t>(k)] = distances[k] <= radius;
   Eigen::Index nearest = 0;
   distances.minCoeff(&nearest);
   if (some) result[static_cast<std::size_t>(nearest)] = true;
@@ -54,7 +58,8 @@ void add_mirror_images(const SceneSurface& surface, std::vector<bool>& free) {
     for (int i = 0; i < m; ++i) {
       for (int j = 0; j < n; ++j) {
         const auto [k, l] = mirror_image(*symmetry, {m, n}, {i, j});
-        if (own[static_cast<std::size_t>(i * n + j)]) free[static_cast<std::size_t>(k * n + l)] = true;
+        if (own[static_cast<std::size_t>(i * n + j)])
+          free[static_cast<std::size_t>(k * n + l)] = true;
       }
     }
   }
@@ -64,9 +69,11 @@ void add_mirror_images(const SceneSurface& surface, std::vector<bool>& free) {
 
 void describe(RelaxCommand& c, Fields& fields) {
   fields.name("relax", "smooth the surface around a point");
-  fields.add(
-      "at", c.at,
-      {.help = "`[s, t]`: the point", .unit = Unit::fraction, .range = between(0, 1), .presence = Presence::required});
+  fields.add("at", c.at,
+             {.help = "`[s, t]`: the point",
+              .unit = Unit::fraction,
+              .range = between(0, 1),
+              .presence = Presence::required});
   fields.add("radius", c.radius,
              {.help = "how far it reaches, a length",
               .unit = Unit::length,
@@ -76,7 +83,8 @@ void describe(RelaxCommand& c, Fields& fields) {
              {.help = "about the share removed of a bump (1 − ρ²/r²)² on a sheet: λ = 40 (1 − "
                       "strength) / (3 r² strength); smaller bumps lose more",
               .range = {.least = 0, .most = 1, .open_below = true}});
-  fields.add("surface", c.surface, {.help = "id of the surface of the point", .fallback = "the first selected one"});
+  fields.add("surface", c.surface,
+             {.help = "id of the surface of the point", .fallback = "the first selected one"});
   fields.add("relative", c.relative, {.help = "`radius` is a fraction of the diagonal"});
   describe_allowance(c.allow, fields);
 }
@@ -93,12 +101,14 @@ Expected<void> execute(const RelaxCommand& c, Act& act) {
   if (!centre_at) return std::unexpected(centre_at.error());
   const auto centre = evaluate_point<2>(*surface.current, *centre_at);
   if (!centre) return std::unexpected(centre.error());
-  const auto scaling = normalised_scaling(*act.state.surfaces[static_cast<std::size_t>(*act.state.selected)].reference);
+  const auto scaling = normalised_scaling(
+      *act.state.surfaces[static_cast<std::size_t>(*act.state.selected)].reference);
   if (!scaling) return std::unexpected(scaling.error());
 
-  // A thin plate without a rest shape, with everything outside pinned: the step of the model in a state of its
-  // own.
-  const double unit_radius = radius / scaling->length, bend = bend_share * unit_radius * unit_radius;
+  // A thin plate without a rest shape, with everything outside pinned: the step of the model in a
+  // state of its own.
+  const double unit_radius = radius / scaling->length,
+               bend = bend_share * unit_radius * unit_radius;
   SessionState trial = act.state;
   trial.tools.clear();
   trial.forces.clear();
@@ -134,8 +144,8 @@ Expected<void> execute(const RelaxCommand& c, Act& act) {
     SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];
     const auto& relaxed = trial.surfaces[static_cast<std::size_t>(index)].current;
     if (relaxed->control_points() == s.current->control_points()) continue;
-    auto rest =
-        s.rest->with_control_points(s.rest->control_points() + relaxed->control_points() - s.current->control_points());
+    auto rest = s.rest->with_control_points(s.rest->control_points() + relaxed->control_points() -
+                                            s.current->control_points());
     if (!rest) return std::unexpected(rest.error());
     s.rest = s.rest == s.current ? relaxed : std::make_shared<const Surface>(std::move(*rest));
     s.current = relaxed;

@@ -4,8 +4,8 @@
 
 namespace knead {
 
-/// Smooths the surface around a point: one step of a plate under tension without a rest shape, everything else held.
-/// `strength` is the share of a bump of that radius that is removed.
+/// Smooths the surface around a point: one step of a plate under tension without a rest shape,
+/// everything else held. `strength` is the share of a bump of that radius that is removed.
 struct RelaxCommand {
   Fractions at = {0.5, 0.5};
   std::optional<double> radius;  ///< default: a tenth of the diagonal

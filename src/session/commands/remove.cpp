@@ -8,20 +8,28 @@
 namespace knead {
 
 void describe(RemoveCommand& c, Fields& fields) {
-  fields.name("remove", "remove a tool, force or measurement from the scene; a tool's plastic deformation remains");
+  fields.name(
+      "remove",
+      "remove a tool, force or measurement from the scene; a tool's plastic deformation remains");
   fields.add("tool", c.tool, {.help = "its name", .fallback = "the only one"});
-  fields.add("measurement", c.measurement, {.help = "the name of a measurement, to remove that instead of a tool"});
+  fields.add("measurement", c.measurement,
+             {.help = "the name of a measurement, to remove that instead of a tool"});
 }
 
 Expected<void> execute(const RemoveCommand& c, Act& act) {
   if (c.measurement) {
-    if (c.tool) return input_error("either a tool or a measurement is removed", "measurement", "use two commands");
-    const auto gone = std::erase_if(act.state.probes, [&](const Probe& p) { return p.name == *c.measurement; });
-    if (gone == 0) return input_error("there is no measurement \"" + *c.measurement + "\"", "measurement");
+    if (c.tool)
+      return input_error("either a tool or a measurement is removed", "measurement",
+                         "use two commands");
+    const auto gone =
+        std::erase_if(act.state.probes, [&](const Probe& p) { return p.name == *c.measurement; });
+    if (gone == 0)
+      return input_error("there is no measurement \"" + *c.measurement + "\"", "measurement");
     return {};
   }
-  const auto force = std::ranges::find_if(
-      act.state.forces, [&](const SceneForce& f) { return c.tool ? f.name == *c.tool : act.state.tools.empty(); });
+  const auto force = std::ranges::find_if(act.state.forces, [&](const SceneForce& f) {
+    return c.tool ? f.name == *c.tool : act.state.tools.empty();
+  });
   if (force != act.state.forces.end() && (c.tool || act.state.forces.size() == 1)) {
     act.state.forces.erase(force);
     return {};

@@ -7,8 +7,10 @@ namespace knead {
 std::span<const Choice> choices(RestMode) {
   static constexpr Choice list[] = {
       {"shape", RestMode::shape,
-       "the energy is that of the displacement from the rest shape, and without tools nothing moves"},
-      {"none", RestMode::none, "that of the shape itself, as in the thesis; without forces it shrinks"}};
+       "the energy is that of the displacement from the rest shape, and without tools nothing "
+       "moves"},
+      {"none", RestMode::none,
+       "that of the shape itself, as in the thesis; without forces it shrinks"}};
   return list;
 }
 

@@ -4,7 +4,8 @@
 
 namespace knead {
 
-/// Makes the present shape of the selected surfaces their rest shape, and sets what the energy acts on.
+/// Makes the present shape of the selected surfaces their rest shape, and sets what the energy acts
+/// on.
 struct RestCommand {
   static constexpr ActsOn acts_on = ActsOn::shapes;
   RestMode mode = RestMode::shape;

@@ -9,7 +9,8 @@ namespace knead {
 void describe(ScaleCommand& c, Fields& fields) {
   fields.name("scale", "scale a tool along its own axes");
   fields.add("tool", c.tool, {.help = "its name", .fallback = "the only tool"});
-  fields.add("by", c.by, {.help = "`[a, b, c]`, factors", .range = above(0), .presence = Presence::required});
+  fields.add("by", c.by,
+             {.help = "`[a, b, c]`, factors", .range = above(0), .presence = Presence::required});
 }
 
 Expected<void> execute(const ScaleCommand& c, Act& act) {

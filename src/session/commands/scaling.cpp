@@ -7,7 +7,8 @@ namespace knead {
 std::span<const Choice> choices(ScalingMode) {
   static constexpr Choice list[] = {
       {"normalised", ScalingMode::normalised, "those of [active-model.md](active-model.md)"},
-      {"raw", ScalingMode::raw, "those of the equations on the knots as they are, K P = F; for analysis"}};
+      {"raw", ScalingMode::raw,
+       "those of the equations on the knots as they are, K P = F; for analysis"}};
   return list;
 }
 

@@ -14,10 +14,10 @@ void describe(SeamsCommand& c, Fields& fields) {
               .unit = Unit::length,
               .range = above(0),
               .fallback = "1e-4 of the diagonal of the selected surfaces"});
-  fields.add(
-      "smooth", c.seams.smooth,
-      {.help = "seams that were smooth stay so even where the sides are in no fixed ratio, which leaves them less "
-               "freedom"});
+  fields.add("smooth", c.seams.smooth,
+             {.help = "seams that were smooth stay so even where the sides are in no fixed ratio, "
+                      "which leaves them less "
+                      "freedom"});
 }
 
 Expected<void> execute(const SeamsCommand& c, Act& act) {

@@ -4,8 +4,8 @@
 
 namespace knead {
 
-/// Selects the surfaces, or the curve or volume, that the following commands act on. A document's only surface is
-/// selected by default.
+/// Selects the surfaces, or the curve or volume, that the following commands act on. A document's
+/// only surface is selected by default.
 struct SelectCommand {
   static constexpr ActsOn acts_on = ActsOn::scene;
   std::optional<std::string> surface;                ///< id of the entity, "#123"

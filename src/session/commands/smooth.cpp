@@ -6,8 +6,9 @@ namespace knead {
 
 void describe(SmoothCommand& c, Fields& fields) {
   fields.name("smooth", "keep smooth knot lines and poles smooth; on by default");
-  fields.add("knot_lines", c.knot_lines,
-             {.help = "no hinges at knots of full multiplicity (the quadrants of every CAD cylinder)"});
+  fields.add(
+      "knot_lines", c.knot_lines,
+      {.help = "no hinges at knots of full multiplicity (the quadrants of every CAD cylinder)"});
   fields.add("poles", c.poles, {.help = "edges collapsed to a point keep their tangent plane"});
 }
 

@@ -20,8 +20,9 @@ std::span<const Choice> choices(StepAllowance) {
 void describe(StepCommand& c, Fields& fields) {
   fields.name("step", "let the selected surfaces evolve under the tools");
   fields.add("count", c.count, {.help = "number of steps", .range = between(0, max_steps)});
-  fields.add("lambda", c.lambda,
-             {.help = "for these steps only", .range = at_least(0), .fallback = "that of `evolve`"});
+  fields.add(
+      "lambda", c.lambda,
+      {.help = "for these steps only", .range = at_least(0), .fallback = "that of `evolve`"});
   fields.add("weight", c.weight, {.help = "for these steps only", .fallback = "that of `evolve`"});
   fields.add("allow", c.allow, {.help = "what it does not stop or warn at"});
   fields.add("increments", c.increments,
@@ -35,11 +36,12 @@ Expected<void> execute(const StepCommand& c, Act& act) {
   if (c.lambda) evolution.lambda = *c.lambda;
   if (c.weight) evolution.weight = *c.weight;
   if (act.state.body && c.increments) return of_surfaces(act, "increments");
-  const auto made = run(act, {.count = c.count,
-                              .evolution = evolution,
-                              .increments = c.increments,
-                              .allow_held = c.allow == StepAllowance::held || c.allow == StepAllowance::all,
-                              .may_stop = !act.state.body});
+  const auto made =
+      run(act, {.count = c.count,
+                .evolution = evolution,
+                .increments = c.increments,
+                .allow_held = c.allow == StepAllowance::held || c.allow == StepAllowance::all,
+                .may_stop = !act.state.body});
   if (!made) return std::unexpected(made.error());
   if (made->stopped) act.steps_kept = made->count;
   return {};

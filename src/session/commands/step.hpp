@@ -4,8 +4,8 @@
 
 namespace knead {
 
-/// Conditions that a step may ignore: that everything a tool touches is held, that surfaces come through other faces,
-/// both; or not even what it may without being asked, to come through.
+/// Conditions that a step may ignore: that everything a tool touches is held, that surfaces come
+/// through other faces, both; or not even what it may without being asked, to come through.
 enum class StepAllowance { held, through, all, nothing };
 
 std::span<const Choice> choices(StepAllowance);

@@ -20,8 +20,10 @@ struct StrokeCommand {
   int steps = 2;              ///< at each of them
   double plasticity = 1;
   std::optional<StrokePlasticity> plastic;  ///< default: material
-  std::optional<bool> open;  ///< true: the tool stays down, and the next stroke of this tool goes on with this one
-  bool relative = false;     ///< the path is measured from where the tool is, in fractions of the diagonal
+  std::optional<bool>
+      open;  ///< true: the tool stays down, and the next stroke of this tool goes on with this one
+  /// The path is measured from where the tool is, in fractions of the diagonal.
+  bool relative = false;
   std::optional<ThroughAllowance> allow = {};
 };
 

@@ -4,8 +4,8 @@
 
 namespace knead {
 
-/// Half a symmetric model: an edge stays in a plane and the surface perpendicular to it; or a whole surface that
-/// remains its own mirror image.
+/// Half a symmetric model: an edge stays in a plane and the surface perpendicular to it; or a whole
+/// surface that remains its own mirror image.
 struct SymmetryCommand {
   std::optional<EdgeChoice> edge;
   std::optional<std::string> mirror;  ///< "u" or "v"

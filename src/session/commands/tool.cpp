@@ -21,7 +21,8 @@ Expected<Placement> placement_of(const ToolCommand& c, double unit, Act& act) {
   }
   if (c.axis) {
     const Point axis = point_of(*c.axis);
-    if (!(axis.norm() > 0)) return input_error("the axis has no direction", "axis", "use a vector that is not zero");
+    if (!(axis.norm() > 0))
+      return input_error("the axis has no direction", "axis", "use a vector that is not zero");
     placement.rotation = turn_between(Point::UnitZ(), axis);
   }
   if (c.orientation) {
@@ -35,11 +36,13 @@ Expected<Placement> placement_of(const ToolCommand& c, double unit, Act& act) {
   } else if (c.at || c.middle.value_or(false)) {
     const auto surface = selected(act);
     if (!surface) return std::unexpected(surface.error());
-    const auto point = point_at(act, **surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
+    const auto point =
+        point_at(act, **surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
     if (!point) return std::unexpected(point.error());
     placement.position = *point;
   }
-  if (!placement.position.allFinite()) return input_error("a coordinate is not a finite number", "position");
+  if (!placement.position.allFinite())
+    return input_error("a coordinate is not a finite number", "position");
   return placement;
 }
 
@@ -49,7 +52,8 @@ Expected<Eigen::Quaterniond> rotation_of(const std::array<double, 4>& q) {
   const Eigen::Quaterniond given(q[3], q[0], q[1], q[2]);
   const double norm = given.norm();
   if (std::isfinite(norm) && norm > 0) return given.normalized();
-  return input_error("this is not a rotation", "orientation", "give a quaternion [x, y, z, w] that is not zero");
+  return input_error("this is not a rotation", "orientation",
+                     "give a quaternion [x, y, z, w] that is not zero");
 }
 
 Expected<Point> point_at(Act& act, SceneSurface& surface, const SurfacePlace& place) {
@@ -63,7 +67,8 @@ Expected<Point> point_at(Act& act, SceneSurface& surface, const SurfacePlace& pl
 std::span<const Choice> choices(ToolMode) {
   static constexpr Choice list[] = {
       {"collision", ToolMode::collision, "what has entered the tool is pushed out"},
-      {"proximity", ToolMode::proximity, "the surface is drawn to the tool's surface from either side, within `range`"},
+      {"proximity", ToolMode::proximity,
+       "the surface is drawn to the tool's surface from either side, within `range`"},
       {"imprint", ToolMode::imprint, "collision whose result is the new rest shape"}};
   return list;
 }
@@ -77,7 +82,8 @@ std::span<const Choice> choices(ToolDirection) {
 std::span<const Choice> choices(ToolTouch) {
   static constexpr Choice list[] = {
       {"all", ToolTouch::all, "all of a surface, what no face shows too"},
-      {"visible", ToolTouch::visible, "what the faces show; a tool in a hole, or beside the face, touches nothing"}};
+      {"visible", ToolTouch::visible,
+       "what the faces show; a tool in a hole, or beside the face, touches nothing"}};
   return list;
 }
 
@@ -86,45 +92,59 @@ void describe(ToolCommand& c, Fields& fields) {
   fields.add("name", c.name, {.help = "what `move` and `remove` call it"});
   fields.add("shape", c.shape, {.help = "its form", .choices = shape_choices()});
   add_measures(c.measures, fields);
-  fields.add("axis", c.axis, {.help = "direction of its own z axis; or:", .fallback = "`[0, 0, 1]`"});
+  fields.add("axis", c.axis,
+             {.help = "direction of its own z axis; or:", .fallback = "`[0, 0, 1]`"});
   fields.add("orientation", c.orientation,
-             {.help = "its rotation, a quaternion `[x, y, z, w]` of any length", .fallback = "`[0, 0, 0, 1]`"});
-  fields.add("scale", c.scale, {.help = "factors along its own axes", .range = above(0), .fallback = "`[1, 1, 1]`"});
+             {.help = "its rotation, a quaternion `[x, y, z, w]` of any length",
+              .fallback = "`[0, 0, 0, 1]`"});
+  fields.add("scale", c.scale,
+             {.help = "factors along its own axes", .range = above(0), .fallback = "`[1, 1, 1]`"});
   fields.add("position", c.position,
-             {.help = "`[x, y, z]` of the centre; this or `at` is needed (a `surface` stays in place without them)",
+             {.help = "`[x, y, z]` of the centre; this or `at` is needed (a `surface` stays in "
+                      "place without them)",
               .unit = Unit::length});
   fields.add("at", c.at,
-             {.help = "`[s, t]`: the centre on the surface as it is now; or `\"middle\"`, the visible point farthest "
+             {.help = "`[s, t]`: the centre on the surface as it is now; or `\"middle\"`, the "
+                      "visible point farthest "
                       "from all edges",
               .unit = Unit::fraction,
               .range = between(0, 1)});
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
   fields.add("mode", c.mode, {.help = "how it acts"});
   fields.add("stiffness", c.stiffness,
-             {.help = "k", .range = between(0, max_tool_stiffness), .fallback = "`1e4`; `100` for proximity"});
-  fields.add(
-      "range", c.range,
-      {.help = "how far proximity reaches", .unit = Unit::length, .range = at_least(0), .fallback = "half the size"});
+             {.help = "k",
+              .range = between(0, max_tool_stiffness),
+              .fallback = "`1e4`; `100` for proximity"});
+  fields.add("range", c.range,
+             {.help = "how far proximity reaches",
+              .unit = Unit::length,
+              .range = at_least(0),
+              .fallback = "half the size"});
   fields.add("direction", c.direction, {.help = "of proximity"});
   fields.add("touches", c.touches, {.help = "of surfaces that edges of faces bound"});
-  fields.add("rigid", c.rigid, {.help = "raise k until nothing enters by more than 1e-4 of the tool's size"});
+  fields.add("rigid", c.rigid,
+             {.help = "raise k until nothing enters by more than 1e-4 of the tool's size"});
   fields.add("friction", c.friction, {.help = "Coulomb's coefficient", .range = at_least(0)});
   fields.add("plasticity", c.plasticity,
              {.help = "share of the displacement that `remove` leaves in the rest shape",
               .unit = Unit::fraction,
               .range = between(0, 1)});
-  fields.add("relative", c.relative, {.help = "lengths and position are fractions of the diagonal"});
+  fields.add("relative", c.relative,
+             {.help = "lengths and position are fractions of the diagonal"});
 }
 
 Expected<void> execute(const ToolCommand& c, Act& act) {
   if (auto some = some_selected(act); !some) return some;
   const bool on_surface = c.at || c.middle.value_or(false);
-  const bool own_place = c.shape == "surface" && !c.position && !on_surface;  // a surface stays in place
+  const bool own_place =
+      c.shape == "surface" && !c.position && !on_surface;  // a surface stays in place
   if (!own_place && c.position.has_value() == on_surface) {
-    return input_error(on_surface ? "both position and at are given" : "neither position nor at is given", "position",
-                       "give one of them");
+    return input_error(
+        on_surface ? "both position and at are given" : "neither position nor at is given",
+        "position", "give one of them");
   }
-  // Measuring the surface costs as much as a step of a small net: a tool whose lengths are all given does not need it.
+  // Measuring the surface costs as much as a step of a small net: a tool whose lengths are all
+  // given does not need it.
   const bool infinite = c.shape == "plane";
   double length = 0;
   if (c.relative || !c.measures.radius || infinite) {
@@ -152,7 +172,8 @@ Expected<void> execute(const ToolCommand& c, Act& act) {
   made.direction = c.direction;
   made.touches = c.touches;
   if (auto tool = validated(made); !tool) return std::unexpected(tool.error());
-  const auto same = std::ranges::find(act.state.tools, c.name, [](const Tool& t) { return t.name; });
+  const auto same =
+      std::ranges::find(act.state.tools, c.name, [](const Tool& t) { return t.name; });
   if (same != act.state.tools.end()) {
     *same = std::move(made);
   } else {

@@ -24,7 +24,7 @@ struct ToolCommand {
   double plasticity = 0;
   ToolTouch touches = ToolTouch::visible;
   std::optional<bool> middle = {};  ///< of the visible part, instead of `at`
-  bool relative = false;            ///< lengths and position are fractions of the bounding-box diagonal
+  bool relative = false;  ///< lengths and position are fractions of the bounding-box diagonal
 };
 
 std::span<const Choice> choices(ToolMode);
@@ -39,7 +39,8 @@ void describe(ToolCommand& c, Fields& fields);
 /// The rotation of a quaternion [x, y, z, w]. Error (input): it is zero or not finite.
 [[nodiscard]] Expected<Eigen::Quaterniond> rotation_of(const std::array<double, 4>& orientation);
 
-/// The surface point at fractions of the domain, or in the middle of the visible part. Errors: those of `place_on`.
+/// The surface point at fractions of the domain, or in the middle of the visible part. Errors:
+/// those of `place_on`.
 [[nodiscard]] Expected<Point> point_at(Act& act, SceneSurface& surface, const SurfacePlace& place);
 
 }  // namespace knead

@@ -20,9 +20,11 @@ Expected<void> execute(const TurnCommand& c, Act& act) {
   auto tool = find_tool(act, c.tool);
   if (!tool) return std::unexpected(tool.error());
   const Point axis(c.axis[0], c.axis[1], c.axis[2]);
-  if (!(axis.norm() > 0)) return input_error("the axis has no direction", "axis", "use a vector that is not zero");
+  if (!(axis.norm() > 0))
+    return input_error("the axis has no direction", "axis", "use a vector that is not zero");
   const Placement& at = (*tool)->shape.placement();
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(c.angle * std::numbers::pi / 180, axis.normalized()));
+  const Eigen::Quaterniond turn(
+      Eigen::AngleAxisd(c.angle * std::numbers::pi / 180, axis.normalized()));
   auto turned = (*tool)->shape.moved((turn * at.rotation).normalized(), at.position);
   if (!turned) return std::unexpected(turned.error());
   (*tool)->shape = std::move(*turned);

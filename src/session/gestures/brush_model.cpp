@@ -18,16 +18,20 @@
 namespace knead {
 namespace {
 
-constexpr double felt_radii = 0.25;    // how far held points are felt, and what smoothing evens out, in radii
-constexpr double spans_wanted = 0.25;  // longest spans under a brush where nets may be refined, in radii
+// How far held points are felt, and what smoothing evens out, in radii.
+constexpr double felt_radii = 0.25;
+// Longest spans under a brush where nets may be refined, in radii.
+constexpr double spans_wanted = 0.25;
 constexpr double sharp_wanted = 1. / 16;
 constexpr double least_size = 0.25;  // of a pen's pressure on the size, for which nets are refined
 constexpr int most_halvings = 6;
 constexpr int most_control_points = 25000;  // of a surface that is refined under a brush
 
-/// Midpoints of the spans within the radius of a place that are longer than wanted, both in space as they are there.
-Expected<std::array<std::vector<double>, 2>> halving(const Surface& s, const Fractions& at, double radius,
-                                                     double wanted, double& longest) {
+/// Midpoints of the spans within the radius of a place that are longer than wanted, both in space
+/// as they are there.
+Expected<std::array<std::vector<double>, 2>> halving(const Surface& s, const Fractions& at,
+                                                     double radius, double wanted,
+                                                     double& longest) {
   const auto u = parameters_at(s, at, "path");
   if (!u) return std::unexpected(u.error());
   Parameters<2> here(1, 2);
@@ -49,16 +53,18 @@ Expected<std::array<std::vector<double>, 2>> halving(const Surface& s, const Fra
   return middles;
 }
 
-/// Finer nets of a surface at one place of a brush, where the edges of faces are held or refining is permitted. Returns
-/// the length of the longest span there that is left.
-Expected<double> refine_under_brush(Act& act, SceneSurface& s, const Fractions& at, double pressure) {
+/// Finer nets of a surface at one place of a brush, where the edges of faces are held or refining
+/// is permitted. Returns the length of the longest span there that is left.
+Expected<double> refine_under_brush(Act& act, SceneSurface& s, const Fractions& at,
+                                    double pressure) {
   const Brush& brush = act.state.brush->brush;
   const bool sized = brush.pressure == PressureUse::size || brush.pressure == PressureUse::both;
-  const bool sharp =
-      brush.kind == BrushKind::crease || brush.kind == BrushKind::ridge || brush.kind == BrushKind::stamp;
-  const double wanted =
-      (sized ? std::max(pressure, least_size) : 1) * brush.radius * (sharp ? sharp_wanted : spans_wanted);
-  if (auto refined = refine_at_trims(act, s, at, brush.radius); !refined) return std::unexpected(refined.error());
+  const bool sharp = brush.kind == BrushKind::crease || brush.kind == BrushKind::ridge ||
+                     brush.kind == BrushKind::stamp;
+  const double wanted = (sized ? std::max(pressure, least_size) : 1) * brush.radius *
+                        (sharp ? sharp_wanted : spans_wanted);
+  if (auto refined = refine_at_trims(act, s, at, brush.radius); !refined)
+    return std::unexpected(refined.error());
   double longest = 0;
   for (int k = 0; k < most_halvings; ++k) {
     const auto middles = halving(*s.current, at, brush.radius, wanted, longest);
@@ -66,11 +72,13 @@ Expected<double> refine_under_brush(Act& act, SceneSurface& s, const Fractions& 
     if (act.state.permission != RefinePermission::automatic || !s.pins.empty()) break;
     if ((*middles)[0].empty() && (*middles)[1].empty()) break;
     const auto [m, n] = s.current->net();
-    if ((m + static_cast<int>((*middles)[0].size())) * (n + static_cast<int>((*middles)[1].size())) >
+    if ((m + static_cast<int>((*middles)[0].size())) *
+            (n + static_cast<int>((*middles)[1].size())) >
         most_control_points) {
       break;
     }
-    auto done = change_net(act, s, [&](const Surface& shape) { return insert_knots<2>(shape, *middles); });
+    auto done =
+        change_net(act, s, [&](const Surface& shape) { return insert_knots<2>(shape, *middles); });
     if (!done) return std::unexpected(done.error());
   }
   return longest;
@@ -78,8 +86,8 @@ Expected<double> refine_under_brush(Act& act, SceneSurface& s, const Fractions& 
 
 }  // namespace
 
-/// Finer nets under a brush, also of the surfaces beside those on which it is; the shapes from before the stroke
-/// follow.
+/// Finer nets under a brush, also of the surfaces beside those on which it is; the shapes from
+/// before the stroke follow.
 Expected<void> refine_for_brush(Act& act, const std::vector<BrushPoint>& places) {
   OpenBrush& open = *act.state.brush;
   const double radius = open.brush.radius;
@@ -90,7 +98,9 @@ Expected<void> refine_for_brush(Act& act, const std::vector<BrushPoint>& places)
     for (const BrushPoint& at : places) {
       const auto place = way.place(at);
       if (!place) return std::unexpected(place.error());
-      if (auto united = unite_restricted(act, act.cache.stroke->scene.seams, place->at, radius); !united) return united;
+      if (auto united = unite_restricted(act, act.cache.stroke->scene.seams, place->at, radius);
+          !united)
+        return united;
     }
   }
   const bool beside = act.state.permission == RefinePermission::automatic && selection.size() > 1;
@@ -109,8 +119,8 @@ Expected<void> refine_for_brush(Act& act, const std::vector<BrushPoint>& places)
       const auto there = way.place(foot);
       if (!there) return std::unexpected(there.error());
       if ((there->at - place->at).norm() >= radius) continue;
-      const auto refined =
-          refine_under_brush(act, act.state.surfaces[static_cast<std::size_t>(other)], foot.at, at.pen.pressure);
+      const auto refined = refine_under_brush(
+          act, act.state.surfaces[static_cast<std::size_t>(other)], foot.at, at.pen.pressure);
       if (!refined) return std::unexpected(refined.error());
     }
   }
@@ -126,7 +136,8 @@ Expected<void> refine_for_brush(Act& act, const std::vector<BrushPoint>& places)
   for (const auto& [surface, longest] : coarsest) {
     if (longest <= radius) continue;
     std::string note = fmt::format(
-        R"({}: the net is coarse for the brush: its spans are up to {:.2g} times the radius; let it be refined with {{"do":"refine","permission":"auto"}})",
+        R"({}: the net is coarse for the brush: its spans are up to {:.2g} times the radius; )"
+        R"(let it be refined with {{"do":"refine","permission":"auto"}})",
         act.state.surfaces[static_cast<std::size_t>(surface)].id, longest / radius);
     note_once(act.state, std::move(note));
   }
@@ -137,7 +148,8 @@ namespace {
 
 /// Of the normalised scaling of the first selected surface, which the model from before may know.
 Expected<double> length_of_brush_model(const Act& act) {
-  const auto& reference = std::as_const(act.state).surfaces[static_cast<std::size_t>(*act.state.selected)].reference;
+  const auto& reference =
+      std::as_const(act.state).surfaces[static_cast<std::size_t>(*act.state.selected)].reference;
   if (act.cache.stroke && act.cache.stroke->scene.input.scaling == ScalingMode::normalised &&
       act.cache.stroke->scene.input.shapes.front().reference == reference) {
     return act.cache.stroke->scene.model.scaling().length;

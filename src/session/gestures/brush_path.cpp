@@ -45,8 +45,8 @@ Foot foot_on(const Surface& shape, const std::array<bool, 2>& closed, const Poin
   Eigen::Index nearest = 0;
   (shape.control_points().rowwise() - x.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
   const int n = shape.net()[1], row = static_cast<int>(nearest);
-  const ClosestPoint<2> found =
-      closest_point_from<2>(shape, x, {shape.knots(0).greville(row / n), shape.knots(1).greville(row % n)}, closed);
+  const ClosestPoint<2> found = closest_point_from<2>(
+      shape, x, {shape.knots(0).greville(row / n), shape.knots(1).greville(row % n)}, closed);
   Foot foot{{}, found.distance};
   for (std::size_t d = 0; d < 2; ++d) {
     const Interval domain = shape.knots()[d].domain();
@@ -61,15 +61,16 @@ double distance_from_box(const Point& x, const Point& lower, const Point& upper)
 
 }  // namespace
 
-BrushPath::BrushPath(std::span<const int> selection, std::span<const OpenStroke::Before> shapes, double spacing,
-                     double rope)
+BrushPath::BrushPath(std::span<const int> selection, std::span<const OpenStroke::Before> shapes,
+                     double spacing, double rope)
     : spacing_(spacing), rope_(rope) {
   assert(selection.size() == shapes.size());
   for (std::size_t k = 0; k < selection.size(); ++k) {
     const Points& net = shapes[k].current->control_points();
     const Point lower = net.colwise().minCoeff(), upper = net.colwise().maxCoeff();
-    sheets_.push_back(
-        {selection[k], shapes[k].current, closed_directions(*shapes[k].current, (upper - lower).norm()), lower, upper});
+    sheets_.push_back({selection[k], shapes[k].current,
+                       closed_directions(*shapes[k].current, (upper - lower).norm()), lower,
+                       upper});
   }
 }
 
@@ -79,14 +80,17 @@ const BrushPath::Sheet& BrushPath::sheet(int surface) const {
   return *found;
 }
 
-Expected<Point> BrushPath::point(const BrushPoint& at) const { return point_at(*sheet(at.surface).shape, at.at); }
+Expected<Point> BrushPath::point(const BrushPoint& at) const {
+  return point_at(*sheet(at.surface).shape, at.at);
+}
 
 BrushPoint BrushPath::nearest(int surface, const Point& x) const {
   const Sheet& on = sheet(surface);
   return {surface, foot_on(*on.shape, on.closed, x).at, {}};
 }
 
-Expected<BrushPoint> BrushPath::towards(const BrushPoint& from, const BrushPoint& to, double share) const {
+Expected<BrushPoint> BrushPath::towards(const BrushPoint& from, const BrushPoint& to,
+                                        double share) const {
   if (share == 1) return to;
   if (from.surface == to.surface) {
     BrushPoint result{from.surface, from.at, from.pen.towards(to.pen, share)};
@@ -134,10 +138,12 @@ Expected<std::vector<BrushPoint>> BrushPath::places(const BrushPoint& from, cons
   const auto way = length(from, to);
   if (!way) return std::unexpected(way.error());
   if (*way > most_places * spacing_) {
-    return input_error(fmt::format("a piece of the path of {:.3g} is too long for a brush of this radius, which has a "
-                                   "place every {:.3g}",
-                                   *way, spacing_),
-                       "path", "give more points, or use a larger radius");
+    return input_error(
+        fmt::format(
+            "a piece of the path of {:.3g} is too long for a brush of this radius, which has a "
+            "place every {:.3g}",
+            *way, spacing_),
+        "path", "give more points, or use a larger radius");
   }
   const int count = std::max(1, static_cast<int>(std::ceil(*way / spacing_)));
   std::vector<BrushPoint> result;

@@ -21,11 +21,15 @@ namespace knead {
 namespace {
 
 constexpr double places_per_radius = 16;
-constexpr double feasible_share = 1e-9;  // of the largest displacement: what misses the constraints by less is allowed
-constexpr double dropped_share = 1e-3;   // corrections outside of the brush that are less are left out
-constexpr double amplified = 100;        // by conditions: of what is left out, so much of a correction undoes that
-constexpr double least_share = 0.5;      // of its way that a point goes by itself if it is to be brought to the goal
-constexpr double limit_share = 1e-6;     // by which a limit may be exceeded, as for steps
+// Of the largest displacement: what misses the constraints by less is allowed.
+constexpr double feasible_share = 1e-9;
+// Corrections outside of the brush that are less are left out.
+constexpr double dropped_share = 1e-3;
+// By conditions: of what is left out, so much of a correction undoes that.
+constexpr double amplified = 100;
+// Of its way that a point goes by itself if it is to be brought to the goal.
+constexpr double least_share = 0.5;
+constexpr double limit_share = 1e-6;  // by which a limit may be exceeded, as for steps
 
 BrushPath path_of(const OpenBrush& open, const Scene& scene) {
   return {scene.selection(), open.before, open.brush.radius / places_per_radius, open.rope};
@@ -44,13 +48,14 @@ bool goes_on(const OpenBrush& from, const OpenBrush& to) {
   const auto same = [](const OpenStroke::Before& a, const OpenStroke::Before& b) {
     return a.rest == b.rest && a.current == b.current;
   };
-  return without_hand(from.brush) == without_hand(to.brush) && from.images == to.images && from.rope == to.rope &&
-         from.path.size() <= to.path.size() && std::equal(from.path.begin(), from.path.end(), to.path.begin()) &&
+  return without_hand(from.brush) == without_hand(to.brush) && from.images == to.images &&
+         from.rope == to.rope && from.path.size() <= to.path.size() &&
+         std::equal(from.path.begin(), from.path.end(), to.path.begin()) &&
          std::ranges::equal(from.before, to.before, same);
 }
 
-/// Coefficients of what is zero at an abscissa are zero: what lies outside of a brush keeps its bits. Of high degree
-/// that is so only of small ones.
+/// Coefficients of what is zero at an abscissa are zero: what lies outside of a brush keeps its
+/// bits. Of high degree that is so only of small ones.
 Points local_coefficients(const StrokeModel& model, const Points& values) {
   Points result = model.control_points(values);
   const auto untouched = [&](Eigen::Index i) { return (values.row(i).array() == 0).all(); };
@@ -59,7 +64,8 @@ Points local_coefficients(const StrokeModel& model, const Points& values) {
   for (Eigen::Index i = 0; i < result.rows(); ++i) {
     if (untouched(i)) dropped = std::max(dropped, result.row(i).norm());
   }
-  // Control points of high degree alternate by far more than what they show, and not only where a site is reached.
+  // Control points of high degree alternate by far more than what they show, and not only where a
+  // site is reached.
   const double most = dropped > largest ? dropped_share * largest : dropped;
   for (Eigen::Index i = 0; i < result.rows(); ++i) {
     if (untouched(i) && result.row(i).norm() <= most) result.row(i).setZero();
@@ -94,7 +100,8 @@ namespace {
 Expected<void> start_brush_run(Act& act) {
   const OpenBrush& open = *act.state.brush;
   const ModelInput& input = act.cache.stroke->scene.input;
-  if (act.cache.brush && act.cache.brush->input == input && goes_on(act.cache.brush->open, open)) return {};
+  if (act.cache.brush && act.cache.brush->input == input && goes_on(act.cache.brush->open, open))
+    return {};
   BrushRun run{input, open, {}, {}, {}, {}, {}, false};
   run.open.path = {};
   std::vector<Seam> seams;
@@ -105,7 +112,8 @@ Expected<void> start_brush_run(Act& act) {
   Eigen::Index rows = 0;
   for (std::size_t k = 0; k < open.before.size(); ++k) {
     const Surface& shape = *open.before[k].current;
-    if (auto done = run.samples.append(shape, act.cache.stroke->values[k], run.sides[k]); !done) return done;
+    if (auto done = run.samples.append(shape, act.cache.stroke->values[k], run.sides[k]); !done)
+      return done;
     rows += shape.size();
   }
   if (open.brush.kind == BrushKind::smooth) {
@@ -118,7 +126,8 @@ Expected<void> start_brush_run(Act& act) {
     run.fair = act.cache.stroke->at_abscissae(act.cache.stroke->scene.model.fairing(shape));
     // Along the surface nothing would change but its parameters.
     const Points& n = run.samples.normals;
-    for (Eigen::Index g = 0; g < rows; ++g) run.fair.row(g) = run.fair.row(g).dot(n.row(g)) * n.row(g);
+    for (Eigen::Index g = 0; g < rows; ++g)
+      run.fair.row(g) = run.fair.row(g).dot(n.row(g)) * n.row(g);
   }
   run.histories.assign(open.images.size() + 1, BrushHistory(rows));
   act.cache.brush = std::move(run);
@@ -133,30 +142,34 @@ Expected<void> lead_brush(Act& act) {
   const std::vector<int> selection = act.state.selection();
   for (std::size_t k = run.open.path.size(); k < open.path.size(); ++k) {
     if (k == 0) run.at = open.path[0];
-    auto next = k == 0 ? std::vector<BrushPoint>{run.at} : way.places(open.path[k - 1], open.path[k], run.at);
+    auto next = k == 0 ? std::vector<BrushPoint>{run.at}
+                       : way.places(open.path[k - 1], open.path[k], run.at);
     if (!next) return std::unexpected(next.error());
     for (const BrushPoint& at : *next) {
       auto place = way.place(at);
       if (!place) return std::unexpected(place.error());
-      place->normal *=
-          run.sides[static_cast<std::size_t>(std::ranges::find(selection, at.surface) - selection.begin())];
+      place->normal *= run.sides[static_cast<std::size_t>(std::ranges::find(selection, at.surface) -
+                                                          selection.begin())];
       place->across = place->normal.cross(place->along);
       run.histories[0].go_to(open.brush, run.samples, *place, run.fair);
       for (std::size_t i = 0; i < open.images.size(); ++i) {
-        run.histories[i + 1].go_to(open.images[i].of(open.brush), run.samples, open.images[i].of(*place), run.fair);
+        run.histories[i + 1].go_to(open.images[i].of(open.brush), run.samples,
+                                   open.images[i].of(*place), run.fair);
       }
       run.at = at;
     }
     run.open.path.push_back(open.path[k]);
   }
   if (run.reaches()) return {};
-  return input_error("the brush reaches no control point: the spans of the net are longer than its radius", "radius",
-                     R"(use a larger one, or let the net be refined: {"do":"refine","permission":"auto"})",
-                     {ErrorCode::brush_too_small});
+  return input_error(
+      "the brush reaches no control point: the spans of the net are longer than its radius",
+      "radius",
+      R"(use a larger one, or let the net be refined: {"do":"refine","permission":"auto"})",
+      {ErrorCode::brush_too_small});
 }
 
-/// How far the point that is grabbed would go with this displacement of the control points, of the way that it should.
-/// 0 where it has an image that the brush overlaps with.
+/// How far the point that is grabbed would go with this displacement of the control points, of the
+/// way that it should. 0 where it has an image that the brush overlaps with.
 Expected<double> share_of_grab(const Act& act, const Points& displacement) {
   const OpenBrush& open = *act.state.brush;
   const auto place = path_of(open, act.state).place(open.path.front());
@@ -164,7 +177,8 @@ Expected<double> share_of_grab(const Act& act, const Points& displacement) {
   if (!stands_alone(*place, open)) return 0;
   const std::vector<int> selection = act.state.selection();
   const BrushPoint& at = open.path.front();
-  const auto k = static_cast<std::size_t>(std::ranges::find(selection, at.surface) - selection.begin());
+  const auto k =
+      static_cast<std::size_t>(std::ranges::find(selection, at.surface) - selection.begin());
   const Surface& shape = *open.before[k].current;
   const Eigen::Index first = act.cache.stroke->scene.model.rows()[k];
   const auto field = shape.with_control_points(displacement.middleRows(first, shape.size()));
@@ -187,12 +201,14 @@ Expected<Points> brushed(Act& act) {
   }
   Points asked = blended(copies);
   const bool grabs = open.brush.kind == BrushKind::grab;
-  const double most = std::max(std::sqrt(asked.rowwise().squaredNorm().maxCoeff()), grabs ? open.brush.by.norm() : 0);
+  const double most = std::max(std::sqrt(asked.rowwise().squaredNorm().maxCoeff()),
+                               grabs ? open.brush.by.norm() : 0);
   act.law.ask_of_brush(open, most);
   const ActiveSurface& model = act.cache.stroke->scene.model;
   Points c = local_coefficients(*act.cache.stroke, asked);
   if (grabs && open.brush.by.squaredNorm() > 0) {
-    // The point that is grabbed goes where it was asked to, whatever interpolation makes of the falloff
+    // The point that is grabbed goes where it was asked to, whatever interpolation makes of the
+    // falloff
     const auto share = share_of_grab(act, c);
     if (!share) return std::unexpected(share.error());
     if (*share > least_share) asked /= *share;
@@ -213,11 +229,13 @@ Expected<Points> brushed(Act& act) {
   if ((allowed - c).cwiseAbs().maxCoeff() <= feasible_share * largest) return allowed;
   Points nearest = model.nearest_allowed(c), whole = nearest;
   for (Eigen::Index i = 0; i < nearest.rows(); ++i) {
-    if ((c.row(i).array() == 0).all() && nearest.row(i).norm() < dropped_share * largest) nearest.row(i).setZero();
+    if ((c.row(i).array() == 0).all() && nearest.row(i).norm() < dropped_share * largest)
+      nearest.row(i).setZero();
   }
   allowed = model.allowed(nearest);
   if (!((allowed - nearest).cwiseAbs().maxCoeff() <= amplified * dropped_share * largest)) {
-    allowed = std::move(whole);  // dependent control points follow from what was left out with large coefficients
+    allowed = std::move(
+        whole);  // dependent control points follow from what was left out with large coefficients
   }
   run.stuck = (allowed.array() == 0).all();
   return allowed;
@@ -227,7 +245,8 @@ Expected<Points> brushed(Act& act) {
 Expected<void> show_mask(Act& act) {
   const OpenBrush& open = *act.state.brush;
   Eigen::VectorXd weight = act.cache.brush->histories.front().weights(open.brush);
-  for (const BrushHistory& image : act.cache.brush->histories) weight = weight.cwiseMax(image.weights(open.brush));
+  for (const BrushHistory& image : act.cache.brush->histories)
+    weight = weight.cwiseMax(image.weights(open.brush));
   const std::vector<int> selection = act.state.selection();
   Eigen::Index first = 0;
   for (std::size_t k = 0; k < selection.size(); ++k) {
@@ -269,26 +288,30 @@ Expected<void> displace_from_brush(Act& act, const Points& displacement) {
     s.rest = std::move(*rest);
     s.velocity.resize(0, 3);
     if (!act.state.limit) continue;
-    const double was = largest_distance(*before.current, *s.opened), is = largest_distance(*s.current, *s.opened);
+    const double was = largest_distance(*before.current, *s.opened),
+                 is = largest_distance(*s.current, *s.opened);
     if (is > *act.state.limit * (1 + limit_share) && is > was) {
-      return input_error(fmt::format("the surface would be {:.6g} from where it was opened, and {:.6g} is the limit",
-                                     is, *act.state.limit),
-                         "brush", R"(move it less, or end the limit: {"do":"limit"})",
-                         {ErrorCode::beyond_limit, {{"distance", is}, {"limit", *act.state.limit}}});
+      return input_error(
+          fmt::format(
+              "the surface would be {:.6g} from where it was opened, and {:.6g} is the limit", is,
+              *act.state.limit),
+          "brush", R"(move it less, or end the limit: {"do":"limit"})",
+          {ErrorCode::beyond_limit, {{"distance", is}, {"limit", *act.state.limit}}});
     }
   }
   return {};
 }
 
-/// Makes the shapes and rest shapes those from before the stroke with this displacement, or with what share of it folds
-/// no face. What is grabbed goes where it was asked to, or nowhere.
+/// Makes the shapes and rest shapes those from before the stroke with this displacement, or with
+/// what share of it folds no face. What is grabbed goes where it was asked to, or nowhere.
 Expected<void> show_brush(Act& act, const Points& displacement) {
   if (auto shown = displace_from_brush(act, displacement); !shown) return shown;
   if (act.state.brush->brush.kind == BrushKind::grab) {
     if (auto sound = check_folds(act.state); !sound) return sound;
   } else {
-    const auto smaller = keep_unfolded(act.state, "brush", 1,
-                                       [&](double share) { return displace_from_brush(act, share * displacement); });
+    const auto smaller = keep_unfolded(act.state, "brush", 1, [&](double share) {
+      return displace_from_brush(act, share * displacement);
+    });
     if (!smaller) return std::unexpected(smaller.error());
     if (!smaller->empty()) note_once(act.state, *smaller);
   }
@@ -301,7 +324,8 @@ Expected<void> show_brush(Act& act, const Points& displacement) {
 Expected<void> BrushStroke::lead(const std::vector<BrushPoint>& path) {
   OpenBrush& open = *act_.state.brush;
   const std::vector<int> selection = act_.state.selection();
-  for (std::size_t k = 0; k < selection.size(); ++k) {  // places and nets are those of the shapes from before
+  for (std::size_t k = 0; k < selection.size();
+       ++k) {  // places and nets are those of the shapes from before
     SceneSurface& s = act_.state.surfaces[static_cast<std::size_t>(selection[k])];
     s.rest = open.before[k].rest;
     s.current = open.before[k].current;
@@ -312,8 +336,8 @@ Expected<void> BrushStroke::lead(const std::vector<BrushPoint>& path) {
   std::vector<BrushPoint> places;
   const BrushPath way = path_of(open, act_.state);
   for (std::size_t k = known; k < open.path.size(); ++k) {
-    const auto more =
-        k == 0 ? std::vector<BrushPoint>{open.path[0]} : way.places(open.path[k - 1], open.path[k], open.path[k - 1]);
+    const auto more = k == 0 ? std::vector<BrushPoint>{open.path[0]}
+                             : way.places(open.path[k - 1], open.path[k], open.path[k - 1]);
     if (!more) return std::unexpected(more.error());
     places.insert(places.end(), more->begin(), more->end());
   }

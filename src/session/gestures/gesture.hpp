@@ -10,11 +10,12 @@
 
 namespace knead {
 
-/// What a hand does over one command or several: it is begun with the shapes as they are, led on along a path, and
-/// lifted. While it is open, the scene keeps what it was begun with and what it has asked for, and the selected
-/// surfaces show what has come of that.
+/// What a hand does over one command or several: it is begun with the shapes as they are, led on
+/// along a path, and lifted. While it is open, the scene keeps what it was begun with and what it
+/// has asked for, and the selected surfaces show what has come of that.
 template <class G>
-concept Gesture = requires(G gesture, const typename G::Begin& begin, const std::vector<typename G::Place>& path) {
+concept Gesture = requires(G gesture, const typename G::Begin& begin,
+                           const std::vector<typename G::Place>& path) {
   { std::as_const(gesture).is_open() } -> std::same_as<bool>;
   { gesture.begin(begin) } -> std::same_as<Expected<void>>;
   { gesture.lead(path) } -> std::same_as<Expected<void>>;
@@ -23,8 +24,8 @@ concept Gesture = requires(G gesture, const typename G::Begin& begin, const std:
 
 /// Begins a gesture unless it is open, leads it along a path, and lifts it unless it stays open.
 template <Gesture G>
-[[nodiscard]] Expected<void> make(G gesture, const typename G::Begin& begin, const std::vector<typename G::Place>& path,
-                                  bool stays_open) {
+[[nodiscard]] Expected<void> make(G gesture, const typename G::Begin& begin,
+                                  const std::vector<typename G::Place>& path, bool stays_open) {
   if (!gesture.is_open()) {
     if (auto begun = gesture.begin(begin); !begun) return begun;
   }

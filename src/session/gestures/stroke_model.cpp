@@ -24,16 +24,20 @@ Points by_patch(const std::vector<SiteValues<2>>& patches, const Points& x, cons
 }  // namespace
 
 Points StrokeModel::at_abscissae(const Points& x) const {
-  return by_patch(values, x, [&](std::size_t k, const Points& part) { return values[k].values(part); });
+  return by_patch(values, x,
+                  [&](std::size_t k, const Points& part) { return values[k].values(part); });
 }
 
 Points StrokeModel::control_points(const Points& x) const {
-  return by_patch(values, x, [&](std::size_t k, const Points& part) { return values[k].coefficients(part); });
+  return by_patch(values, x,
+                  [&](std::size_t k, const Points& part) { return values[k].coefficients(part); });
 }
 
 /// Where coupled surfaces are one, the nearest that they allow: elsewhere, what held points leave.
 Points StrokeModel::allowed(const Points& x) const {
-  const auto couples = [](const SeamReport& seam) { return seam.continuity != SeamContinuity::none; };
+  const auto couples = [](const SeamReport& seam) {
+    return seam.continuity != SeamContinuity::none;
+  };
   const bool coupled = !scene.input.followed.empty() || std::ranges::any_of(scene.seams, couples);
   return coupled ? scene.model.nearest_allowed(x) : scene.model.allowed(x);
 }

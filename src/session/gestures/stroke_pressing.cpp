@@ -59,13 +59,15 @@ Expected<void> prepare_stroke_model(Act& act) {
 }
 
 void harden(Tool& tool, const OpenStroke& stroke) {
-  if (tool.collides()) tool.stiffness = std::min(std::max(tool.stiffness, stroke.stiffness), max_tool_stiffness);
+  if (tool.collides())
+    tool.stiffness = std::min(std::max(tool.stiffness, stroke.stiffness), max_tool_stiffness);
 }
 
 namespace {
 
-/// What the tools of the open stroke ask of shells, on the stroke's bed. The shapes from before the stroke are those of
-/// no stress here: what they carry is in balance with the forces on them, which are therefore left out.
+/// What the tools of the open stroke ask of shells, on the stroke's bed. The shapes from before the
+/// stroke are those of no stress here: what they carry is in balance with the forces on them, which
+/// are therefore left out.
 Expected<ActiveStep> press_shell_on_bed(Act& act, const std::vector<Tool>& tools, Points guess) {
   const OpenStroke& stroke = *act.state.stroke;
   Scene before = act.state;
@@ -92,14 +94,17 @@ Expected<ActiveStep> press_shell_on_bed(Act& act, const std::vector<Tool>& tools
   return step;
 }
 
-/// The displacement of a place of a stroke, made again where it goes further than these tools stand in the shapes from
-/// before the stroke: beside what is held inside a tool a surface swings out, far beyond the tool where that is large.
-Expected<ActiveStep> within_depth(const Act& act, ActiveStep step, const ActiveState& from, std::span<const Tool> tools,
-                                  ActiveLoads loads) {
+/// The displacement of a place of a stroke, made again where it goes further than these tools stand
+/// in the shapes from before the stroke: beside what is held inside a tool a surface swings out,
+/// far beyond the tool where that is large.
+Expected<ActiveStep> within_depth(const Act& act, ActiveStep step, const ActiveState& from,
+                                  std::span<const Tool> tools, ActiveLoads loads) {
   const StrokeModel& model = *act.cache.stroke;
-  if (loads.limit > 0 || !held_all_round(act.state, seams_in_scene(model.scene.seams, act.state))) return step;
+  if (loads.limit > 0 || !held_all_round(act.state, seams_in_scene(model.scene.seams, act.state)))
+    return step;
   const double room = 1 + 0.5 * law_tolerance;
-  const double moved = std::sqrt(model.at_abscissae(step.control_points).rowwise().squaredNorm().maxCoeff());
+  const double moved =
+      std::sqrt(model.at_abscissae(step.control_points).rowwise().squaredNorm().maxCoeff());
   if (moved <= room * model.depth_of(tools)) return step;
   const double depth = depth_in_shapes(act.state.stroke->before, tools);
   if (moved <= room * depth) return step;
@@ -117,7 +122,8 @@ Expected<ActiveStep> press(Act& act, std::vector<Tool> tools, std::span<const Tr
   const OpenStroke& stroke = *act.state.stroke;
   for (Tool& tool : tools) harden(tool, stroke);
   if (has_shells(act.state))
-    return press_shell_on_bed(act, tools, act.cache.stroke->after_travels(stroke.before, stroke.last, travels));
+    return press_shell_on_bed(act, tools,
+                              act.cache.stroke->after_travels(stroke.before, stroke.last, travels));
   const ActiveSurface& model = act.cache.stroke->scene.model;
   auto loads = active_loads(act.state, act.cache.stroke->scene);
   if (!loads) return std::unexpected(loads.error());

@@ -22,9 +22,10 @@ namespace knead {
 namespace {
 
 constexpr double places_per_size = 8;  // of a stroke, along its path
-constexpr double near_seam = 2;        // sizes of the tool from its centre within which seams have to bend
-constexpr int max_places = 20000;      // of one command
-constexpr double hard = 300;           // stiffness of a tool, in λ: it gives way by about 1 % of its depth
+// Sizes of the tool from its centre within which seams have to bend.
+constexpr double near_seam = 2;
+constexpr int max_places = 20000;  // of one command
+constexpr double hard = 300;  // stiffness of a tool, in λ: it gives way by about 1 % of its depth
 
 double mean(const Coefficient<2>& c) {
   if (const double* constant = std::get_if<double>(&c)) return *constant;
@@ -34,8 +35,8 @@ double mean(const Coefficient<2>& c) {
   return sum / static_cast<double>(all.size());
 }
 
-/// The bed on which a dent in the selected surfaces is felt no further than `reach` (file units), but over one span at
-/// least: on a shorter length the net could not show it.
+/// The bed on which a dent in the selected surfaces is felt no further than `reach` (file units),
+/// but over one span at least: on a shorter length the net could not show it.
 Locality bed_of(const Scene& scene, const std::map<int, DomainScaling<2>>& scalings, double reach) {
   double unit = 0, beta = 0, alpha = 0;
   for (int k : scene.selection()) {
@@ -44,10 +45,12 @@ Locality bed_of(const Scene& scene, const std::map<int, DomainScaling<2>>& scali
     if (unit == 0) unit = scaling.length;
     for (int d = 0; d < 2; ++d) {
       const KnotVector& knots = s.reference->knots(d);
-      const double side = scaling.length * scaling.factors[static_cast<std::size_t>(d)] * knots.domain().length();
+      const double side =
+          scaling.length * scaling.factors[static_cast<std::size_t>(d)] * knots.domain().length();
       reach = std::max(reach, side / static_cast<double>(knots.spans().size()));
     }
-    if (is_nonlinear(s.elasticity)) alpha = std::max(alpha, 1.0);  // its membrane; bending is felt less far
+    if (is_nonlinear(s.elasticity))
+      alpha = std::max(alpha, 1.0);  // its membrane; bending is felt less far
     for (std::size_t i : pure_terms) {
       if (is_nonlinear(s.elasticity)) break;
       beta = std::max(beta, mean(s.material.beta[i]));
@@ -56,7 +59,8 @@ Locality bed_of(const Scene& scene, const std::map<int, DomainScaling<2>>& scali
   }
   const double length = reach / unit;
   if (beta > 0) return locality_of(beta, length);
-  return Locality{alpha > 0 ? alpha / (length * length) : 1, 0};  // a membrane: its dents have no rim
+  return Locality{alpha > 0 ? alpha / (length * length) : 1,
+                  0};  // a membrane: its dents have no rim
 }
 
 /// The square of how far a dent is felt on a bed, file units.
@@ -65,8 +69,8 @@ double felt_area(const Scene& scene, const DomainScaling<2>& scaling, const Open
   if (is_nonlinear(s.elasticity)) return scaling.length * scaling.length / stroke.lambda;
   double area = 0;
   for (std::size_t i : pure_terms) {
-    area = std::max(
-        {area, std::sqrt(mean(s.material.beta[i]) / stroke.lambda), mean(s.material.alpha[i]) / stroke.lambda});
+    area = std::max({area, std::sqrt(mean(s.material.beta[i]) / stroke.lambda),
+                     mean(s.material.alpha[i]) / stroke.lambda});
   }
   return area * scaling.length * scaling.length;
 }
@@ -86,9 +90,10 @@ Expected<void> Stroke::begin(const Begin& begin) {
   const auto tool = find_tool(act_, begin.tool);
   if (!tool) return std::unexpected(tool.error());
   if (act_.state.scaling == ScalingMode::raw) {
-    return input_error("strokes that leave their groove as they go need a model in normalised units", "plastic",
-                       R"(give {"do":"scaling","mode":"normalised"}, or "plastic":"release")",
-                       {ErrorCode::scaling_is_raw});
+    return input_error(
+        "strokes that leave their groove as they go need a model in normalised units", "plastic",
+        R"(give {"do":"scaling","mode":"normalised"}, or "plastic":"release")",
+        {ErrorCode::scaling_is_raw});
   }
   if (act_.state.permission == RefinePermission::automatic) {
     if (auto refined = refine_seams(act_); !refined) return refined;
@@ -109,7 +114,8 @@ Expected<void> Stroke::begin(const Begin& begin) {
   stroke.lambda = act_.state.evolution.lambda > 0 ? act_.state.evolution.lambda : 1;
   std::map<int, DomainScaling<2>> scalings;
   for (const int k : act_.state.selection()) {
-    const auto scaling = normalised_scaling<2>(*act_.state.surfaces[static_cast<std::size_t>(k)].reference);
+    const auto scaling =
+        normalised_scaling<2>(*act_.state.surfaces[static_cast<std::size_t>(k)].reference);
     if (!scaling) return std::unexpected(scaling.error());
     scalings.emplace(k, *scaling);
   }
@@ -150,11 +156,12 @@ Expected<void> unite_under_stroke(Act& act) {
   const auto tool = find_tool(act, act.state.stroke->tool);
   if (!tool) return std::unexpected(tool.error());
   const PlacedShape& shape = (*tool)->shape;
-  return unite_restricted(act, act.cache.stroke->scene.seams, shape.placement().position, near_seam * shape.size());
+  return unite_restricted(act, act.cache.stroke->scene.seams, shape.placement().position,
+                          near_seam * shape.size());
 }
 
-/// Finer nets where held edges of faces need them (before a step), or where the spans under the tool are too long for
-/// it (after one) and may be refined; what the stroke remembers follows.
+/// Finer nets where held edges of faces need them (before a step), or where the spans under the
+/// tool are too long for it (after one) and may be refined; what the stroke remembers follows.
 Expected<bool> refine_stroke(Act& act, const ActiveStep* step) {
   OpenStroke& stroke = *act.state.stroke;
   if (step == nullptr) {
@@ -171,15 +178,19 @@ Expected<bool> refine_stroke(Act& act, const ActiveStep* step) {
   std::array<std::vector<Points>, 2> finer;
   Eigen::Index first = 0;
   const std::vector<int> selection = act.state.selection();
-  const auto shape = [&](std::size_t k) { return act.state.surfaces[static_cast<std::size_t>(selection[k])].current; };
+  const auto shape = [&](std::size_t k) {
+    return act.state.surfaces[static_cast<std::size_t>(selection[k])].current;
+  };
   bool any = false;
-  for (std::size_t k = 0; k < selection.size(); ++k) any = any || shape(k) != stroke.before[k].current;
+  for (std::size_t k = 0; k < selection.size(); ++k)
+    any = any || shape(k) != stroke.before[k].current;
   if (!any) return false;
   for (std::size_t k = 0; k < selection.size(); ++k) {
     const SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
     const Surface old = *stroke.before[k].current, &like = *s.current;
     stroke.before[k] = {s.rest, s.current};
-    const auto from = SiteValues<2>::create(old, Sites::chebyshev), to = SiteValues<2>::create(like, Sites::chebyshev);
+    const auto from = SiteValues<2>::create(old, Sites::chebyshev),
+               to = SiteValues<2>::create(like, Sites::chebyshev);
     if (!from) return std::unexpected(from.error());
     if (!to) return std::unexpected(to.error());
     for (std::size_t f = 0; f < fields.size(); ++f) {
@@ -208,17 +219,22 @@ Expected<bool> refine_stroke(Act& act, const ActiveStep* step) {
 
 }  // namespace
 
-/// The rest shapes with what stays so far, and the shapes with the dent that the tool is in where it is down.
+/// The rest shapes with what stays so far, and the shapes with the dent that the tool is in where
+/// it is down.
 Expected<void> Stroke::show_remembered(bool down) {
   const OpenStroke& stroke = *act_.state.stroke;
   const StrokeModel& model = *act_.cache.stroke;
-  const Points stays = stroke.share * unmasked(act_.state, staying(stroke.history, stroke.plasticity));
+  const Points stays =
+      stroke.share * unmasked(act_.state, staying(stroke.history, stroke.plasticity));
   Points shown = stays;
   if (down && stroke.last.rows() > 0)
     remember(shown, stroke.share * unmasked(act_.state, model.at_abscissae(stroke.last)));
   const bool same = shown == stays;
-  // The largest of many displacements is none that coupled surfaces allow on both sides; then the nearest one stays.
-  const auto allowed = [&](const Points& values) { return model.allowed(model.control_points(values)); };
+  // The largest of many displacements is none that coupled surfaces allow on both sides; then the
+  // nearest one stays.
+  const auto allowed = [&](const Points& values) {
+    return model.allowed(model.control_points(values));
+  };
   const Points resting = allowed(stays);
   const Points showing = same ? resting : allowed(shown);
   Eigen::Index first = 0;
@@ -247,8 +263,8 @@ Expected<void> Stroke::show_remembered(bool down) {
   return {};
 }
 
-/// Edges that follow are closed, and as smooth as asked: what is remembered is kept, and only its image in the
-/// constraints is made again.
+/// Edges that follow are closed, and as smooth as asked: what is remembered is kept, and only its
+/// image in the constraints is made again.
 Expected<void> Stroke::show(bool down) {
   Attempts tried(act_.state, act_.state.stroke->before);
   while (true) {
@@ -265,15 +281,16 @@ Expected<void> Stroke::keep_share(double share) {
   return show(true);
 }
 
-/// Puts the tool there, and presses it into the shapes from before the stroke, on nets that are fine enough.
-/// \param tools with their images: where they were, and then are
+/// Puts the tool there, and presses it into the shapes from before the stroke, on nets that are
+/// fine enough. \param tools with their images: where they were, and then are
 Expected<ActiveStep> Stroke::press_at(const Point& place, std::vector<Tool>& tools) {
   if (auto put = put_tool(act_, place); !put) return std::unexpected(put.error());
   auto present = tools_and_images(act_.state);
   if (!present) return std::unexpected(present.error());
   const std::vector<Travel> travels = travels_of(tools, *present);
   tools = std::move(*present);
-  if (auto refined = refine_stroke(act_, nullptr); !refined) return std::unexpected(refined.error());
+  if (auto refined = refine_stroke(act_, nullptr); !refined)
+    return std::unexpected(refined.error());
   auto step = press(act_, tools, travels);
   for (int k = 0; k < max_refinements && step; ++k) {
     const auto refined = refine_stroke(act_, &*step);
@@ -293,7 +310,8 @@ Expected<void> Stroke::press_along(const std::vector<Point>& places) {
   std::string note;
   bool converged = true;
   const std::vector<int> selection = state.selection();
-  for (std::size_t k = 0; k < selection.size(); ++k) {  // nets are refined for the shapes from before the stroke
+  for (std::size_t k = 0; k < selection.size();
+       ++k) {  // nets are refined for the shapes from before the stroke
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
     s.rest = state.stroke->before[k].rest;
     s.current = state.stroke->before[k].current;
@@ -314,7 +332,8 @@ Expected<void> Stroke::press_along(const std::vector<Point>& places) {
     converged = converged && step->converged;
     if (note.empty()) note = note_of(*step);
     last = std::move(*step);
-    if (auto told = tell_progress(act_, ++done, static_cast<int>(places.size())); !told) return told;
+    if (auto told = tell_progress(act_, ++done, static_cast<int>(places.size())); !told)
+      return told;
   }
   note_loose(state, act_.law);
   if (last.gap > 0 && (state.stroke->history.array() == 0).all()) {
@@ -330,7 +349,9 @@ Expected<void> Stroke::press_along(const std::vector<Point>& places) {
   note_model(act_, act_.cache.stroke->scene.seams, act_.cache.stroke->scene.notes);
   last.iterations = iterations;
   last.converged = converged;
-  record(state, last, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), std::move(note));
+  record(state, last,
+         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+         std::move(note));
   return {};
 }
 
@@ -344,9 +365,10 @@ Expected<void> Stroke::lead(const std::vector<Point>& path) {
     at = point;
   }
   if (length > max_places * stroke.path.spacing) {
-    return input_error(fmt::format("a path of {:.3g} is too long for this tool, which is placed every {:.3g}", length,
-                                   stroke.path.spacing),
-                       "path", "give it in parts, or use a larger tool");
+    return input_error(
+        fmt::format("a path of {:.3g} is too long for this tool, which is placed every {:.3g}",
+                    length, stroke.path.spacing),
+        "path", "give it in parts, or use a larger tool");
   }
   std::vector<Point> places;
   for (const Point& point : path) stroke.path.go_to(point, places);

@@ -10,9 +10,10 @@
 
 namespace knead {
 
-/// A stroke of a tool that leaves its groove as it goes: every place leaves its dent in the shapes from before it.
-/// While it is open, the selected surfaces show these with what stays so far, and with the dent that the tool is in.
-/// Lifted, the tool goes home, and what stays is the shape and the rest shape. Edges that follow are closed all along.
+/// A stroke of a tool that leaves its groove as it goes: every place leaves its dent in the shapes
+/// from before it. While it is open, the selected surfaces show these with what stays so far, and
+/// with the dent that the tool is in. Lifted, the tool goes home, and what stays is the shape and
+/// the rest shape. Edges that follow are closed all along.
 class Stroke {
  public:
   using Place = Point;  // of the tool's centre
@@ -42,9 +43,10 @@ inline constexpr std::size_t pure_terms[] = {0, 2};  // α11 and α22, β11 and 
 
 /// Makes the model that the open stroke presses, unless it is there.
 [[nodiscard]] Expected<void> prepare_stroke_model(Act& act);
-/// What these tools ask, which are there after these travels, of the shapes from before the open stroke: a
-/// displacement.
-[[nodiscard]] Expected<ActiveStep> press(Act& act, std::vector<Tool> tools, std::span<const Travel> travels);
+/// What these tools ask, which are there after these travels, of the shapes from before the open
+/// stroke: a displacement.
+[[nodiscard]] Expected<ActiveStep> press(Act& act, std::vector<Tool> tools,
+                                         std::span<const Travel> travels);
 /// Makes a tool as hard as the open stroke needs it, unless it is, or does not collide.
 void harden(Tool& tool, const OpenStroke& stroke);
 

@@ -1,4 +1,5 @@
-// Compiled for AVX2 if the compiler can (src/solve/CMakeLists.txt); called only if the machine has it.
+// Compiled for AVX2 if the compiler can (src/solve/CMakeLists.txt); called only if the machine has
+// it.
 #ifdef __AVX2__
 #define KNEAD_ISA panels_avx2
 #define KNEAD_LANES 4

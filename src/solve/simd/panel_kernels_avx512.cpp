@@ -1,4 +1,5 @@
-// Compiled for AVX-512 if the compiler can (src/solve/CMakeLists.txt); called only if the machine has it.
+// Compiled for AVX-512 if the compiler can (src/solve/CMakeLists.txt); called only if the machine
+// has it.
 #ifdef __AVX512F__
 #define KNEAD_ISA panels_avx512
 #define KNEAD_LANES 8

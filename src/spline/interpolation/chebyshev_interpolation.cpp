@@ -27,7 +27,8 @@ std::vector<KnotVector> pieces_of(const KnotVector& knots) {
     piece.assign(static_cast<std::size_t>(p + 1), end);
   };
   std::vector<double> inside;
-  std::ranges::copy_if(knots.knots(), std::back_inserter(inside), [&](double x) { return x > lower && x < upper; });
+  std::ranges::copy_if(knots.knots(), std::back_inserter(inside),
+                       [&](double x) { return x > lower && x < upper; });
   for (std::size_t k = 0; k < inside.size();) {
     const auto same = static_cast<std::size_t>(std::ranges::count(inside, inside[k]));
     if (same > static_cast<std::size_t>(p)) {
@@ -44,7 +45,8 @@ std::vector<KnotVector> pieces_of(const KnotVector& knots) {
 /// The spline on one piece that is ±1 alternately at the sites, 1 at the last.
 class Alternating {
  public:
-  Alternating(const KnotVector& knots, const std::vector<double>& sites, const SiteInterpolation& at)
+  Alternating(const KnotVector& knots, const std::vector<double>& sites,
+              const SiteInterpolation& at)
       : knots_(knots), sites_(sites), spans_(knots.spans()), coefficients_(sites.size()) {
     for (std::size_t i = 0; i < sites.size(); ++i) coefficients_[i] = sign(i);
     at.solve(coefficients_.data(), 1, 1);
@@ -62,12 +64,14 @@ class Alternating {
     for (const double site : sites_) result.push_back({site, site, 1});
     for (const int span : spans_) {
       const double a = knots_[span], b = knots_[span + 1];
-      // Of degree p there are at most p − 1 extrema inside, crowded to the ends at worst as those of a polynomial.
+      // Of degree p there are at most p − 1 extrema inside, crowded to the ends at worst as those
+      // of a polynomial.
       const int samples = 4 * knots_.degree();
       Sample before{a, jet(span, a)};
       take(a, before.jet[0], result);
       for (int k = 1; k <= samples; ++k) {
-        const double u = k == samples ? b : a + (b - a) * 0.5 * (1 - std::cos(std::numbers::pi * k / samples));
+        const double u =
+            k == samples ? b : a + (b - a) * 0.5 * (1 - std::cos(std::numbers::pi * k / samples));
         if (!(u > before.at)) continue;
         const Sample after{u, jet(span, u)};
         take(u, after.jet[0], result);
@@ -84,7 +88,9 @@ class Alternating {
     std::array<double, 2> jet = {};
   };
 
-  [[nodiscard]] double sign(std::size_t i) const { return (sites_.size() - 1 - i) % 2 == 0 ? 1 : -1; }
+  [[nodiscard]] double sign(std::size_t i) const {
+    return (sites_.size() - 1 - i) % 2 == 0 ? 1 : -1;
+  }
 
   /// Value and slope on a span.
   [[nodiscard]] std::array<double, 2> jet(int span, double u) const {
@@ -100,20 +106,25 @@ class Alternating {
     return result;
   }
 
-  /// Takes the zero of the slope between two samples, to rounding: sites of mirrored knots are mirrored.
-  void take_between(int span, const Sample& before, const Sample& after, std::vector<Extremum>& result) const {
+  /// Takes the zero of the slope between two samples, to rounding: sites of mirrored knots are
+  /// mirrored.
+  void take_between(int span, const Sample& before, const Sample& after,
+                    std::vector<Extremum>& result) const {
     double low = before.at, high = after.at;
-    for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high)) {
+    for (double middle = 0.5 * (low + high); middle > low && middle < high;
+         middle = 0.5 * (low + high)) {
       (jet(span, middle)[1] * before.jet[1] > 0 ? low : high) = middle;
     }
     take(low, jet(span, low)[0], result);
   }
 
-  /// Takes a value as that of the extremum around a site beside it, if it is of its sign and no smaller. Of two of one
-  /// height neither is taken alone: mirrored knots have mirrored sites, the middle one included.
+  /// Takes a value as that of the extremum around a site beside it, if it is of its sign and no
+  /// smaller. Of two of one height neither is taken alone: mirrored knots have mirrored sites, the
+  /// middle one included.
   void take(double u, double value, std::vector<Extremum>& result) const {
     const auto after = std::ranges::upper_bound(sites_, u) - sites_.begin();
-    for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(after - 1, 0); i <= std::min(after, std::ssize(sites_) - 1); ++i) {
+    for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(after - 1, 0);
+         i <= std::min(after, std::ssize(sites_) - 1); ++i) {
       const auto k = static_cast<std::size_t>(i);
       Extremum& there = result[k];
       const double height = value * sign(k);

@@ -16,7 +16,8 @@ FunctionsOnDomain functions_on_domain(const KnotVector& knots) {
   return result;
 }
 
-Expected<SiteInterpolation> SiteInterpolation::create(const KnotVector& knots, std::vector<double> sites) {
+Expected<SiteInterpolation> SiteInterpolation::create(const KnotVector& knots,
+                                                      std::vector<double> sites) {
   assert(static_cast<int>(sites.size()) == knots.count());
   const int p = knots.degree();
   SiteInterpolation result;
@@ -37,22 +38,25 @@ Expected<void> SiteInterpolation::factor() {
   const int p = degree_, width = 2 * p + 1;
   lu_.assign(abscissae_.size() * static_cast<std::size_t>(width), 0.0);
   const auto entry = [&](int i, int j) -> double& {
-    return lu_[static_cast<std::size_t>(i) * static_cast<std::size_t>(width) + static_cast<std::size_t>(j - i + p)];
+    return lu_[static_cast<std::size_t>(i) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(j - i + p)];
   };
   for (int i = begin_; i < end_; ++i) {
     const int first = basis_.first[static_cast<std::size_t>(i)];
     // Functions of the span outside the band or outside begin … end are zero here.
     for (int r = 0; r <= p; ++r) {
       const int j = first + r;
-      if (j >= std::max(begin_, i - p) && j < std::min(end_, i + p + 1)) entry(i, j) = basis_.row(i, 0)[r];
+      if (j >= std::max(begin_, i - p) && j < std::min(end_, i + p + 1))
+        entry(i, j) = basis_.row(i, 0)[r];
     }
   }
   for (int k = begin_; k < end_; ++k) {
     const double pivot = entry(k, k);
     if (!(pivot > 0)) {
-      return numerical_error(fmt::format("the abscissa {} of function {} does not separate it from its neighbours",
-                                         abscissae_[static_cast<std::size_t>(k)], k),
-                             {}, "remove knots that lie closer together than rounding can tell apart");
+      return numerical_error(
+          fmt::format("the abscissa {} of function {} does not separate it from its neighbours",
+                      abscissae_[static_cast<std::size_t>(k)], k),
+          {}, "remove knots that lie closer together than rounding can tell apart");
     }
     const int last = std::min(end_ - 1, k + p);
     for (int i = k + 1; i <= last; ++i) {
@@ -79,7 +83,8 @@ BasisTable SiteInterpolation::tabulate(const KnotVector& other) const {
 void SiteInterpolation::solve(double* values, std::size_t outer, std::size_t inner) const {
   const int n = size(), p = degree_;
   const auto entry = [&](int i, int j) {
-    return lu_[static_cast<std::size_t>(i) * static_cast<std::size_t>(2 * p + 1) + static_cast<std::size_t>(j - i + p)];
+    return lu_[static_cast<std::size_t>(i) * static_cast<std::size_t>(2 * p + 1) +
+               static_cast<std::size_t>(j - i + p)];
   };
   for (std::size_t o = 0; o < outer; ++o, values += static_cast<std::size_t>(n) * inner) {
     const auto row = [&](int i) { return values + static_cast<std::size_t>(i) * inner; };

@@ -12,8 +12,8 @@ namespace knead {
 namespace {
 
 template <int D>
-std::vector<double> at_abscissae(const std::vector<SiteInterpolation>& interpolation, const double* x,
-                                 std::size_t components) {
+std::vector<double> at_abscissae(const std::vector<SiteInterpolation>& interpolation,
+                                 const double* x, std::size_t components) {
   std::array<const BasisTable*, D> tables;
   std::array<int, D> net;
   for (std::size_t d = 0; d < D; ++d) {
@@ -33,7 +33,8 @@ Expected<SiteInterpolation> interpolation_of(const KnotVector& knots, Sites site
 template <int D>
 struct SiteValues<D>::Factors {
   std::vector<SiteInterpolation> interpolation;
-  std::vector<double> weights, denominators;  // at control points and at the abscissae; empty for a polynomial spline
+  std::vector<double> weights,
+      denominators;  // at control points and at the abscissae; empty for a polynomial spline
 };
 
 template <int D>
@@ -41,7 +42,8 @@ Expected<SiteValues<D>> SiteValues<D>::create(const Spline<D>& shape, Sites site
   Factors made;
   for (std::size_t d = 0; d < D; ++d) {
     auto direction = interpolation_of(shape.knots()[d], sites);
-    if (!direction) return std::unexpected(direction.error().within(fmt::format("direction {}", d)));
+    if (!direction)
+      return std::unexpected(direction.error().within(fmt::format("direction {}", d)));
     made.interpolation.push_back(std::move(*direction));
   }
   if (shape.rational()) {
@@ -50,11 +52,13 @@ Expected<SiteValues<D>> SiteValues<D>::create(const Spline<D>& shape, Sites site
   }
   for (std::size_t i = 0; i < made.weights.size(); ++i) {
     if (made.weights[i] == 0) {
-      return input_error("a weight is 0, so that no value at an abscissa determines its coefficient",
-                         fmt::format("control point {}", i), "use weights > 0");
+      return input_error(
+          "a weight is 0, so that no value at an abscissa determines its coefficient",
+          fmt::format("control point {}", i), "use weights > 0");
     }
     if (!(made.denominators[i] > 0)) {
-      return numerical_error("the rational denominator is not positive", "sites", "use positive weights");
+      return numerical_error("the rational denominator is not positive", "sites",
+                             "use positive weights");
     }
   }
   return SiteValues(std::make_shared<const Factors>(std::move(made)));
@@ -80,10 +84,12 @@ Points SiteValues<D>::values(const Points& x) const {
     const std::vector<double> values = at_abscissae<D>(interpolation, x.data(), 3);
     return Eigen::Map<const Points>(values.data(), x.rows(), 3);
   }
-  const Points weighted = Eigen::Map<const Eigen::VectorXd>(weights.data(), x.rows()).asDiagonal() * x;
+  const Points weighted =
+      Eigen::Map<const Eigen::VectorXd>(weights.data(), x.rows()).asDiagonal() * x;
   const std::vector<double> values = at_abscissae<D>(interpolation, weighted.data(), 3);
   Points result = Eigen::Map<const Points>(values.data(), x.rows(), 3);
-  for (Eigen::Index i = 0; i < result.rows(); ++i) result.row(i) /= denominators[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < result.rows(); ++i)
+    result.row(i) /= denominators[static_cast<std::size_t>(i)];
   return result;
 }
 
@@ -92,7 +98,8 @@ Points SiteValues<D>::coefficients(Points v) const {
   assert(v.rows() == size());
   const auto& [interpolation, weights, denominators] = *factors_;
   const bool rational = !weights.empty();
-  for (Eigen::Index i = 0; i < v.rows() && rational; ++i) v.row(i) *= denominators[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < v.rows() && rational; ++i)
+    v.row(i) *= denominators[static_cast<std::size_t>(i)];
   std::size_t outer = 1, inner = static_cast<std::size_t>(v.size());
   for (const SiteInterpolation& direction : interpolation) {
     const auto n = static_cast<std::size_t>(direction.size());
@@ -100,7 +107,8 @@ Points SiteValues<D>::coefficients(Points v) const {
     direction.solve(v.data(), outer, inner);
     outer *= n;
   }
-  for (Eigen::Index i = 0; i < v.rows() && rational; ++i) v.row(i) /= weights[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < v.rows() && rational; ++i)
+    v.row(i) /= weights[static_cast<std::size_t>(i)];
   return v;
 }
 

@@ -5,8 +5,8 @@
 
 namespace knead::detail::KNEAD_ISA {
 
-/// As many points as a vector has numbers, each coordinate by itself. In memory theirs stand side by side: x y z x y z
-/// …
+/// As many points as a vector has numbers, each coordinate by itself. In memory theirs stand side
+/// by side: x y z x y z …
 struct Three {
   Lanes x, y, z;
 };
@@ -27,17 +27,20 @@ KNEAD_INLINE void store_three(double* p, const Three& v) {
 
 #elif KNEAD_LANES == 4
 
-// By vectors that hold x0 y0 x2 y2, z0 x1 z2 x3 and y1 z1 y3 z3: either step keeps to halves or exchanges them.
+// By vectors that hold x0 y0 x2 y2, z0 x1 z2 x3 and y1 z1 y3 z3: either step keeps to halves or
+// exchanges them.
 KNEAD_INLINE Three load_three(const double* p) {
   const Lanes v0 = load(p), v1 = load(p + 4), v2 = load(p + 8);
-  const Lanes a = __builtin_shufflevector(v0, v1, 0, 1, 6, 7), b = __builtin_shufflevector(v0, v2, 2, 3, 4, 5);
+  const Lanes a = __builtin_shufflevector(v0, v1, 0, 1, 6, 7),
+              b = __builtin_shufflevector(v0, v2, 2, 3, 4, 5);
   const Lanes c = __builtin_shufflevector(v1, v2, 0, 1, 6, 7);
   return {__builtin_shufflevector(a, b, 0, 5, 2, 7), __builtin_shufflevector(a, c, 1, 4, 3, 6),
           __builtin_shufflevector(b, c, 0, 5, 2, 7)};
 }
 
 KNEAD_INLINE void store_three(double* p, const Three& v) {
-  const Lanes a = __builtin_shufflevector(v.x, v.y, 0, 4, 2, 6), b = __builtin_shufflevector(v.z, v.x, 0, 5, 2, 7);
+  const Lanes a = __builtin_shufflevector(v.x, v.y, 0, 4, 2, 6),
+              b = __builtin_shufflevector(v.z, v.x, 0, 5, 2, 7);
   const Lanes c = __builtin_shufflevector(v.y, v.z, 1, 5, 3, 7);
   store(p, __builtin_shufflevector(a, b, 0, 1, 4, 5));
   store(p + 4, __builtin_shufflevector(c, a, 0, 1, 6, 7));

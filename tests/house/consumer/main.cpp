@@ -4,7 +4,8 @@
 
 #include "knead/spline/evaluate.hpp"
 
-// The bilinear patch x = u, y = v, z = u v at its middle; and a knot vector that must be refused, by value.
+// The bilinear patch x = u, y = v, z = u v at its middle; and a knot vector that must be refused,
+// by value.
 int main() {
   const auto knots = knead::KnotVector::create(1, {0, 0, 1, 1});
   if (!knots) return 1;

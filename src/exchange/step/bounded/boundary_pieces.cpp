@@ -30,10 +30,11 @@ struct Range {
 };
 
 /// The parameter of a TRIMMED_CURVE's limit: a point or PARAMETER_VALUE(t), or both.
-std::optional<double> limit_of(const Reader& reader, std::uint32_t list, const Range& range, bool prefer_parameter,
-                               double angle_unit) {
+std::optional<double> limit_of(const Reader& reader, std::uint32_t list, const Range& range,
+                               bool prefer_parameter, double angle_unit) {
   std::optional<double> by_point, by_parameter;
-  for (const std::uint32_t value : reader.is_list(list) ? reader.file().children(list) : std::vector<std::uint32_t>()) {
+  for (const std::uint32_t value :
+       reader.is_list(list) ? reader.file().children(list) : std::vector<std::uint32_t>()) {
     if (const auto target = reader.reference(value)) {
       if (const auto place = reader.point(*target)) by_point = range.curve->parameter(*place);
     } else if (reader.file().value(value).kind == Part21Kind::typed) {
@@ -79,7 +80,8 @@ Expected<Range> range_of(const Reader& reader, std::uint32_t instance) {
 
 Expected<SurfacePiece> with_ends(const Reader& reader, std::uint32_t instance, const Range& range) {
   if (!range.from || !range.to)
-    return reader.error(instance, "a boundary's curve has no ends", "give it limits, as a TRIMMED_CURVE has");
+    return reader.error(instance, "a boundary's curve has no ends",
+                        "give it limits, as a TRIMMED_CURVE has");
   SurfacePiece piece;
   piece.geometry = range.geometry;
   piece.at = [curve = range.curve, from = *range.from, to = *range.to](double t) {
@@ -102,20 +104,24 @@ Expected<std::array<double, 2>> parameter_scale(const Reader& reader, std::uint3
   const auto profile = [&](const brep::CurveGeometry& curve, double& own) -> Expected<void> {
     if (const auto* line = std::get_if<brep::Line>(&curve.form)) own = line->magnitude;
     const auto* conic = std::get_if<brep::Conic>(&curve.form);
-    return conic != nullptr && conic->form == brep::Conic::Form::ellipse ? angle(own) : Expected<void>();
+    return conic != nullptr && conic->form == brep::Conic::Form::ellipse ? angle(own)
+                                                                         : Expected<void>();
   };
   Expected<void> found;
   if (const auto* elementary = std::get_if<brep::ElementarySurface>(&support.form)) {
     using Kind = brep::ElementarySurface::Kind;
     if (elementary->kind != Kind::plane) found = angle(scale[0]);
-    if (elementary->kind == Kind::sphere || elementary->kind == Kind::torus) found = angle(scale[1]);
-  } else if (const auto* swept = std::get_if<brep::SweptSurface>(&support.form); swept != nullptr && swept->curve) {
+    if (elementary->kind == Kind::sphere || elementary->kind == Kind::torus)
+      found = angle(scale[1]);
+  } else if (const auto* swept = std::get_if<brep::SweptSurface>(&support.form);
+             swept != nullptr && swept->curve) {
     if (swept->revolution) found = angle(scale[0]);
     if (found) found = profile(*swept->curve, scale[swept->revolution ? 1 : 0]);
     if (!swept->revolution) {
       const auto own = reader.attributes(surface, "SURFACE_OF_LINEAR_EXTRUSION", 2, 1);
       const auto vector = own.empty() ? std::nullopt : reader.reference(own[0]);
-      const auto magnitude = vector ? reader.attributes(*vector, "VECTOR", 1, 2) : std::vector<std::uint32_t>();
+      const auto magnitude =
+          vector ? reader.attributes(*vector, "VECTOR", 1, 2) : std::vector<std::uint32_t>();
       if (!magnitude.empty()) scale[1] = reader.length(magnitude[1]).value_or(1);
     }
   }
@@ -138,16 +144,19 @@ Expected<Point> PieceReader::Surface::at(const brep::Model& model, const Point& 
   return evaluate_point<2>(spline.surface, at);
 }
 
-Expected<PieceReader::Surface> PieceReader::surface(std::uint32_t basis, const brep::Support& support) const {
+Expected<PieceReader::Surface> PieceReader::surface(std::uint32_t basis,
+                                                    const brep::Support& support) const {
   if (support.wrong) return std::unexpected(*support.wrong);
   Surface result{basis, &support};
   if (support.spline != brep::none) return result;
   const auto scale = parameter_scale(reader_, basis, support);
   if (!scale) return std::unexpected(scale.error());
   result.scale = *scale;
-  // What is drawn of an unbounded profile is not known here: a point in parameters lies anywhere on it.
+  // What is drawn of an unbounded profile is not known here: a point in parameters lies anywhere on
+  // it.
   if (const auto* swept = std::get_if<brep::SweptSurface>(&support.form);
-      swept == nullptr || !swept->curve || std::holds_alternative<std::shared_ptr<const Curve>>(swept->curve->form)) {
+      swept == nullptr || !swept->curve ||
+      std::holds_alternative<std::shared_ptr<const Curve>>(swept->curve->form)) {
     auto form = brep::FaceSurface::create(model_, support, {});
     if (!form) return std::unexpected(std::move(form.error()));
     result.form = *std::move(form);
@@ -155,15 +164,15 @@ Expected<PieceReader::Surface> PieceReader::surface(std::uint32_t basis, const b
   return result;
 }
 
-Expected<void> PieceReader::add(std::uint32_t curve, std::uint32_t basis, const brep::Support& support,
-                                std::vector<SurfacePiece>& pieces) {
+Expected<void> PieceReader::add(std::uint32_t curve, std::uint32_t basis,
+                                const brep::Support& support, std::vector<SurfacePiece>& pieces) {
   const auto on = surface(basis, support);
   if (!on) return std::unexpected(on.error());
   return add_composite(curve, true, *on, 0, pieces);
 }
 
-Expected<void> PieceReader::add_composite(std::uint32_t curve, bool forward, const Surface& on, int depth,
-                                          std::vector<SurfacePiece>& pieces) {
+Expected<void> PieceReader::add_composite(std::uint32_t curve, bool forward, const Surface& on,
+                                          int depth, std::vector<SurfacePiece>& pieces) {
   if (depth > most_nested) return reader_.error(curve, "it is made of itself");
   if (!is_composite(reader_, curve)) return reader_.error(curve, "a boundary of an unknown kind");
   const auto own = reader_.attributes(curve, "COMPOSITE_CURVE", 1, 1);
@@ -177,13 +186,15 @@ Expected<void> PieceReader::add_composite(std::uint32_t curve, bool forward, con
 }
 
 /// COMPOSITE_CURVE_SEGMENT(transition, same_sense, parent_curve).
-Expected<void> PieceReader::add_segment(std::uint32_t segment, bool forward, const Surface& on, int depth,
-                                        std::vector<SurfacePiece>& pieces) {
+Expected<void> PieceReader::add_segment(std::uint32_t segment, bool forward, const Surface& on,
+                                        int depth, std::vector<SurfacePiece>& pieces) {
   if (++pieces_ > free_edge_uses + edge_uses_per_record * reader_.file().instances().size())
-    return reader_.error(segment, "boundaries are repeated too often", "give every surface boundaries of its own");
+    return reader_.error(segment, "boundaries are repeated too often",
+                         "give every surface boundaries of its own");
   const auto own = reader_.attributes(segment, "COMPOSITE_CURVE_SEGMENT", 0, 3);
   const auto parent = own.empty() ? std::nullopt : reader_.reference(own[2]);
-  if (!parent) return reader_.error(segment, "a COMPOSITE_CURVE_SEGMENT with a curve is needed here");
+  if (!parent)
+    return reader_.error(segment, "a COMPOSITE_CURVE_SEGMENT with a curve is needed here");
   const bool along = (reader_.enumeration(own[1]) != "F") == forward;
   if (is_composite(reader_, *parent)) return add_composite(*parent, along, on, depth + 1, pieces);
   auto made = piece(*parent, on);
@@ -208,7 +219,8 @@ Expected<SurfacePiece> PieceReader::piece(std::uint32_t curve, const Surface& on
   if (!result) return result;
   // A limited SURFACE_CURVE gives its limits in the parameters of the curve that it has.
   const auto own = reader_.attributes(curve, "TRIMMED_CURVE", 1, 1);
-  const auto basis = reader_.is(curve, "TRIMMED_CURVE") && !own.empty() ? reader_.reference(own[0]) : std::nullopt;
+  const auto basis =
+      reader_.is(curve, "TRIMMED_CURVE") && !own.empty() ? reader_.reference(own[0]) : std::nullopt;
   result->fixed = basis && is_surface_curve(reader_, *basis);
   result->in_space = !result->fixed;
   return result;
@@ -241,14 +253,15 @@ Expected<SurfacePiece> PieceReader::on_surface(std::uint32_t curve, const Surfac
 Expected<SurfacePiece> PieceReader::lifted(std::uint32_t pcurve, const Surface& on) const {
   const auto own = reader_.attributes(pcurve, "PCURVE", 1, 2);
   const auto representation = own.empty() ? std::nullopt : reader_.reference(own[1]);
-  const auto items =
-      representation ? reader_.attributes(*representation, "REPRESENTATION", 0, 2) : std::vector<std::uint32_t>();
+  const auto items = representation ? reader_.attributes(*representation, "REPRESENTATION", 0, 2)
+                                    : std::vector<std::uint32_t>();
   const auto curves = items.empty() ? std::vector<std::uint32_t>() : reader_.references(items[1]);
   if (curves.empty()) return reader_.error(pcurve, "it has no curve in parameters");
   if (untrimmed(reader_, reader_.reference(own[0])) != on.basis)
     return reader_.error(pcurve, "it lies on another surface than the one that it bounds");
   if (on.support->spline == brep::none && !on.form)
-    return reader_.error(pcurve, "a boundary in parameters of a surface swept by an unbounded curve",
+    return reader_.error(pcurve,
+                         "a boundary in parameters of a surface swept by an unbounded curve",
                          "give the boundary curves in space, too");
   const Reader flat = reader_.in_parameters();
   const auto range = range_of(flat, curves[0]);

@@ -17,11 +17,14 @@ std::unordered_map<std::uint32_t, std::uint32_t> representations(const Reader& r
     if (!holds_shape(kind)) continue;
     for (const auto k : reader.file().named({kind})) {
       const auto own = reader.attributes(k, "REPRESENTATION", 0, 2);
-      for (const auto item : own.empty() ? std::vector<std::uint32_t>() : reader.references(own[1])) {
+      for (const auto item :
+           own.empty() ? std::vector<std::uint32_t>() : reader.references(own[1])) {
         result.try_emplace(item, k);
-        const auto set = reader.is(item, "GEOMETRIC_SET") ? reader.attributes(item, "GEOMETRIC_SET", 1, 1)
-                                                          : std::vector<std::uint32_t>();
-        for (const auto element : set.empty() ? std::vector<std::uint32_t>() : reader.references(set[0]))
+        const auto set = reader.is(item, "GEOMETRIC_SET")
+                             ? reader.attributes(item, "GEOMETRIC_SET", 1, 1)
+                             : std::vector<std::uint32_t>();
+        for (const auto element :
+             set.empty() ? std::vector<std::uint32_t>() : reader.references(set[0]))
           result.try_emplace(element, k);
       }
     }
@@ -52,19 +55,21 @@ class SurfaceBounds {
   BoundarySources sources() { return std::move(sources_); }
 
  private:
-  /// Basis surface, u1, u2, v1, v2, whether u and v run as they do on it. Between two parameters of a closed direction
-  /// there are two ways: u goes up from u1 to u2 where it runs as on the basis surface, else down.
+  /// Basis surface, u1, u2, v1, v2, whether u and v run as they do on it. Between two parameters of
+  /// a closed direction there are two ways: u goes up from u1 to u2 where it runs as on the basis
+  /// surface, else down.
   void add_rectangle(const FaceRecord& record, const brep::Support& support, brep::Face& face) {
     const auto own = reader_.attributes(record.instance, "RECTANGULAR_TRIMMED_SURFACE", 1, 7);
-    const auto scale =
-        own.empty() ? Expected<std::array<double, 2>>(reader_.error(record.instance, "its limits are not complete"))
-                    : parameter_scale(reader_, record.surface, support);
+    const auto scale = own.empty() ? Expected<std::array<double, 2>>(reader_.error(
+                                         record.instance, "its limits are not complete"))
+                                   : parameter_scale(reader_, record.surface, support);
     if (!scale) return unknown(face, scale.error());
     std::array<Interval, 2> range;
     std::array<bool, 2> along = {true, true};
     for (std::size_t d = 0; d < 2; ++d) {
       const auto first = reader_.length(own[2 * d + 1]), last = reader_.length(own[2 * d + 2]);
-      if (!first || !last) return unknown(face, reader_.error(record.instance, "its limits are no numbers").error());
+      if (!first || !last)
+        return unknown(face, reader_.error(record.instance, "its limits are no numbers").error());
       along[d] = reader_.enumeration(own[5 + d]) != "F";
       range[d] = {(*scale)[d] * *first, (*scale)[d] * *last};
       if (!along[d] && range[d].lower > range[d].upper) std::swap(range[d].lower, range[d].upper);
@@ -74,11 +79,13 @@ class SurfaceBounds {
     add_sides(support, range, face);
   }
 
-  void add_sides(const brep::Support& support, const std::array<Interval, 2>& range, brep::Face& face) {
+  void add_sides(const brep::Support& support, const std::array<Interval, 2>& range,
+                 brep::Face& face) {
     auto sides = brep::rectangle_sides(model_, support, range[0], range[1]);
     if (!sides) return unknown(face, sides.error());
     std::vector<SurfacePiece> pieces;
-    for (brep::BoundaryPiece& side : *sides) static_cast<brep::BoundaryPiece&>(pieces.emplace_back()) = std::move(side);
+    for (brep::BoundaryPiece& side : *sides)
+      static_cast<brep::BoundaryPiece&>(pieces.emplace_back()) = std::move(side);
     add_bound(pieces, support, face);
   }
 
@@ -115,16 +122,18 @@ class SurfaceBounds {
     }
   }
 
-  void add_bound(std::vector<SurfacePiece>& pieces, const brep::Support& support, brep::Face& face) {
+  void add_bound(std::vector<SurfacePiece>& pieces, const brep::Support& support,
+                 brep::Face& face) {
     if (pieces.empty()) return;  // of points: it bounds nothing
-    brep::Bound bound = edges_.bound(pieces, support.uncertainty, group_,
-                                     [&](const SurfacePiece& piece, const brep::BoundaryEdges::Use& use) {
-                                       BoundaryEdge& edge = sources_[model_.edges[use.edge].id];
-                                       edge.fixed = edge.fixed || piece.fixed;
-                                       if (piece.fixed || piece.source.segment == no_instance) return;
-                                       auto& sources = piece.in_space ? edge.sources : edge.in_parameters;
-                                       sources.emplace_back(piece.source).turned = use.turned;
-                                     });
+    brep::Bound bound =
+        edges_.bound(pieces, support.uncertainty, group_,
+                     [&](const SurfacePiece& piece, const brep::BoundaryEdges::Use& use) {
+                       BoundaryEdge& edge = sources_[model_.edges[use.edge].id];
+                       edge.fixed = edge.fixed || piece.fixed;
+                       if (piece.fixed || piece.source.segment == no_instance) return;
+                       auto& sources = piece.in_space ? edge.sources : edge.in_parameters;
+                       sources.emplace_back(piece.source).turned = use.turned;
+                     });
     bound.forward = face.same_sense;  // boundaries run round the normal of the surface
     face.bounds.push_back(std::move(bound));
   }
@@ -148,7 +157,8 @@ class SurfaceBounds {
 
 }  // namespace
 
-BoundarySources bound_surfaces(const Reader& reader, const std::vector<FaceRecord>& faces, brep::Model& model) {
+BoundarySources bound_surfaces(const Reader& reader, const std::vector<FaceRecord>& faces,
+                               brep::Model& model) {
   if (std::ranges::none_of(faces, &FaceRecord::is_surface)) return {};
   SurfaceBounds bounds(reader, model);
   for (std::size_t k = 0; k < faces.size(); ++k) {

@@ -21,10 +21,12 @@ template <int D>
 using WantedSurfaces = std::unordered_map<std::size_t, const Surface*>;
 using WantedCurves = std::unordered_map<std::size_t, const Curve*>;
 
-/// The bytes, once they have been read again: the whole file as an exchange structure without names given twice, and
-/// every surface and free curve as wanted, or as before, bit for bit. Errors (numerical): something is not.
-/// Memory: the names of the entities, 16 bytes each, and some of the geometry at a time.
-[[nodiscard]] Expected<std::string> checked(std::string bytes, const File::Data& before, const WantedSurfaces& surfaces,
+/// The bytes, once they have been read again: the whole file as an exchange structure without names
+/// given twice, and every surface and free curve as wanted, or as before, bit for bit. Errors
+/// (numerical): something is not. Memory: the names of the entities, 16 bytes each, and some of the
+/// geometry at a time.
+[[nodiscard]] Expected<std::string> checked(std::string bytes, const File::Data& before,
+                                            const WantedSurfaces& surfaces,
                                             const WantedCurves& curves);
 
 }  // namespace knead::step

@@ -7,8 +7,8 @@
 
 namespace knead::step {
 
-/// Names for new records: above all others, so that they cannot be mistaken for records deleted earlier; but within the
-/// range of readers with 32-bit names while free names remain there.
+/// Names for new records: above all others, so that they cannot be mistaken for records deleted
+/// earlier; but within the range of readers with 32-bit names while free names remain there.
 class FreshNames {
  public:
   explicit FreshNames(const Part21File& file) : file_(file), next_(file.largest_id() + 1) {}

@@ -17,16 +17,19 @@ constexpr double same_axes = 1e-14;  // of the longer semi-axis: an ellipse is a
 }  // namespace
 
 std::string ModelGeometry::direction(const Point& d) {
-  return file_.add(fmt::format("DIRECTION('',({},{},{}))", format_real(d.x()), format_real(d.y()), format_real(d.z())));
+  return file_.add(fmt::format("DIRECTION('',({},{},{}))", format_real(d.x()), format_real(d.y()),
+                               format_real(d.z())));
 }
 
 std::string ModelGeometry::placement(const brep::Frame& frame) {
-  const auto origin = file_.add_point(frame.origin.data()), axis = direction(frame.z), along = direction(frame.x);
+  const auto origin = file_.add_point(frame.origin.data()), axis = direction(frame.z),
+             along = direction(frame.x);
   return file_.add(fmt::format("AXIS2_PLACEMENT_3D('',{},{},{})", origin, axis, along));
 }
 
 std::string ModelGeometry::line(const brep::Line& line, bool turned) {
-  const auto point = file_.add_point(line.origin.data()), way = direction(turned ? -line.direction : line.direction);
+  const auto point = file_.add_point(line.origin.data()),
+             way = direction(turned ? -line.direction : line.direction);
   const auto vector = file_.add(fmt::format("VECTOR('',{},{})", way, format_real(line.magnitude)));
   return file_.add(fmt::format("LINE('',{},{})", point, vector));
 }
@@ -40,7 +43,8 @@ std::string ModelGeometry::conic(const brep::Conic& conic, bool turned) {
   const auto position = placement(frame);
   switch (conic.form) {
     case brep::Conic::Form::hyperbola:
-      return file_.add(fmt::format("HYPERBOLA('',{},{},{})", position, format_real(a), format_real(b)));
+      return file_.add(
+          fmt::format("HYPERBOLA('',{},{},{})", position, format_real(a), format_real(b)));
     case brep::Conic::Form::parabola:
       return file_.add(fmt::format("PARABOLA('',{},{})", position, format_real(a)));
     case brep::Conic::Form::ellipse:
@@ -56,14 +60,16 @@ std::string ModelGeometry::spline(const Surface& surface, const std::string& nam
   for (Eigen::Index k = 0; k < surface.size(); ++k)
     points.push_back(file_.add_point(surface.control_points().row(k).data()));
   return file_.add(print_surface(
-      surface, encode_string(name), [&](int k) { return points[static_cast<std::size_t>(k)]; }, "\n"));
+      surface, encode_string(name), [&](int k) { return points[static_cast<std::size_t>(k)]; },
+      "\n"));
 }
 
 std::string ModelGeometry::spline(const Curve& curve, const std::string& name) {
   std::vector<std::string> points;
   for (Eigen::Index k = 0; k < curve.size(); ++k)
     points.push_back(file_.add_point(curve.control_points().row(k).data()));
-  return file_.add(print_curve(curve, encode_string(name), [&](int k) { return points[static_cast<std::size_t>(k)]; }));
+  return file_.add(print_curve(curve, encode_string(name),
+                               [&](int k) { return points[static_cast<std::size_t>(k)]; }));
 }
 
 /// \param turned against its form, which lines and conics can be
@@ -83,8 +89,9 @@ std::string ModelGeometry::swept_curve(const brep::CurveGeometry& curve) {
   const auto* own = std::get_if<std::shared_ptr<const Curve>>(&curve.form);
   if (!curve.turned || own == nullptr) return form(curve, curve.turned);
   const Interval domain = (*own)->knots(0).domain();
-  return file_.add(fmt::format("TRIMMED_CURVE('',{},(PARAMETER_VALUE({})),(PARAMETER_VALUE({})),.F.,.PARAMETER.)",
-                               form(curve, false), format_real(domain.upper), format_real(domain.lower)));
+  return file_.add(fmt::format(
+      "TRIMMED_CURVE('',{},(PARAMETER_VALUE({})),(PARAMETER_VALUE({})),.F.,.PARAMETER.)",
+      form(curve, false), format_real(domain.upper), format_real(domain.lower)));
 }
 
 std::string ModelGeometry::elementary(const brep::ElementarySurface& surface) {
@@ -105,8 +112,8 @@ std::string ModelGeometry::elementary(const brep::ElementarySurface& surface) {
   }
   if (surface.second <= surface.radius)
     return file_.add(fmt::format("TOROIDAL_SURFACE('',{},{},{})", position, radius, second));
-  return file_.add(fmt::format("DEGENERATE_TOROIDAL_SURFACE('',{},{},{},{})", position, radius, second,
-                               surface.inner ? ".F." : ".T."));
+  return file_.add(fmt::format("DEGENERATE_TOROIDAL_SURFACE('',{},{},{},{})", position, radius,
+                               second, surface.inner ? ".F." : ".T."));
 }
 
 std::string ModelGeometry::swept(const brep::SweptSurface& surface) {
@@ -128,13 +135,16 @@ std::string ModelGeometry::surface(brep::Index support) {
     const brep::SplineSurface& s = model_.surfaces[own.spline];
     return at->second = spline(s.surface, s.name);
   }
-  if (const auto* form = std::get_if<brep::ElementarySurface>(&own.form)) return at->second = elementary(*form);
+  if (const auto* form = std::get_if<brep::ElementarySurface>(&own.form))
+    return at->second = elementary(*form);
   return at->second = swept(std::get<brep::SweptSurface>(own.form));
 }
 
 std::string ModelGeometry::vertex(brep::Index vertex) {
   const auto [at, fresh] = vertices_.try_emplace(vertex);
-  if (fresh) at->second = file_.add("VERTEX_POINT(''," + file_.add_point(model_.vertices[vertex].place.data()) + ")");
+  if (fresh)
+    at->second =
+        file_.add("VERTEX_POINT(''," + file_.add_point(model_.vertices[vertex].place.data()) + ")");
   return at->second;
 }
 
@@ -144,8 +154,9 @@ std::string ModelGeometry::edge(brep::Index edge) {
   const brep::Edge& own = model_.edges[edge];
   const auto [curve, first] = curves_.try_emplace(own.curve.get());
   if (first) curve->second = form(*own.curve, false);
-  return at->second = file_.add(fmt::format("EDGE_CURVE('',{},{},{},{})", vertex(own.start), vertex(own.end),
-                                            curve->second, plan_.edges[edge]->backwards ? ".F." : ".T."));
+  return at->second =
+             file_.add(fmt::format("EDGE_CURVE('',{},{},{},{})", vertex(own.start), vertex(own.end),
+                                   curve->second, plan_.edges[edge]->backwards ? ".F." : ".T."));
 }
 
 }  // namespace knead::step

@@ -11,13 +11,15 @@ namespace knead::step {
 /// The curves, surfaces, edges and vertices of a model as records of a new file, each once.
 class ModelGeometry {
  public:
-  ModelGeometry(const detail::FacePlan& plan, NewFile& file) : plan_(plan), model_(*plan.model), file_(file) {}
+  ModelGeometry(const detail::FacePlan& plan, NewFile& file)
+      : plan_(plan), model_(*plan.model), file_(file) {}
 
   /// A B_SPLINE_SURFACE_WITH_KNOTS or the analytic or swept surface that it is.
   std::string surface(brep::Index support);
   /// A VERTEX_POINT.
   std::string vertex(brep::Index vertex);
-  /// An EDGE_CURVE on a LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA, POLYLINE or B_SPLINE_CURVE_WITH_KNOTS.
+  /// An EDGE_CURVE on a LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA, POLYLINE or
+  /// B_SPLINE_CURVE_WITH_KNOTS.
   std::string edge(brep::Index edge);
   /// A record of its control points.
   std::string spline(const Surface& surface, const std::string& name);

@@ -19,7 +19,8 @@ void list(std::string& all, const std::string& item) { all += (all.empty() ? "" 
 /// One product with everything that it holds.
 class PartWriter {
  public:
-  PartWriter(const detail::FacePlan& plan, const detail::WrittenPart& part, const std::string& name, NewFile& file)
+  PartWriter(const detail::FacePlan& plan, const detail::WrittenPart& part, const std::string& name,
+             NewFile& file)
       : plan_(plan), part_(part), name_(name), file_(file), geometry_(plan, file) {}
 
   struct Result {
@@ -37,14 +38,17 @@ class PartWriter {
     std::string open;
     for (const detail::WrittenShell& shell : part_.shells.sheets) list(open, add_shell(shell));
     if (!open.empty()) list(sheets, file_.add("SHELL_BASED_SURFACE_MODEL('',(" + open + "))"));
-    if (auto done = add_natural_faces(sheets); !done) return std::unexpected(std::move(done.error()));
+    if (auto done = add_natural_faces(sheets); !done)
+      return std::unexpected(std::move(done.error()));
     if (!sheets.empty()) represent("MANIFOLD_SURFACE_SHAPE_REPRESENTATION", sheets);
     std::string curves;
-    for (const NamedCurve& curve : part_.curves) list(curves, geometry_.spline(curve.curve, curve.name));
+    for (const NamedCurve& curve : part_.curves)
+      list(curves, geometry_.spline(curve.curve, curve.name));
     if (!curves.empty())
       represent("GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION",
                 file_.add("GEOMETRIC_CURVE_SET('',(" + curves + "))"));
-    file_.add(fmt::format("SHAPE_DEFINITION_REPRESENTATION({},{})", result_.product.shape, result_.representation));
+    file_.add(fmt::format("SHAPE_DEFINITION_REPRESENTATION({},{})", result_.product.shape,
+                          result_.representation));
     add_colours(colours_, context_, [&](const std::string& record) { return file_.add(record); });
     return result_;
   }
@@ -52,12 +56,13 @@ class PartWriter {
  private:
   /// The first representation is that of the product; the others are related to it.
   void represent(const char* kind, const std::string& items) {
-    const auto made =
-        file_.add(fmt::format("{}({},({},{}),{})", kind, encode_string(name_), result_.frame, items, context_));
+    const auto made = file_.add(fmt::format("{}({},({},{}),{})", kind, encode_string(name_),
+                                            result_.frame, items, context_));
     if (result_.representation.empty())
       result_.representation = made;
     else
-      file_.add(fmt::format("SHAPE_REPRESENTATION_RELATIONSHIP('','',{},{})", result_.representation, made));
+      file_.add(fmt::format("SHAPE_REPRESENTATION_RELATIONSHIP('','',{},{})",
+                            result_.representation, made));
   }
 
   std::string add_face(const detail::WrittenFace& written) {
@@ -77,13 +82,15 @@ class PartWriter {
       }
       // Which of several bounds is the outer one is not known, and need not be said.
       const bool outer = face.bounds.size() == 1 && bound.kind == brep::Bound::Kind::edges;
-      list(bounds, file_.add(fmt::format("{}('',{},{})", outer ? "FACE_OUTER_BOUND" : "FACE_BOUND", loop,
-                                         detail::runs_forward(bound, face, written) ? ".T." : ".F.")));
+      list(bounds,
+           file_.add(fmt::format("{}('',{},{})", outer ? "FACE_OUTER_BOUND" : "FACE_BOUND", loop,
+                                 detail::runs_forward(bound, face, written) ? ".T." : ".F.")));
     }
     const brep::SplineSurface* spline = plan_.model->spline_under(face);
-    const auto made = file_.add(fmt::format("ADVANCED_FACE({},({}),{},{})",
-                                            encode_string(spline != nullptr ? spline->name : std::string()), bounds,
-                                            geometry_.surface(face.support), written.same_sense ? ".T." : ".F."));
+    const auto made = file_.add(
+        fmt::format("ADVANCED_FACE({},({}),{},{})",
+                    encode_string(spline != nullptr ? spline->name : std::string()), bounds,
+                    geometry_.surface(face.support), written.same_sense ? ".T." : ".F."));
     if (const auto colour = plan_.colour_of(face)) colours_.push_back({made, *colour});
     return made;
   }
@@ -91,7 +98,8 @@ class PartWriter {
   std::string add_shell(const detail::WrittenShell& shell) {
     std::string faces;
     for (const detail::WrittenFace& face : shell.faces) list(faces, add_face(face));
-    return file_.add(fmt::format("{}('',({}))", shell.closed ? "CLOSED_SHELL" : "OPEN_SHELL", faces));
+    return file_.add(
+        fmt::format("{}('',({}))", shell.closed ? "CLOSED_SHELL" : "OPEN_SHELL", faces));
   }
 
   std::string add_solid(const detail::WrittenSolid& solid) {
@@ -99,7 +107,8 @@ class PartWriter {
     if (solid.hollows.empty()) return file_.add(fmt::format("MANIFOLD_SOLID_BREP('',{})", outer));
     std::string hollows;
     for (const detail::WrittenShell& hollow : solid.hollows)
-      list(hollows, file_.add(fmt::format("ORIENTED_CLOSED_SHELL('',*,{},.F.)", add_shell(hollow))));
+      list(hollows,
+           file_.add(fmt::format("ORIENTED_CLOSED_SHELL('',*,{},.F.)", add_shell(hollow))));
     return file_.add(fmt::format("BREP_WITH_VOIDS('',{},({}))", outer, hollows));
   }
 
@@ -111,7 +120,8 @@ class PartWriter {
       surfaces.push_back({s.name, s.surface, s.colour});
       names.push_back(geometry_.spline(s.surface, s.name));
     }
-    auto made = add_faces(surfaces, names, [&](const std::string& record) { return file_.add(record); });
+    auto made =
+        add_faces(surfaces, names, [&](const std::string& record) { return file_.add(record); });
     if (!made) return std::unexpected(std::move(made.error()));
     list(sheets, made->model);
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
@@ -142,23 +152,26 @@ class AssemblyWriter {
     std::string all = file_.add_origin();
     for (const detail::WrittenPart& part : plan_.parts) {
       auto& own = frames.emplace_back();
-      for (const brep::PartPlace& place : part.places) list(all, own.emplace_back(frame(place.to_model)));
+      for (const brep::PartPlace& place : part.places)
+        list(all, own.emplace_back(frame(place.to_model)));
     }
-    const auto representation =
-        file_.add(fmt::format("SHAPE_REPRESENTATION({},({}),{})", encode_string(name), all, context));
+    const auto representation = file_.add(
+        fmt::format("SHAPE_REPRESENTATION({},({}),{})", encode_string(name), all, context));
     file_.add(fmt::format("SHAPE_DEFINITION_REPRESENTATION({},{})", product.shape, representation));
     for (std::size_t k = 0; k < parts.size(); ++k) {
       for (std::size_t n = 0; n < frames[k].size(); ++n) {
         const std::string label = encode_string(plan_.parts[k].places[n].path);
-        const auto use = file_.add(fmt::format("NEXT_ASSEMBLY_USAGE_OCCURRENCE('{}',{},'',{},{},$)", ++uses_, label,
-                                               product.definition, parts[k].product.definition));
+        const auto use =
+            file_.add(fmt::format("NEXT_ASSEMBLY_USAGE_OCCURRENCE('{}',{},'',{},{},$)", ++uses_,
+                                  label, product.definition, parts[k].product.definition));
         const auto shape = file_.add(fmt::format("PRODUCT_DEFINITION_SHAPE('','',{})", use));
-        const auto move =
-            file_.add(fmt::format("ITEM_DEFINED_TRANSFORMATION('','',{},{})", parts[k].frame, frames[k][n]));
-        const auto relation = file_.add(
-            fmt::format("(REPRESENTATION_RELATIONSHIP('','',{},{})REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION({})"
-                        "SHAPE_REPRESENTATION_RELATIONSHIP())",
-                        parts[k].representation, representation, move));
+        const auto move = file_.add(
+            fmt::format("ITEM_DEFINED_TRANSFORMATION('','',{},{})", parts[k].frame, frames[k][n]));
+        const auto relation =
+            file_.add(fmt::format("(REPRESENTATION_RELATIONSHIP('','',{},{})REPRESENTATION_"
+                                  "RELATIONSHIP_WITH_TRANSFORMATION({})"
+                                  "SHAPE_REPRESENTATION_RELATIONSHIP())",
+                                  parts[k].representation, representation, move));
         file_.add(fmt::format("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION({},{})", relation, shape));
       }
     }
@@ -170,8 +183,8 @@ class AssemblyWriter {
     const Point origin = place.translation(), z = place.linear().col(2).normalized(),
                 x = place.linear().col(0).normalized();
     const auto direction = [&](const Point& d) {
-      return file_.add(
-          fmt::format("DIRECTION('',({},{},{}))", format_real(d.x()), format_real(d.y()), format_real(d.z())));
+      return file_.add(fmt::format("DIRECTION('',({},{},{}))", format_real(d.x()),
+                                   format_real(d.y()), format_real(d.z())));
     };
     const auto at = file_.add_point(origin.data()), axis = direction(z), along = direction(x);
     return file_.add(fmt::format("AXIS2_PLACEMENT_3D('',{},{},{})", at, axis, along));
@@ -191,7 +204,8 @@ Expected<std::string> model_text(const detail::FacePlan& plan, const TextOptions
   NewFile file(options.schema);
   std::vector<PartWriter::Result> parts;
   for (const detail::WrittenPart& part : plan.parts) {
-    auto made = PartWriter(plan, part, part.name.empty() ? options.product : part.name, file).write();
+    auto made =
+        PartWriter(plan, part, part.name.empty() ? options.product : part.name, file).write();
     if (!made) return std::unexpected(std::move(made.error()));
     parts.push_back(*std::move(made));
   }

@@ -17,7 +17,8 @@ struct NewFaces {
 };
 
 /// Adds faces on the natural bounds of surfaces, whose records have these names, and their shells.
-[[nodiscard]] Expected<NewFaces> add_faces(std::span<const NewSurface> surfaces, std::span<const std::string> names,
+[[nodiscard]] Expected<NewFaces> add_faces(std::span<const NewSurface> surfaces,
+                                           std::span<const std::string> names,
                                            const AddRecord& add);
 
 /// A record that shows something, and its colour.

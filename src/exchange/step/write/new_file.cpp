@@ -28,8 +28,9 @@ std::string add_length_unit(NewFile& file, const KnownLengthUnit& unit) {
   };
   if (!unit.si_prefix.empty()) return metric(unit.si_prefix);
   const auto exponents = file.add("DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)");
-  const auto factor = file.add("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + format_shortest_real(unit.millimetres) +
-                               ")," + metric(".MILLI.") + ")");
+  const auto factor =
+      file.add("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + format_shortest_real(unit.millimetres) +
+               ")," + metric(".MILLI.") + ")");
   return file.add("(CONVERSION_BASED_UNIT('" + std::string(unit.step_name) + "'," + factor +
                   ")LENGTH_UNIT()NAMED_UNIT(" + exponents + "))");
 }
@@ -39,8 +40,8 @@ std::string add_length_unit(NewFile& file, const KnownLengthUnit& unit) {
 NewFile::NewFile(Schema schema) : schema_(schema) {
   const Protocol& protocol = protocols[static_cast<std::size_t>(schema)];
   application_ = add("APPLICATION_CONTEXT('" + std::string(protocol.application) + "')");
-  add("APPLICATION_PROTOCOL_DEFINITION('international standard','" + std::string(protocol.name) + "'," +
-      std::to_string(protocol.year) + "," + application_ + ")");
+  add("APPLICATION_PROTOCOL_DEFINITION('international standard','" + std::string(protocol.name) +
+      "'," + std::to_string(protocol.year) + "," + application_ + ")");
   product_context_ = add("PRODUCT_CONTEXT(''," + application_ + ",'mechanical')");
   design_ = add("PRODUCT_DEFINITION_CONTEXT('part definition'," + application_ + ",'design')");
 }
@@ -61,8 +62,9 @@ std::string NewFile::add_context(std::string_view unit, double uncertainty) {
   const auto length = add_length_unit(*this, *length_unit_named(unit));
   const auto angle = add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
   const auto solid_angle = add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
-  const auto gap = add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + format_shortest_real(uncertainty) + ")," +
-                       length + ",'distance_accuracy_value','')");
+  const auto gap =
+      add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + format_shortest_real(uncertainty) +
+          ")," + length + ",'distance_accuracy_value','')");
   return add("(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((" + gap +
              "))GLOBAL_UNIT_ASSIGNED_CONTEXT((" + length + "," + angle + "," + solid_angle +
              "))REPRESENTATION_CONTEXT('',''))");
@@ -86,9 +88,10 @@ std::string NewFile::add_origin() {
 
 std::string NewFile::text(const TextOptions& options) const {
   const Protocol& protocol = protocols[static_cast<std::size_t>(schema_)];
-  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME(" + encode_string(options.file_name) + "," +
-         encode_string(options.time_stamp) + ",(''),(''),'Knead','Knead','');\n" + "FILE_SCHEMA(('" +
-         std::string(protocol.schema) + "'));\nENDSEC;\nDATA;\n" + text_ + "ENDSEC;\nEND-ISO-10303-21;\n";
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME(" +
+         encode_string(options.file_name) + "," + encode_string(options.time_stamp) +
+         ",(''),(''),'Knead','Knead','');\n" + "FILE_SCHEMA(('" + std::string(protocol.schema) +
+         "'));\nENDSEC;\nDATA;\n" + text_ + "ENDSEC;\nEND-ISO-10303-21;\n";
 }
 
 Expected<void> check_unit(const std::string& unit) {

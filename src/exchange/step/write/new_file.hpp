@@ -7,7 +7,8 @@
 
 namespace knead::step {
 
-/// The records of a file that does not exist yet, with the frame that every file has: application, contexts, products.
+/// The records of a file that does not exist yet, with the frame that every file has: application,
+/// contexts, products.
 class NewFile {
  public:
   explicit NewFile(Schema schema);
@@ -15,7 +16,8 @@ class NewFile {
   /// Adds "#n=record;" and returns "#n".
   std::string add(const std::string& record);
   std::string add_point(const double* coordinates);
-  /// The context of a representation with its units: lengths in `unit`, one of `is_length_unit`, angles in radians.
+  /// The context of a representation with its units: lengths in `unit`, one of `is_length_unit`,
+  /// angles in radians.
   std::string add_context(std::string_view unit, double uncertainty);
 
   struct Product {

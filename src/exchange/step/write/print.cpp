@@ -8,7 +8,8 @@
 
 namespace knead::step {
 
-PrintedKnots print_knots(const KnotVector& knots, const std::function<std::string(double)>& number) {
+PrintedKnots print_knots(const KnotVector& knots,
+                         const std::function<std::string(double)>& number) {
   PrintedKnots result;
   const auto x = knots.knots();
   for (std::size_t k = 0; k < x.size();) {
@@ -24,7 +25,8 @@ PrintedKnots print_knots(const KnotVector& knots, const std::function<std::strin
   return result;
 }
 
-std::string print_net(int rows, int columns, const std::function<std::string(int)>& item, std::string_view line_break) {
+std::string print_net(int rows, int columns, const std::function<std::string(int)>& item,
+                      std::string_view line_break) {
   std::string text = "(";
   for (int i = 0; i < rows; ++i) {
     if (i > 0) text.append(",").append(line_break);
@@ -41,28 +43,34 @@ std::string print_point(std::string_view name, const double* coordinates) {
   return text + "));";
 }
 
-std::string print_surface(const Surface& surface, std::string_view label, const std::function<std::string(int)>& point,
+std::string print_surface(const Surface& surface, std::string_view label,
+                          const std::function<std::string(int)>& point,
                           std::string_view line_break) {
   const auto net = surface.net();
   std::array<PrintedKnots, 2> knots;
-  for (std::size_t d = 0; d < 2; ++d) knots[d] = print_knots(surface.knots()[d], format_shortest_real);
+  for (std::size_t d = 0; d < 2; ++d)
+    knots[d] = print_knots(surface.knots()[d], format_shortest_real);
   const auto closed = brep::closed_directions(surface);
   const std::string name(label);
-  const auto own = std::to_string(surface.knots(0).degree()) + "," + std::to_string(surface.knots(1).degree()) + "," +
-                   print_net(net[0], net[1], point, line_break) + ",.UNSPECIFIED.," + (closed[0] ? ".T." : ".F.") +
-                   "," + (closed[1] ? ".T." : ".F.") + ",.U.";
-  const auto listed = knots[0].multiplicities + "," + knots[1].multiplicities + "," + knots[0].values + "," +
-                      knots[1].values + ",.UNSPECIFIED.";
-  if (!surface.rational()) return "B_SPLINE_SURFACE_WITH_KNOTS(" + name + "," + own + "," + listed + ")";
+  const auto own = std::to_string(surface.knots(0).degree()) + "," +
+                   std::to_string(surface.knots(1).degree()) + "," +
+                   print_net(net[0], net[1], point, line_break) + ",.UNSPECIFIED.," +
+                   (closed[0] ? ".T." : ".F.") + "," + (closed[1] ? ".T." : ".F.") + ",.U.";
+  const auto listed = knots[0].multiplicities + "," + knots[1].multiplicities + "," +
+                      knots[0].values + "," + knots[1].values + ",.UNSPECIFIED.";
+  if (!surface.rational())
+    return "B_SPLINE_SURFACE_WITH_KNOTS(" + name + "," + own + "," + listed + ")";
   const auto weights = print_net(
-      net[0], net[1], [&](int k) { return format_shortest_real(surface.weights()[static_cast<std::size_t>(k)]); },
+      net[0], net[1],
+      [&](int k) { return format_shortest_real(surface.weights()[static_cast<std::size_t>(k)]); },
       line_break);
   return "(BOUNDED_SURFACE()B_SPLINE_SURFACE(" + own + ")B_SPLINE_SURFACE_WITH_KNOTS(" + listed +
-         ")GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(" + weights + ")REPRESENTATION_ITEM(" + name +
-         ")SURFACE())";
+         ")GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(" + weights +
+         ")REPRESENTATION_ITEM(" + name + ")SURFACE())";
 }
 
-std::string print_curve(const Curve& curve, std::string_view label, const std::function<std::string(int)>& point) {
+std::string print_curve(const Curve& curve, std::string_view label,
+                        const std::function<std::string(int)>& point) {
   const auto row = [&](const std::function<std::string(int)>& item) {
     std::string text = "(";
     for (int k = 0; k < curve.size(); ++k) text.append(k == 0 ? "" : ",").append(item(k));
@@ -75,11 +83,13 @@ std::string print_curve(const Curve& curve, std::string_view label, const std::f
   const auto own = std::to_string(curve.knots(0).degree()) + "," + row(point) + ",.UNSPECIFIED.," +
                    (closed ? ".T." : ".F.") + ",.U.";
   const auto listed = knots.multiplicities + "," + knots.values + ",.UNSPECIFIED.";
-  if (!curve.rational()) return "B_SPLINE_CURVE_WITH_KNOTS(" + name + "," + own + "," + listed + ")";
-  const auto weights = row([&](int k) { return format_shortest_real(curve.weights()[static_cast<std::size_t>(k)]); });
+  if (!curve.rational())
+    return "B_SPLINE_CURVE_WITH_KNOTS(" + name + "," + own + "," + listed + ")";
+  const auto weights = row(
+      [&](int k) { return format_shortest_real(curve.weights()[static_cast<std::size_t>(k)]); });
   return "(BOUNDED_CURVE()B_SPLINE_CURVE(" + own + ")B_SPLINE_CURVE_WITH_KNOTS(" + listed +
-         ")CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE(" + weights + ")REPRESENTATION_ITEM(" + name +
-         "))";
+         ")CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE(" + weights +
+         ")REPRESENTATION_ITEM(" + name + "))";
 }
 
 }  // namespace knead::step

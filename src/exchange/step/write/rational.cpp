@@ -11,22 +11,28 @@ constexpr std::size_t attributes_with_knots = attributes_of_b_spline_surface + 5
 /// The position of the comma between two parameters, where there may also be comments.
 std::uint32_t comma_between(const std::string& bytes, std::uint32_t from) {
   while (bytes[from] != ',') {
-    from = bytes.compare(from, 2, "/*") == 0 ? static_cast<std::uint32_t>(bytes.find("*/", from) + 2) : from + 1;
+    from = bytes.compare(from, 2, "/*") == 0
+               ? static_cast<std::uint32_t>(bytes.find("*/", from) + 2)
+               : from + 1;
   }
   return from;
 }
 
 }  // namespace
 
-// A simple record KEYWORD(name,own,knots) becomes (BOUNDED_SURFACE()B_SPLINE_SURFACE(own)B_SPLINE_SURFACE_WITH_KNOTS(
-// knots)GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(weights)REPRESENTATION_ITEM(name)SURFACE()), parts by
-// the alphabet (ISO 10303-21, 11.2.5.3); a complex one gets the part it lacks.
-Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& before, const Surface& after) {
+// A simple record KEYWORD(name,own,knots) becomes
+//   (BOUNDED_SURFACE()B_SPLINE_SURFACE(own)B_SPLINE_SURFACE_WITH_KNOTS(knots)
+//    GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(weights)
+//    REPRESENTATION_ITEM(name)SURFACE()),
+// parts by the alphabet (ISO 10303-21, 11.2.5.3); a complex one gets the part it lacks.
+Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& before,
+                                        const Surface& after) {
   const auto net = after.net();
   const auto weights =
       "RATIONAL_B_SPLINE_SURFACE(" +
       print_net(
-          net[0], net[1], [&](int k) { return format_shortest_real(after.weights()[static_cast<std::size_t>(k)]); },
+          net[0], net[1],
+          [&](int k) { return format_shortest_real(after.weights()[static_cast<std::size_t>(k)]); },
           line_break()) +
       ")";
   const auto& record = file_.instance(instance);
@@ -39,9 +45,11 @@ Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& b
   const auto values = file_.children(record.first);
   const auto form = implied_form(reader_, instance);
   if (values.size() != (form ? attributes_of_b_spline_surface : attributes_with_knots)) {
-    return reader_.error(
-        instance, "it has " + std::to_string(values.size()) + " attributes, so it cannot be rewritten with weights",
-        "its type has " + std::to_string(form ? attributes_of_b_spline_surface : attributes_with_knots));
+    return reader_.error(instance,
+                         "it has " + std::to_string(values.size()) +
+                             " attributes, so it cannot be rewritten with weights",
+                         "its type has " + std::to_string(form ? attributes_of_b_spline_surface
+                                                               : attributes_with_knots));
   }
   bool implied = form.has_value();
   for (const auto& knots : after.knots()) {
@@ -57,11 +65,14 @@ Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& b
   std::string rest = ")";
   if (form && !implied) {
     std::array<PrintedKnots, 2> printed;
-    for (std::size_t d = 0; d < 2; ++d) printed[d] = print_knots(after.knots()[d], format_shortest_real);
-    rest += "B_SPLINE_SURFACE_WITH_KNOTS(" + printed[0].multiplicities + "," + printed[1].multiplicities + "," +
-            printed[0].values + "," + printed[1].values + ",.UNSPECIFIED.)";
+    for (std::size_t d = 0; d < 2; ++d)
+      printed[d] = print_knots(after.knots()[d], format_shortest_real);
+    rest += "B_SPLINE_SURFACE_WITH_KNOTS(" + printed[0].multiplicities + "," +
+            printed[1].multiplicities + "," + printed[0].values + "," + printed[1].values +
+            ",.UNSPECIFIED.)";
   } else if (!form) {
-    const auto comma = comma_between(file_.bytes(), file_.range(values[attributes_of_b_spline_surface - 1]).end);
+    const auto comma =
+        comma_between(file_.bytes(), file_.range(values[attributes_of_b_spline_surface - 1]).end);
     changes_.push_back({{comma, comma + 1}, ")B_SPLINE_SURFACE_WITH_KNOTS("});
     if (auto done = write_knots(instance, before, after); !done) return done;
   }

@@ -14,7 +14,8 @@ namespace {
 using Bits = std::array<std::uint64_t, 3>;
 
 Bits bits_of(const Points& points, Eigen::Index row) {
-  return {std::bit_cast<std::uint64_t>(points(row, 0)), std::bit_cast<std::uint64_t>(points(row, 1)),
+  return {std::bit_cast<std::uint64_t>(points(row, 0)),
+          std::bit_cast<std::uint64_t>(points(row, 1)),
           std::bit_cast<std::uint64_t>(points(row, 2))};
 }
 
@@ -38,8 +39,9 @@ bool same_bits(const Points& a, const Points& b) {
 }
 
 bool same_bits(std::span<const double> a, std::span<const double> b) {
-  return std::ranges::equal(
-      a, b, [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
+  return std::ranges::equal(a, b, [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
 }
 
 Expected<void> Surgeon::move_points(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
@@ -55,11 +57,12 @@ Expected<void> Surgeon::move_points(std::uint32_t instance, const std::vector<st
   }
   std::string inserted;
   for (const auto point : order) {
-    if (auto done = move(point, occurrences[point], refs, old_points, new_points, inserted); !done) return done;
+    if (auto done = move(point, occurrences[point], refs, old_points, new_points, inserted); !done)
+      return done;
   }
   if (!inserted.empty()) {
-    // Right after the surface: there they are in its scope and its DATA section, whatever the scope of the
-    // originals.
+    // Right after the surface: there they are in its scope and its DATA section, whatever the scope
+    // of the originals.
     const auto end = file_.instance(instance).bytes.end;
     insert(end, std::move(inserted));
   }
@@ -82,8 +85,8 @@ std::string Surgeon::result() {
 
 // One CARTESIAN_POINT and the control points (rows) it represents.
 Expected<void> Surgeon::move(std::uint32_t point, const std::vector<Eigen::Index>& rows,
-                             const std::vector<std::uint32_t>& refs, const Points& old_points, const Points& new_points,
-                             std::string& inserted) {
+                             const std::vector<std::uint32_t>& refs, const Points& old_points,
+                             const Points& new_points, std::string& inserted) {
   const auto old_bits = bits_of(old_points, rows.front());
   // Distinct new positions, in order; a row that stays keeps using the record.
   std::vector<std::vector<Eigen::Index>> moved;
@@ -94,8 +97,9 @@ Expected<void> Surgeon::move(std::uint32_t point, const std::vector<Eigen::Index
       some_stay = true;
       continue;
     }
-    const auto same = std::find_if(moved.begin(), moved.end(),
-                                   [&](const auto& group) { return bits_of(new_points, group.front()) == bits; });
+    const auto same = std::find_if(moved.begin(), moved.end(), [&](const auto& group) {
+      return bits_of(new_points, group.front()) == bits;
+    });
     if (same == moved.end()) {
       moved.push_back({row});
     } else {
@@ -110,33 +114,39 @@ Expected<void> Surgeon::move(std::uint32_t point, const std::vector<Eigen::Index
   std::size_t first_new = 0;
   if (!used_elsewhere && !some_stay) {
     auto own = rewritten(*coordinates, old_points, rows.front(), new_points, moved.front().front());
-    changes_.insert(changes_.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
+    changes_.insert(changes_.end(), std::make_move_iterator(own.begin()),
+                    std::make_move_iterator(own.end()));
     first_new = 1;
   }
   for (std::size_t g = first_new; g < moved.size(); ++g) {
     const auto name = "#" + std::to_string(names_.next());
-    inserted += line_break() +
-                (coordinates ? copy_of(point, name,
-                                       rewritten(*coordinates, old_points, rows.front(), new_points, moved[g].front()))
-                             : print_point(name, new_points.row(moved[g].front()).data()));
+    inserted +=
+        line_break() + (coordinates ? copy_of(point, name,
+                                              rewritten(*coordinates, old_points, rows.front(),
+                                                        new_points, moved[g].front()))
+                                    : print_point(name, new_points.row(moved[g].front()).data()));
     for (const auto row : moved[g]) change(refs[static_cast<std::size_t>(row)], name);
   }
   return {};
 }
 
-std::vector<Surgeon::Change> Surgeon::rewritten(const Coordinates& coordinates, const Points& old_points,
-                                                Eigen::Index old_row, const Points& points, Eigen::Index row) const {
+std::vector<Surgeon::Change> Surgeon::rewritten(const Coordinates& coordinates,
+                                                const Points& old_points, Eigen::Index old_row,
+                                                const Points& points, Eigen::Index row) const {
   const auto bits = bits_of(points, row), old_bits = bits_of(old_points, old_row);
   std::vector<Change> result;
   for (std::size_t k = 0; k < 3; ++k) {
     if (bits[k] == old_bits[k]) continue;
-    result.push_back({file_.range(coordinates[k]), format_real(points(row, static_cast<Eigen::Index>(k)))});
+    result.push_back(
+        {file_.range(coordinates[k]), format_real(points(row, static_cast<Eigen::Index>(k)))});
   }
   return result;
 }
 
-// A copy of a point's record under another name, with its label, spacing and comments, and some coordinates replaced.
-std::string Surgeon::copy_of(std::uint32_t point, const std::string& name, const std::vector<Change>& changes) const {
+// A copy of a point's record under another name, with its label, spacing and comments, and some
+// coordinates replaced.
+std::string Surgeon::copy_of(std::uint32_t point, const std::string& name,
+                             const std::vector<Change>& changes) const {
   const auto& instance = file_.instance(point);
   std::string text = name + "=";
   std::uint32_t at = instance.record.begin;
@@ -156,7 +166,8 @@ std::string Surgeon::line_break() const {
   return file_.bytes().compare(at, 2, "\r\n") == 0 ? "\r\n" : file_.bytes().substr(at, 1);
 }
 
-Expected<void> Surgeon::replace_surface(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
+Expected<void> Surgeon::replace_surface(std::uint32_t instance,
+                                        const std::vector<std::uint32_t>& refs,
                                         const Surface& before, const Surface& after) {
   const auto net = after.net();
   const auto own = reader_.attributes(instance, "B_SPLINE_SURFACE", 1, 3);
@@ -168,7 +179,8 @@ Expected<void> Surgeon::replace_surface(std::uint32_t instance, const std::vecto
   const auto names = point_names(refs, before.control_points(), after.control_points(), inserted);
   if (!names) return std::unexpected(names.error());
   change(own[2], print_net(
-                     net[0], net[1], [&](int k) { return (*names)[static_cast<std::size_t>(k)]; }, line_break()));
+                     net[0], net[1], [&](int k) { return (*names)[static_cast<std::size_t>(k)]; },
+                     line_break()));
   if (!inserted.empty()) insert(file_.instance(instance).bytes.end, std::move(inserted));
 
   if (after.rational() && !before.rational()) return become_rational(instance, before, after);
@@ -176,26 +188,30 @@ Expected<void> Surgeon::replace_surface(std::uint32_t instance, const std::vecto
     const auto weights = weights_parameter(reader_, instance);
     const auto text = texts(weights);
     change(weights, print_net(
-                        net[0], net[1], [&](int k) { return text(after.weights()[static_cast<std::size_t>(k)]); },
+                        net[0], net[1],
+                        [&](int k) { return text(after.weights()[static_cast<std::size_t>(k)]); },
                         line_break()));
   }
   return write_knots(instance, before, after);
 }
 
-// The name of the record of each new control point: a record with its value is kept; records that only this surface
-// used and no longer needs take over new values; the rest are new.
+// The name of the record of each new control point: a record with its value is kept; records that
+// only this surface used and no longer needs take over new values; the rest are new.
 Expected<std::vector<std::string>> Surgeon::point_names(const std::vector<std::uint32_t>& refs,
-                                                        const Points& old_points, const Points& new_points,
+                                                        const Points& old_points,
+                                                        const Points& new_points,
                                                         std::string& inserted) {
   const auto rows = static_cast<std::size_t>(new_points.rows());
-  ByValue<std::vector<std::uint32_t>> records;                   // by value, one for each occurrence in the old net
+  ByValue<std::vector<std::uint32_t>> records;  // by value, one for each occurrence in the old net
   std::unordered_map<std::uint32_t, std::uint32_t> occurrences;  // of each record
   for (std::size_t k = 0; k < refs.size(); ++k) {
     const auto target = file_.value(refs[k]).target;
     records[bits_of(old_points, static_cast<Eigen::Index>(k))].push_back(target);
     ++occurrences[target];
   }
-  const auto name_of = [&](std::uint32_t record) { return "#" + std::to_string(file_.instance(record).id); };
+  const auto name_of = [&](std::uint32_t record) {
+    return "#" + std::to_string(file_.instance(record).id);
+  };
   std::vector<std::string> names(rows);
   ByValue<std::size_t> met;
   std::unordered_set<std::uint32_t> needed;
@@ -215,15 +231,18 @@ Expected<std::vector<std::string>> Surgeon::point_names(const std::vector<std::u
     auto& name = created[bits_of(new_points, row)];
     if (name.empty()) {
       const auto free = [&](std::uint32_t record) {
-        return !needed.contains(record) && file_.instance(record).uses == occurrences[record] && !is_curved(record);
+        return !needed.contains(record) && file_.instance(record).uses == occurrences[record] &&
+               !is_curved(record);
       };
       while (at < refs.size() && !free(file_.value(refs[at]).target)) ++at;
       if (at < refs.size()) {
         const auto record = file_.value(refs[at]).target;
         const auto coordinates = reader_.coordinate_values(record);
         if (!coordinates) return std::unexpected(coordinates.error());
-        auto own = rewritten(*coordinates, old_points, static_cast<Eigen::Index>(at), new_points, row);
-        changes_.insert(changes_.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
+        auto own =
+            rewritten(*coordinates, old_points, static_cast<Eigen::Index>(at), new_points, row);
+        changes_.insert(changes_.end(), std::make_move_iterator(own.begin()),
+                        std::make_move_iterator(own.end()));
         needed.insert(record);
         name = name_of(record);
       } else {
@@ -236,7 +255,8 @@ Expected<std::vector<std::string>> Surgeon::point_names(const std::vector<std::u
   return names;
 }
 
-Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& before, const Surface& after) {
+Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& before,
+                                    const Surface& after) {
   if (after.knots() == before.knots()) return {};
   const auto listed = knot_parameters(reader_, instance);
   const auto form = implied_form(reader_, instance);
@@ -246,17 +266,21 @@ Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& befor
       still = still && implied_knots(*form, knots.degree(), knots.count()) == knots;
     if (still) return {};
     std::array<PrintedKnots, 2> printed;
-    for (std::size_t d = 0; d < 2; ++d) printed[d] = print_knots(after.knots()[d], format_shortest_real);
-    const auto text = printed[0].multiplicities + "," + printed[1].multiplicities + "," + printed[0].values + "," +
-                      printed[1].values + ",.UNSPECIFIED.";
+    for (std::size_t d = 0; d < 2; ++d)
+      printed[d] = print_knots(after.knots()[d], format_shortest_real);
+    const auto text = printed[0].multiplicities + "," + printed[1].multiplicities + "," +
+                      printed[0].values + "," + printed[1].values + ",.UNSPECIFIED.";
     const auto& record = file_.instance(instance);
     if (record.complex) {
-      insert(file_.range(*reader_.part(instance, "B_SPLINE_SURFACE")).end, std::string(with_knots) + "(" + text + ")");
+      insert(file_.range(*reader_.part(instance, "B_SPLINE_SURFACE")).end,
+             std::string(with_knots) + "(" + text + ")");
     } else {
       // The knots follow the attributes of B_SPLINE_SURFACE, all of which must be present.
-      if (const auto given = file_.children(record.first).size(); given != attributes_of_b_spline_surface) {
+      if (const auto given = file_.children(record.first).size();
+          given != attributes_of_b_spline_surface) {
         return reader_.error(instance,
-                             "it has " + std::to_string(given) + " attributes, so knots cannot be listed behind them",
+                             "it has " + std::to_string(given) +
+                                 " attributes, so knots cannot be listed behind them",
                              "its type has " + std::to_string(attributes_of_b_spline_surface));
       }
       const auto bytes = file_.range(record.first);
@@ -265,7 +289,8 @@ Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& befor
       insert(bytes.end - 1, "," + text);
     }
   }
-  if (form && file_.instance(instance).complex) change(*reader_.part(instance, implied_keyword(*form)), "");
+  if (form && file_.instance(instance).complex)
+    change(*reader_.part(instance, implied_keyword(*form)), "");
   if (listed.empty()) return {};
   for (std::size_t d = 0; d < 2; ++d) {
     if (after.knots()[d] == before.knots()[d]) continue;
@@ -282,7 +307,8 @@ Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& befor
 std::function<std::string(double)> Surgeon::texts(std::uint32_t list) const {
   std::unordered_map<std::uint64_t, std::string> known;
   for (auto k = list + 1; k < file_.value(list).next; ++k) {
-    if (const auto value = reader_.real(k)) known.emplace(std::bit_cast<std::uint64_t>(*value), file_.text(k));
+    if (const auto value = reader_.real(k))
+      known.emplace(std::bit_cast<std::uint64_t>(*value), file_.text(k));
   }
   return [known = std::move(known)](double value) {
     const auto found = known.find(std::bit_cast<std::uint64_t>(value));

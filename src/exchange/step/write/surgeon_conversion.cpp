@@ -13,8 +13,10 @@ namespace {
 /// What gives the parameters of a surface a meaning, or makes another surface of it.
 bool depends_on_form(const Reader& reader, std::uint32_t instance) {
   constexpr std::array<std::string_view, 5> dependent = {"PCURVE", "RECTANGULAR_TRIMMED_SURFACE",
-                                                         "CURVE_BOUNDED_SURFACE", "OFFSET_SURFACE", "SURFACE_REPLICA"};
-  return std::ranges::any_of(dependent, [&](std::string_view form) { return reader.is(instance, form); });
+                                                         "CURVE_BOUNDED_SURFACE", "OFFSET_SURFACE",
+                                                         "SURFACE_REPLICA"};
+  return std::ranges::any_of(dependent,
+                             [&](std::string_view form) { return reader.is(instance, form); });
 }
 
 /// The surface in whose parameters a PCURVE is; none: it is another entity.
@@ -26,14 +28,16 @@ std::optional<std::uint32_t> surface_under(const Reader& reader, std::uint32_t p
 
 }  // namespace
 
-void Surgeon::become_spline(std::uint32_t instance, const Surface& surface, const std::set<std::uint32_t>& bounded) {
+void Surgeon::become_spline(std::uint32_t instance, const Surface& surface,
+                            const std::set<std::uint32_t>& bounded) {
   const Part21Instance& record = file_.instance(instance);
   std::string copy, inserted;
   for (std::uint32_t k = 0; k < file_.instances().size(); ++k) {
     if (k == instance || bounded.contains(k) || !depends_on_form(reader_, k)) continue;
     const Part21Instance& user = file_.instance(k);
     for (std::uint32_t value = user.first; value < user.last; ++value) {
-      if (file_.value(value).kind != Part21Kind::reference || file_.value(value).target != instance) continue;
+      if (file_.value(value).kind != Part21Kind::reference || file_.value(value).target != instance)
+        continue;
       if (copy.empty()) {
         copy = "#" + std::to_string(names_.next());
         inserted += line_break() + copy_of(instance, copy, {});
@@ -41,10 +45,12 @@ void Surgeon::become_spline(std::uint32_t instance, const Surface& surface, cons
       change(value, copy);
     }
   }
-  std::unordered_map<std::string, std::string> names;  // of control points by their text: equal ones share a record
+  std::unordered_map<std::string, std::string>
+      names;  // of control points by their text: equal ones share a record
   std::vector<std::string> points;
   for (Eigen::Index k = 0; k < surface.size(); ++k) {
-    const std::array<double, 3> place = {surface.control_points()(k, 0), surface.control_points()(k, 1),
+    const std::array<double, 3> place = {surface.control_points()(k, 0),
+                                         surface.control_points()(k, 1),
                                          surface.control_points()(k, 2)};
     std::string& name = names[print_point("", place.data())];
     if (name.empty()) {
@@ -55,7 +61,8 @@ void Surgeon::become_spline(std::uint32_t instance, const Surface& surface, cons
   }
   changes_.push_back({record.record, print_surface(
                                          surface, encode_string(reader_.item_name(instance)),
-                                         [&](int k) { return points[static_cast<std::size_t>(k)]; }, line_break())});
+                                         [&](int k) { return points[static_cast<std::size_t>(k)]; },
+                                         line_break())});
   insert(record.bytes.end, std::move(inserted));
 }
 
@@ -70,22 +77,26 @@ void Surgeon::lie_on(std::uint32_t face, std::uint32_t surface) {
 void Surgeon::limit(std::uint32_t bounded, const std::array<Interval, 2>& limits) {
   const auto own = reader_.attributes(bounded, "RECTANGULAR_TRIMMED_SURFACE", 1, 7);
   for (std::size_t d = 0; d < 2 && !own.empty(); ++d) {
-    // Down only where the parameters run so: over the end of a closed direction they went up from the larger one.
-    const bool ascending = reader_.enumeration(own[5 + d]) != "F" ||
-                           reader_.real(own[1 + 2 * d]).value_or(0) < reader_.real(own[2 + 2 * d]).value_or(0);
+    // Down only where the parameters run so: over the end of a closed direction they went up from
+    // the larger one.
+    const bool ascending =
+        reader_.enumeration(own[5 + d]) != "F" ||
+        reader_.real(own[1 + 2 * d]).value_or(0) < reader_.real(own[2 + 2 * d]).value_or(0);
     change(own[1 + 2 * d], format_real(ascending ? limits[d].lower : limits[d].upper));
     change(own[2 + 2 * d], format_real(ascending ? limits[d].upper : limits[d].lower));
   }
 }
 
-void Surgeon::lie_on_these(std::uint32_t curve, const std::vector<std::uint32_t>& parts, const std::string& list) {
+void Surgeon::lie_on_these(std::uint32_t curve, const std::vector<std::uint32_t>& parts,
+                           const std::string& list) {
   change(parts[1], "(" + list + ")");
   if (reader_.enumeration(parts[2]) != "CURVE_3D") change(parts[2], ".CURVE_3D.");
   const Part21Instance& record = file_.instance(curve);
   if (reader_.is(curve, "SURFACE_CURVE") || record.complex) return;
   const auto begin = file_.range(record.first).begin;
   changes_.push_back(
-      {{begin, begin + static_cast<std::uint32_t>(file_.keyword(record.first).size())}, "SURFACE_CURVE"});
+      {{begin, begin + static_cast<std::uint32_t>(file_.keyword(record.first).size())},
+       "SURFACE_CURVE"});
 }
 
 void Surgeon::lie_along(const BoundaryEdge& edge, std::uint32_t surface, const Curve* curve) {
@@ -95,7 +106,8 @@ void Surgeon::lie_along(const BoundaryEdge& edge, std::uint32_t surface, const C
     const auto parts = reader_.attributes(source.carrier, "SURFACE_CURVE", 1, 3);
     std::string kept;
     bool left = false;
-    for (const std::uint32_t value : parts.empty() ? std::vector<std::uint32_t>() : file_.children(parts[1])) {
+    for (const std::uint32_t value :
+         parts.empty() ? std::vector<std::uint32_t>() : file_.children(parts[1])) {
       const auto target = reader_.reference(value);
       const bool leaves = target && surface_under(reader_, *target) == surface;
       const std::string text = leaves ? on : std::string(file_.text(value));
@@ -108,10 +120,11 @@ void Surgeon::lie_along(const BoundaryEdge& edge, std::uint32_t surface, const C
   for (const BoundarySource& source : edge.in_parameters) {
     const auto target = reader_.reference(source.parent);
     if (curve == nullptr || !target || surface_under(reader_, *target) != surface) continue;
-    const std::string name = "#" + std::to_string(names_.next()), carrier = "#" + std::to_string(names_.next());
+    const std::string name = "#" + std::to_string(names_.next()),
+                      carrier = "#" + std::to_string(names_.next());
     insert(file_.instance(source.segment).bytes.end,
-           curve_records(source.turned ? brep::turned(*curve) : *curve, name) + line_break() + carrier +
-               "=SURFACE_CURVE(''," + name + ",(" + on + "),.CURVE_3D.);");
+           curve_records(source.turned ? brep::turned(*curve) : *curve, name) + line_break() +
+               carrier + "=SURFACE_CURVE(''," + name + ",(" + on + "),.CURVE_3D.);");
     change(source.parent, carrier);
   }
 }
@@ -120,8 +133,10 @@ void Surgeon::drop_parameter_curves(std::uint32_t edge, const std::set<std::uint
   const auto own = reader_.attributes(edge, "EDGE_CURVE", 3, 1);
   const auto curve = own.empty() ? std::nullopt : reader_.reference(own[0]);
   // SURFACE_CURVE(curve in space, what it lies on, which of them is the master)
-  const auto parts = curve ? reader_.attributes(*curve, "SURFACE_CURVE", 1, 3) : std::vector<std::uint32_t>();
-  const bool seam = curve && reader_.is(*curve, "SEAM_CURVE"), plain = curve && reader_.is(*curve, "SURFACE_CURVE");
+  const auto parts =
+      curve ? reader_.attributes(*curve, "SURFACE_CURVE", 1, 3) : std::vector<std::uint32_t>();
+  const bool seam = curve && reader_.is(*curve, "SEAM_CURVE"),
+             plain = curve && reader_.is(*curve, "SURFACE_CURVE");
   const bool intersection = curve && reader_.is(*curve, "INTERSECTION_CURVE");
   if (parts.empty() || !(seam || plain || intersection)) return;
   std::string kept;

@@ -36,7 +36,8 @@ std::string Surgeon::curve_records(const Curve& curve, const std::string& name) 
 
 Expected<void> Surgeon::replace_curve(std::uint32_t edge, const Curve& curve) {
   const auto own = reader_.attributes(edge, "EDGE_CURVE", 3, 2);
-  const std::uint32_t geometry = own.empty() ? no_instance : reader_.reference(own[0]).value_or(no_instance);
+  const std::uint32_t geometry =
+      own.empty() ? no_instance : reader_.reference(own[0]).value_or(no_instance);
   if (!reader_.is(edge, "EDGE_CURVE") || geometry == no_instance)
     return reader_.error(edge, "an EDGE_CURVE is needed here");
   const std::string name = "#" + std::to_string(names_.next());
@@ -71,13 +72,17 @@ void Surgeon::replace_boundary(const std::vector<BoundarySource>& sources, const
     } else if (shared) {
       if (!own.at(source.carrier).empty()) change(source.parent, own.at(source.carrier));
     } else {
-      const auto same = [&](const BoundarySource& other) { return other.carrier == source.carrier; };
+      const auto same = [&](const BoundarySource& other) {
+        return other.carrier == source.carrier;
+      };
       std::string& copy = own[source.carrier];
-      if (file_.instance(source.carrier).uses == static_cast<std::uint32_t>(std::ranges::count_if(sources, same))) {
+      if (file_.instance(source.carrier).uses ==
+          static_cast<std::uint32_t>(std::ranges::count_if(sources, same))) {
         change(source.value, name);
       } else {
         copy = "#" + std::to_string(names_.next());
-        records += line_break() + copy_of(source.carrier, copy, {{file_.range(source.value), name}});
+        records +=
+            line_break() + copy_of(source.carrier, copy, {{file_.range(source.value), name}});
         change(source.parent, copy);
       }
     }
@@ -85,24 +90,26 @@ void Surgeon::replace_boundary(const std::vector<BoundarySource>& sources, const
   }
 }
 
-Expected<void> Surgeon::replace_net(std::uint32_t instance, const std::vector<std::uint32_t>& refs, const Curve& before,
-                                    const Curve& after) {
+Expected<void> Surgeon::replace_net(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
+                                    const Curve& before, const Curve& after) {
   const auto label = reader_.attributes(instance, "REPRESENTATION_ITEM", 0, 1);
-  const auto own = file_.instance(instance).complex ? label : file_.children(file_.instance(instance).first);
+  const auto own =
+      file_.instance(instance).complex ? label : file_.children(file_.instance(instance).first);
   if (own.empty()) return reader_.error(instance, "it has no label");
   std::string inserted;
   const auto names = point_names(refs, before.control_points(), after.control_points(), inserted);
   if (!names) return std::unexpected(names.error());
-  changes_.push_back({file_.instance(instance).record, print_curve(after, file_.text(own[0]), [&](int k) {
-                        return (*names)[static_cast<std::size_t>(k)];
-                      })});
+  changes_.push_back({file_.instance(instance).record,
+                      print_curve(after, file_.text(own[0]),
+                                  [&](int k) { return (*names)[static_cast<std::size_t>(k)]; })});
   if (!inserted.empty()) insert(file_.instance(instance).bytes.end, std::move(inserted));
   return {};
 }
 
 Expected<void> Surgeon::move_vertex(std::uint32_t vertex, const Point& place) {
   const auto own = reader_.attributes(vertex, "VERTEX_POINT", 1, 1);
-  const std::uint32_t geometry = own.empty() ? no_instance : reader_.reference(own[0]).value_or(no_instance);
+  const std::uint32_t geometry =
+      own.empty() ? no_instance : reader_.reference(own[0]).value_or(no_instance);
   if (!reader_.is(vertex, "VERTEX_POINT") || geometry == no_instance)
     return reader_.error(vertex, "a VERTEX_POINT is needed here");
   const auto point = reader_.point(geometry);

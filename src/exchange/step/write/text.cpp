@@ -19,7 +19,8 @@ std::string add_surface(NewFile& file, const NewSurface& item) {
     names.push_back(file.add_point(surface.control_points().row(k).data()));
   }
   return file.add(print_surface(
-      surface, encode_string(item.name), [&](int k) { return names[static_cast<std::size_t>(k)]; }, "\n"));
+      surface, encode_string(item.name), [&](int k) { return names[static_cast<std::size_t>(k)]; },
+      "\n"));
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -33,24 +34,28 @@ std::string add_curve(NewFile& file, const NewCurve& item) {
   for (Eigen::Index k = 0; k < item.curve.size(); ++k) {
     names.push_back(file.add_point(item.curve.control_points().row(k).data()));
   }
-  return file.add(
-      print_curve(item.curve, encode_string(item.name), [&](int k) { return names[static_cast<std::size_t>(k)]; }));
+  return file.add(print_curve(item.curve, encode_string(item.name),
+                              [&](int k) { return names[static_cast<std::size_t>(k)]; }));
 }
 
 /// Whether STEP can hold them: none is torn along a knot.
 Expected<void> whole(std::span<const NewSurface> surfaces, std::span<const NewCurve> curves) {
-  const auto check = [](const KnotVector& knots, const char* kind, const std::string& name) -> Expected<void> {
+  const auto check = [](const KnotVector& knots, const char* kind,
+                        const std::string& name) -> Expected<void> {
     if (knots.max_interior_multiplicity() <= knots.degree()) return {};
-    return input_error(std::string("STEP knows no ") + kind + " that is torn along a knot", name,
-                       "keep knots inside the domain to a multiplicity of " + std::to_string(knots.degree()));
+    return input_error(
+        std::string("STEP knows no ") + kind + " that is torn along a knot", name,
+        "keep knots inside the domain to a multiplicity of " + std::to_string(knots.degree()));
   };
   for (const NewSurface& item : surfaces) {
     for (const auto& knots : item.surface.knots()) {
-      if (auto can = check(knots, "surface", item.id.empty() ? item.name : item.id); !can) return can;
+      if (auto can = check(knots, "surface", item.id.empty() ? item.name : item.id); !can)
+        return can;
     }
   }
   for (const NewCurve& item : curves) {
-    if (auto can = check(item.curve.knots(0), "curve", item.id.empty() ? item.name : item.id); !can) return can;
+    if (auto can = check(item.curve.knots(0), "curve", item.id.empty() ? item.name : item.id); !can)
+      return can;
   }
   return {};
 }
@@ -61,7 +66,8 @@ constexpr double stated_uncertainty = 1e-7;  // a length
 
 Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options,
                               std::span<const NewCurve> curves) {
-  if (auto known = check_unit(options.unit); !known) return std::unexpected(std::move(known.error()));
+  if (auto known = check_unit(options.unit); !known)
+    return std::unexpected(std::move(known.error()));
   if (surfaces.empty() && curves.empty()) return detail::nothing_to_write();
   if (auto can = whole(surfaces, curves); !can) return std::unexpected(can.error());
 
@@ -74,7 +80,8 @@ Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOp
   std::vector<std::string> names;
   for (const auto& surface : surfaces) names.push_back(add_surface(file, surface));
   const auto represent = [&](const char* kind, const std::string& item) {
-    return file.add(std::string(kind) + "(" + product_name + ",(" + placement + "," + item + ")," + context + ")");
+    return file.add(std::string(kind) + "(" + product_name + ",(" + placement + "," + item + ")," +
+                    context + ")");
   };
   std::string first;
   if (options.faces && !surfaces.empty()) {
@@ -88,11 +95,13 @@ Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOp
   for (const auto& curve : curves) items += (items.empty() ? "" : ",") + add_curve(file, curve);
   if (!items.empty()) {
     const bool wires = surfaces.empty() || options.faces;
-    const auto set = file.add((wires ? "GEOMETRIC_CURVE_SET('',(" : "GEOMETRIC_SET('',(") + items + "))");
+    const auto set =
+        file.add((wires ? "GEOMETRIC_CURVE_SET('',(" : "GEOMETRIC_SET('',(") + items + "))");
     const auto second = represent(wires ? "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION"
                                         : "GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION",
                                   set);
-    if (!first.empty()) file.add("SHAPE_REPRESENTATION_RELATIONSHIP('',''," + first + "," + second + ")");
+    if (!first.empty())
+      file.add("SHAPE_REPRESENTATION_RELATIONSHIP('',''," + first + "," + second + ")");
     if (first.empty()) first = second;
   }
   file.add("SHAPE_DEFINITION_REPRESENTATION(" + shape + "," + first + ")");

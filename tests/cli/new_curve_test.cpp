@@ -1,0 +1,29 @@
+#include "program.hpp"
+
+namespace knead::testing {
+namespace {
+
+TEST(Sculpt, MakesAndBendsACurve) {
+  const Workshop workshop;
+  const std::string script = workshop.script(
+      {command("new", {{"shape", "curve"}, {"form", "helix"}, {"net", 40}, {"name", "wire"}}),
+       command("edge"), command("force", {{"at", {0.5}}, {"kind", "dead"}, {"vector", {0, 0, 5}}}),
+       command("step", {{"count", 4}})});
+  const Outcome run = knead({"sculpt", "--new", "-o", workshop / "wire.step", "--script", script,
+                             "--report", workshop / "wire.json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("curve #1 \"wire\", lengths in mm\n  degree 3, net 40"), std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("(0 surfaces, 1 curve or volume changed)"), std::string::npos) << run.out;
+  const Json report = Json::parse(content_of(workshop / "wire.json"));
+  EXPECT_EQ(report.at("steps").size(), 4U);
+  EXPECT_GT(report.at("largest_displacement").get<double>(), 1e-3);
+  EXPECT_GT(report.at("energy_after").get<double>(), 0);
+  EXPECT_NE(report.at("notes").dump().find("the helix is met to"), std::string::npos);
+  const std::string written = content_of(workshop / "wire.step");
+  EXPECT_NE(written.find("B_SPLINE_CURVE_WITH_KNOTS('wire',3"), std::string::npos);
+  EXPECT_NE(written.find("GEOMETRIC_CURVE_SET"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace knead::testing
