@@ -30,8 +30,8 @@ void check(bool fine, const std::string& what) {
 void execute(Session& session, const std::string& line) {
   const auto command = parse_command(line);
   check(command.has_value(), line);
-  const auto done = session.execute(*command);
-  check(done.has_value(), line);
+  const auto status = session.execute(*command);
+  check(status.has_value(), line);
 }
 
 SessionState sheet(int net) {

@@ -103,9 +103,9 @@ void add_tool(const Tool& tool, std::vector<Facet>& facets) {
     for (int j = 0; j <= columns; ++j) {
       const double a = 2 * std::numbers::pi * j / columns;
       const auto [r, z] = profile[static_cast<std::size_t>(i)];
-      const Point own(place.scale[0] * r * std::cos(a), place.scale[1] * r * std::sin(a),
-                      place.scale[2] * z);
-      points.row(i * (columns + 1) + j) = place.position + place.rotation * own;
+      const Point point(place.scale[0] * r * std::cos(a), place.scale[1] * r * std::sin(a),
+                        place.scale[2] * z);
+      points.row(i * (columns + 1) + j) = place.position + place.rotation * point;
     }
   }
   add_grid(
@@ -119,8 +119,8 @@ Expected<std::string> draw(std::span<const Surface> surfaces, std::span<const To
                            const DrawStyle& style) {
   std::vector<Facet> facets;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (auto done = add_surface(surfaces[k], k, style, facets); !done)
-      return std::unexpected(done.error());
+    if (auto status = add_surface(surfaces[k], k, style, facets); !status)
+      return std::unexpected(status.error());
   }
   for (const Tool& tool : tools) add_tool(tool, facets);
   const auto depth = [](const Facet& f) {

@@ -137,9 +137,9 @@ int main(int argc, char** argv) try {
                stderr);
     return 2;
   }
-  const auto done = picture(what, argv[2], argv[3], argc == 5 ? argv[4] : "");
-  if (!done) {
-    fmt::print(stderr, "example_draw_analysis: {}\n", done.error().message());
+  const auto status = picture(what, argv[2], argv[3], argc == 5 ? argv[4] : "");
+  if (!status) {
+    fmt::print(stderr, "example_draw_analysis: {}\n", status.error().message());
     return 1;
   }
   return 0;

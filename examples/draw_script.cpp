@@ -30,9 +30,9 @@ int main(int argc, char** argv) try {
     std::fputs("usage: example_draw_script SCRIPT.json OUT.svg [FILE.step]\n", stderr);
     return 2;
   }
-  const auto done = run(argv[1], argv[2], argc == 4 ? argv[3] : "");
-  if (!done) {
-    fmt::print(stderr, "example_draw_script: {}\n", done.error().message());
+  const auto status = run(argv[1], argv[2], argc == 4 ? argv[3] : "");
+  if (!status) {
+    fmt::print(stderr, "example_draw_script: {}\n", status.error().message());
     return 1;
   }
   return 0;

@@ -16,8 +16,8 @@ Expected<Session> run_script(const std::string& script, const std::string& file)
   if (!document) return std::unexpected(document.error());
   Session session(std::move(*document));
   for (std::size_t k = 0; k < commands->size(); ++k) {
-    if (auto done = session.execute((*commands)[k]); !done) {
-      return std::unexpected(done.error().within(fmt::format("commands[{}]", k)));
+    if (auto status = session.execute((*commands)[k]); !status) {
+      return std::unexpected(status.error().within(fmt::format("commands[{}]", k)));
     }
   }
   return session;

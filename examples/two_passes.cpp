@@ -135,8 +135,8 @@ Points FastDiagonalisation::solve(const Points& d) const {
   Points result(d.rows(), 3);
   for (Eigen::Index c = 0; c < 3; ++c) {
     const Eigen::VectorXd column = d.col(c);
-    const Matrix own = Eigen::Map<const RowMajor>(column.data(), u.rows(), v.rows());
-    const Matrix inner = (u.transpose() * own * v).cwiseQuotient(divisors_);
+    const Matrix values = Eigen::Map<const RowMajor>(column.data(), u.rows(), v.rows());
+    const Matrix inner = (u.transpose() * values * v).cwiseQuotient(divisors_);
     const RowMajor x = u * inner * v.transpose();
     result.col(c) = Eigen::Map<const Eigen::VectorXd>(x.data(), x.size());
   }

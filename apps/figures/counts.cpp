@@ -138,10 +138,10 @@ void add_totals(Report& report) {
         if (method == GramianMethod::gauss && p > highest_kernel) break;
         points.emplace_back(over == Over::points ? n : p, operations(p, n, method));
       }
-      const int own = method == GramianMethod::gauss      ? 6
-                      : method == GramianMethod::analytic ? 3
-                                                          : 2;
-      chart.line("ours: " + std::string(name(method)), points, {.colour = own, .markers = true});
+      const int colour = method == GramianMethod::gauss      ? 6
+                         : method == GramianMethod::analytic ? 3
+                                                             : 2;
+      chart.line("ours: " + std::string(name(method)), points, {.colour = colour, .markers = true});
     }
     report.picture(
         fmt::format("figure_5_{}.svg", number), chart.svg(),

@@ -154,10 +154,10 @@ class Run {
   void recursion(F work) {
     const OperationCount start = Counted::count();
     work();
-    const OperationCount done = Counted::count() - start;
-    work_.recursions.additions += done.additions;
-    work_.recursions.multiplications += done.multiplications;
-    work_.recursions.divisions += done.divisions;
+    const OperationCount spent = Counted::count() - start;
+    work_.recursions.additions += spent.additions;
+    work_.recursions.multiplications += spent.multiplications;
+    work_.recursions.divisions += spent.divisions;
   }
   void evaluated() { work_.evaluations += p_ + 1; }
 

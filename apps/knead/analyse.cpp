@@ -52,7 +52,7 @@ Expected<void> run(const AnalyseArguments& options) {
   auto document = open_document(options.file, options.fresh, options.unpack);
   if (!document) return std::unexpected(document.error());
   Session session(std::move(*document));
-  if (auto done = execute(session, *commands); !done) return std::unexpected(done.error());
+  if (auto status = execute(session, *commands); !status) return std::unexpected(status.error());
   if (session.selection().empty())
     return input_error("no surface is selected", options.script, "select one");
   const auto grids = result_grids(session, options.samples);
@@ -61,10 +61,10 @@ Expected<void> run(const AnalyseArguments& options) {
   if (!json) return std::unexpected(json.error());
   print_summary(options, session, *grids);
   if (!options.vtu.empty()) {
-    if (auto done = write_output(options.vtu, vtu_text(*grids)); !done) return done;
+    if (auto status = write_output(options.vtu, vtu_text(*grids)); !status) return status;
     say("wrote {}\n", options.vtu);
   }
-  if (auto done = write_output(options.results, *json); !done) return done;
+  if (auto status = write_output(options.results, *json); !status) return status;
   say("wrote {}\n", options.results);
   return {};
 }

@@ -42,13 +42,13 @@ Expected<std::string> unit_of(const std::string& unit, const ExportArguments& op
 /// The one unit of all surfaces and curves of the file.
 Expected<std::string> unit_of(const Source& source, const ExportArguments& options) {
   std::string unit;
-  const auto takes = [&](const std::string& own) -> Expected<void> {
-    if (!unit.empty() && unit != own) {
-      return input_error(
-          fmt::format("its shapes are in {} and in {}, and a new file has one unit", unit, own), {},
-          "give their lengths one unit in the program that made the file");
+  const auto takes = [&](const std::string& shape_unit) -> Expected<void> {
+    if (!unit.empty() && unit != shape_unit) {
+      return input_error(fmt::format("its shapes are in {} and in {}, and a new file has one unit",
+                                     unit, shape_unit),
+                         {}, "give their lengths one unit in the program that made the file");
     }
-    unit = own;
+    unit = shape_unit;
     return {};
   };
   for (const SourceSurface& s : source.surfaces()) {
@@ -64,7 +64,7 @@ Expected<void> write(const Format& format, std::string bytes, const ExportArgume
                      const std::vector<LeftOut>& left_out, const std::string& content) {
   auto packed = compressed_by_name(std::move(bytes), options.output, options.file);
   if (!packed) return std::unexpected(std::move(packed.error()));
-  if (auto done = write_output(options.output, *packed); !done) return done;
+  if (auto status = write_output(options.output, *packed); !status) return status;
   warn_left_out(left_out);
   say("wrote {} ({}, {}, {} bytes)\n", options.output, format.name, content, packed->size());
   return {};

@@ -165,7 +165,7 @@ Expected<void> run(const GramianArguments& options) {
         fmt::format("entries leave the range of double precision (method {})", result->method),
         "Gramian " + g.term, "scale the knots nearer to 1");
   }
-  if (auto done = estimate_digits(*knots, orders(options), *result); !done) return done;
+  if (auto status = estimate_digits(*knots, orders(options), *result); !status) return status;
   if (options.format == "csv") {
     print_csv(options.knots.degree, *result);
   } else {

@@ -109,8 +109,8 @@ int run(int argc, char** argv) {
       knead::cli::add_export(app),   knead::cli::add_schema(app),  knead::cli::add_snake(app)};
   try {
     app.parse(joined_arguments(argc, argv));
-  } catch (const CLI::Success& done) {
-    return app.exit(done);  // --help, --version
+  } catch (const CLI::Success& success) {
+    return app.exit(success);  // --help, --version
   } catch (const CLI::ParseError& error) {
     return fail(usage_error(app, error, argc > 1 ? argv[1] : ""));
   }
@@ -118,7 +118,7 @@ int run(int argc, char** argv) {
   const auto subcommands = app.get_subcommands([](CLI::App*) { return true; });
   for (std::size_t k = 0; k < subcommands.size(); ++k) {
     if (!app.got_subcommand(subcommands[k])) continue;
-    if (auto done = actions[k](); !done) return fail(done.error());
+    if (auto status = actions[k](); !status) return fail(status.error());
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
     return fail(lost_output({}));

@@ -113,8 +113,8 @@ class Writer {
 
   Expected<void> matrix(const std::string& name, const std::string& formula,
                         const SparseMatrix& matrix, double error_bound) {
-    if (auto done = file(name + ".mtx", matrix_market(matrix, true)); !done) return done;
-    if (auto done = file(name + ".npz", npz(matrix)); !done) return done;
+    if (auto status = file(name + ".mtx", matrix_market(matrix, true)); !status) return status;
+    if (auto status = file(name + ".npz", npz(matrix)); !status) return status;
     written.push_back({{"name", name},
                        {"formula", formula},
                        {"files", {name + ".mtx", name + ".npz"}},
@@ -176,10 +176,10 @@ Expected<void> Writer::write(const fs::path& directory) const {
     const Passing beside(name);
     for (const auto& [file, bytes] : files_) {
       if (auto possible = check_writable(directory / file); !possible) return possible;
-      auto done = write_file_atomically(beside.path / file, bytes);
-      if (!done) {
-        done.error().file = (directory / file).string();
-        return done;
+      auto status = write_file_atomically(beside.path / file, bytes);
+      if (!status) {
+        status.error().file = (directory / file).string();
+        return status;
       }
     }
     for (const auto& [file, bytes] : files_) {
@@ -190,11 +190,11 @@ Expected<void> Writer::write(const fs::path& directory) const {
     }
     return {};
   };
-  auto done = write_all();
-  if (done) return done;
+  auto status = write_all();
+  if (status) return status;
   for (auto at = made.rbegin(); at != made.rend(); ++at)
     fs::remove(*at, problem);  // if they are empty
-  return done;
+  return status;
 }
 
 Expected<void> run(const MatricesArguments& options) {
@@ -232,18 +232,18 @@ Expected<void> run(const MatricesArguments& options) {
   for (const NamedEnergy& named : system_energies(*material, options.mass, options.damping)) {
     const auto made = system.of(named.energy);
     if (!made) return std::unexpected(made.error());
-    if (auto done = writer.matrix(named.name, named.formula, made->matrix, made->error_bound);
-        !done)
-      return done;
+    if (auto status = writer.matrix(named.name, named.formula, made->matrix, made->error_bound);
+        !status)
+      return status;
   }
   const auto forces = system.forces({(*load)[0], (*load)[1], (*load)[2]});
   if (!forces) return std::unexpected(forces.error());
-  if (auto done = writer.array("F", "load int R_i", npy(*forces)); !done) return done;
-  if (auto done = writer.array("points", "control points", npy(system.points())); !done)
-    return done;
-  if (auto done = writer.array("free", "unknowns of the rows, of all m n", npy(system.free()));
-      !done)
-    return done;
+  if (auto status = writer.array("F", "load int R_i", npy(*forces)); !status) return status;
+  if (auto status = writer.array("points", "control points", npy(system.points())); !status)
+    return status;
+  if (auto status = writer.array("free", "unknowns of the rows, of all m n", npy(system.free()));
+      !status)
+    return status;
 
   Json knots = Json::array();
   for (int d = 0; d < 2; ++d) {
@@ -271,8 +271,9 @@ Expected<void> run(const MatricesArguments& options) {
       {"held_rows", options.hold},
       {"unknowns", system.free().size()},
       {"matrices", writer.written}};
-  if (auto done = writer.file("matrices.json", description.dump(1) + "\n"); !done) return done;
-  if (auto done = writer.write(options.out); !done) return done;
+  if (auto status = writer.file("matrices.json", description.dump(1) + "\n"); !status)
+    return status;
+  if (auto status = writer.write(options.out); !status) return status;
   say("wrote {} matrices and arrays of {} unknowns to {}\n", writer.written.size(),
       system.free().size(), options.out);
   return {};

@@ -42,7 +42,7 @@ Expected<void> write_model(const Source& source, const Format& format,
                            const MeshArguments& options) {
   const auto model = save_model(source, format, options.tolerance.value_or(0));
   if (!model) return in_options(model.error(), options);
-  if (auto done = write_output(options.output, model->bytes); !done) return done;
+  if (auto status = write_output(options.output, model->bytes); !status) return status;
   for (const std::string& warning : model->warnings) say(stderr, "knead: warning: {}\n", warning);
   warn_left_out(left_out_of_mesh(source, model->skipped));
   const std::size_t exact = model->faces - model->tessellated;
@@ -71,7 +71,7 @@ Expected<void> write_surfaces(const Source& source, const Format& format,
   }
   const auto bytes = save_surfaces(surfaces, format, mesh);
   if (!bytes) return in_options(bytes.error(), options);
-  if (auto done = write_output(options.output, *bytes); !done) return done;
+  if (auto status = write_output(options.output, *bytes); !status) return status;
   warn_left_out(left_out_of_surfaces(source, format));
   say("wrote {} ({}, {} bytes)\n", options.output, counted(surfaces.size(), "surface", "surfaces"),
       bytes->size());
@@ -95,13 +95,13 @@ Expected<void> run(const MeshArguments& options) {
   const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
   if (options.untrimmed || !(*source)->model()) return write_surfaces(**source, **format, options);
-  auto done = write_model(**source, **format, options);
+  auto status = write_model(**source, **format, options);
   // Why a surface cannot be read says more than that faces on it are not drawn.
-  if (!done && done.error().kind == ErrorKind::input && (*source)->surfaces().empty() &&
+  if (!status && status.error().kind == ErrorKind::input && (*source)->surfaces().empty() &&
       !(*source)->unreadable().empty()) {
     return std::unexpected((*source)->unreadable().front().reason);
   }
-  return done;
+  return status;
 }
 
 }  // namespace

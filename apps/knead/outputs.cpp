@@ -39,9 +39,9 @@ Expected<void> check_name(const NamedFile& output, std::string_view ending,
 }
 
 Expected<void> write_output(const std::string& path, std::string_view bytes) {
-  auto done = write_file_atomically(path, bytes);
-  if (done) files_written += (files_written.empty() ? "" : ", ") + path;
-  return done;
+  auto status = write_file_atomically(path, bytes);
+  if (status) files_written += (files_written.empty() ? "" : ", ") + path;
+  return status;
 }
 
 const std::string& written_outputs() { return files_written; }

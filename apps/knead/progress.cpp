@@ -33,12 +33,12 @@ ProgressLine::~ProgressLine() {
   if (shown_ > start_) say(stderr, "\r\x1b[K");
 }
 
-void ProgressLine::show(const char* what, std::size_t done, std::size_t total) {
+void ProgressLine::show(const char* what, std::size_t count, std::size_t total) {
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || now - start_ < std::chrono::seconds(1) ||
       now - shown_ < std::chrono::milliseconds(100))
     return;
-  print(fmt::format("{} {} of {}", what, done, total));
+  print(fmt::format("{} {} of {}", what, count, total));
 }
 
 void ProgressLine::announce(const std::string& what) {

@@ -16,7 +16,7 @@ class ProgressLine {
   ~ProgressLine();
 
   /// "step 12 of 60"
-  void show(const char* what, std::size_t done, std::size_t total);
+  void show(const char* what, std::size_t count, std::size_t total);
   /// At once, before work that cannot tell: "reading wing.step, 105 MB".
   void announce(const std::string& what);
 

@@ -61,11 +61,11 @@ Expected<Execution> execute(Session& session, const Script& script, bool stops) 
       session.begin_history();  // what a script begins with is not undone
     const auto place = place_in(script, execution.commands);
     work_on(script.name + (place ? fmt::format(": commands[{}]", *place) : ""));
-    auto done = session.execute(command, progress, go_on);
+    auto status = session.execute(command, progress, go_on);
     if (stops && Interrupt::asked()) return execution;
-    if (!done)
+    if (!status)
       return std::unexpected(
-          error_at_command(std::move(done.error()), session.document(), script.name, place));
+          error_at_command(std::move(status.error()), session.document(), script.name, place));
     ++execution.commands;
   }
   work_on({});

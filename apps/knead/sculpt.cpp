@@ -117,11 +117,11 @@ class Besides {
  public:
   void write(const std::string& path, const std::string& option,
              const Expected<std::string>& bytes) {
-    auto done = bytes ? write_output(path, *bytes)
-                      : Expected<void>(std::unexpected(bytes.error().within(option)));
-    if (done) return say("wrote {}\n", path);
-    if (done.error().kind == ErrorKind::usage) done.error().kind = ErrorKind::input;
-    if (first) first = std::move(done);
+    auto result = bytes ? write_output(path, *bytes)
+                        : Expected<void>(std::unexpected(bytes.error().within(option)));
+    if (result) return say("wrote {}\n", path);
+    if (result.error().kind == ErrorKind::usage) result.error().kind = ErrorKind::input;
+    if (first) first = std::move(result);
   }
   Expected<void> first;  ///< error
 };
@@ -158,7 +158,7 @@ Expected<void> write_results(const SculptArguments& options, const Session& sess
   Besides besides;
   if (!options.report.empty()) besides.write(options.report, "--report", report_json(session, o));
   if (!options.picture.empty()) besides.write(options.picture, "--picture", picture_of(session));
-  if (auto done = write_output(options.output, *bytes); !done) return done;
+  if (auto result = write_output(options.output, *bytes); !result) return result;
   say("wrote {} ({} surface{}{} changed)\n", options.output, o.surfaces, o.surfaces == 1 ? "" : "s",
       o.bodies == 0 ? ""
                     : fmt::format(", {} curve{} or volume{}", o.bodies, o.bodies == 1 ? "" : "s",
@@ -219,19 +219,19 @@ Expected<void> run(const SculptArguments& options) {
   Session session(std::move(*document));
   std::optional<Interrupt> interrupt;
   if (options.keep_partial) interrupt.emplace();
-  const auto done = execute(session, *commands, options.keep_partial);
-  if (!done) return std::unexpected(done.error());
+  const auto result = execute(session, *commands, options.keep_partial);
+  if (!result) return std::unexpected(result.error());
   const Outcome outcome = outcome_of(session, opened);
   if (outcome.no_energy)
     say(stderr, "knead: warning: there is no energy: {}\n", outcome.no_energy->message());
   print_summary(options, session, outcome);
-  if (!done->complete) {
-    const std::size_t implied = std::min(commands->implied, done->commands);
+  if (!result->complete) {
+    const std::size_t implied = std::min(commands->implied, result->commands);
     say(stderr, "knead: stopped: {} of {} commands are done; what stands is written\n",
-        done->commands - implied, commands->commands.size() - commands->implied);
+        result->commands - implied, commands->commands.size() - commands->implied);
   }
   auto written = write_results(options, session, outcome);
-  if (written && !done->complete) {
+  if (written && !result->complete) {
     std::fflush(stdout);
     Interrupt::pass_on();
   }

@@ -38,7 +38,7 @@ Expected<void> write_results(const std::vector<SnakeResult>& snakes, const Snake
                              : ending == ".svg"
                                  ? snakes_svg(snakes, image.width, image.height)
                                  : snakes_json(snakes, options.image, image.width, image.height);
-    if (auto done = write_output(options.output, text); !done) return done;
+    if (auto status = write_output(options.output, text); !status) return status;
   }
   if (options.mask.empty()) return {};
   const auto bytes = png_of(snakes_mask(snakes, image.width, image.height));

@@ -69,7 +69,7 @@ Expected<void> write_results(const std::vector<SurfaceSnakeResult>& snakes,
                            ? Expected<std::string>(volume_snakes_json(snakes, options.image))
                            : surfaces_in(snakes, options.output);
     if (!bytes) return std::unexpected(bytes.error());
-    if (auto done = write_output(options.output, *bytes); !done) return done;
+    if (auto status = write_output(options.output, *bytes); !status) return status;
   }
   if (options.mask.empty()) return {};
   return write_output(options.mask,

@@ -102,12 +102,12 @@ Expected<void> read_request(Asked& asked, const Type& type, void* request) {
     const Field* const field = type.find(name);
     if (field == nullptr || !is_own(*field)) continue;
     void* const member = field->of(request);
-    Expected<void> done;
-    if (field->type == &type_of<Commands>()) done = read(json, *static_cast<Commands*>(member));
+    Expected<void> status;
+    if (field->type == &type_of<Commands>()) status = read(json, *static_cast<Commands*>(member));
     if (field->type == &type_of<Settings>()) read(json, *static_cast<Settings*>(member));
     if (field->type == &type_of<Bytes>())
-      done = read(json, *static_cast<Bytes*>(member), asked.bytes);
-    if (!done) return done;
+      status = read(json, *static_cast<Bytes*>(member), asked.bytes);
+    if (!status) return status;
   }
   Type others = type;
   std::erase_if(others.fields, is_own);

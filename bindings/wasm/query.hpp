@@ -80,8 +80,8 @@ Query query() {
   return {&type_of<R>(), &type_of<typename R::Answer>(),
           [](Studio& studio, Asked& asked) -> Expected<Answer> {
             R request;
-            if (auto done = read_request(asked, type_of<R>(), &request); !done) {
-              return std::unexpected(std::move(done.error()));
+            if (auto status = read_request(asked, type_of<R>(), &request); !status) {
+              return std::unexpected(std::move(status.error()));
             }
             const auto answered = [&request](auto& by) -> decltype(ask(by, std::move(request))) {
               return ask(by, std::move(request));
@@ -110,8 +110,8 @@ Query query(std::string_view name, std::string_view help) {
   request.help = help;
   return {&request, &type_of<A>(), [](Studio& studio, Asked& asked) -> Expected<Answer> {
             OfSurface of;
-            if (auto done = read_request(asked, request, &of); !done)
-              return std::unexpected(std::move(done.error()));
+            if (auto status = read_request(asked, request, &of); !status)
+              return std::unexpected(std::move(status.error()));
             if constexpr (alone) {
               return answer_by<A>(studio, ask);
             } else {

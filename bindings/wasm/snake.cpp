@@ -46,7 +46,7 @@ int state() {
   return answer({{"snakes", std::move(all)}, {"ended", held().room.ended()}});
 }
 
-int state_after(const Expected<void>& done) { return done ? state() : fail(done.error()); }
+int state_after(const Expected<void>& status) { return status ? state() : fail(status.error()); }
 
 }  // namespace
 }  // namespace knead::snakes

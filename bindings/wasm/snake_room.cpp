@@ -156,15 +156,15 @@ SnakeSettings Room::settings_now(std::size_t snake) const {
 Expected<void> Room::change(std::size_t snake) {
   const auto now = now_.run->result(static_cast<int>(snake));
   if (!now) return std::unexpected(now.error());
-  if (auto done = now_.run->change(static_cast<int>(snake), settings_now(snake)); !done)
-    return done;
+  if (auto status = now_.run->change(static_cast<int>(snake), settings_now(snake)); !status)
+    return status;
   now_.snakes[snake].earlier += now->iterations;
   return {};
 }
 
 Expected<void> Room::wake() {
   for (std::size_t k = 0; k < now_.snakes.size(); ++k) {
-    if (auto done = change(k); !done) return done;
+    if (auto status = change(k); !status) return status;
   }
   return {};
 }
@@ -175,7 +175,7 @@ Expected<void> Room::pull(const std::optional<Hand>& hand) {
   const std::optional<Hand> before = hand_;
   hand_ = hand;
   if (before && (!hand || hand->snake != before->snake)) {
-    if (auto done = change(before->snake); !done) return done;
+    if (auto status = change(before->snake); !status) return status;
   }
   return hand ? change(hand->snake) : Expected<void>{};
 }
@@ -192,8 +192,9 @@ Expected<void> Room::move_point(std::size_t snake, int point, double x, double y
   for (Eigen::Index i = point; i < c.rows(); i += n) c.row(i).head<2>() << x, y;
   const auto curve = Curve::create({now->curve.knots()[0]}, std::move(c));
   if (!curve) return std::unexpected(curve.error());
-  if (auto done = now_.run->replace(static_cast<int>(snake), *curve, settings_now(snake)); !done)
-    return done;
+  if (auto status = now_.run->replace(static_cast<int>(snake), *curve, settings_now(snake));
+      !status)
+    return status;
   now_.snakes[snake].earlier += now->iterations;
   return {};
 }

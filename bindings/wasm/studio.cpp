@@ -8,7 +8,7 @@
 
 /// Of the host: how many steps of the command under way are done, of how many.
 extern "C" __attribute__((import_module("studio"), import_name("progress"))) void knead_progress(
-    int done, int total);
+    int steps, int total);
 
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
@@ -20,8 +20,8 @@ struct Held {
   Answer answer;
   Studio studio;
   Held() {
-    studio.progress = [](int done, int total) {
-      knead_progress(done, total);
+    studio.progress = [](int steps, int total) {
+      knead_progress(steps, total);
       return true;  // the page stops what takes long by ending its worker
     };
   }

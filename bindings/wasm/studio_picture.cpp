@@ -106,12 +106,12 @@ Expected<void> PictureMaker::tabulate(const Scene& scene, int index, const Surfa
 Expected<void> PictureMaker::make(const Scene& scene, int index, const PictureOptions& options) {
   const SceneSurface& surface = scene.surfaces[static_cast<std::size_t>(index)];
   const Surface& drawn = options.opened ? *surface.opened : *surface.current;
-  if (auto done = tabulate(scene, index, drawn, options); !done) return done;
+  if (auto status = tabulate(scene, index, drawn, options); !status) return status;
   const int order = options.display.display ? options.display.display->order : 1;
-  if (auto done =
+  if (auto status =
           evaluate_grid<2>(drawn, {&tables_[0], &tables_[1]}, std::max(1, order), evaluation_);
-      !done) {
-    return done;
+      !status) {
+    return status;
   }
 
   picture_.surface = index;
@@ -121,7 +121,7 @@ Expected<void> PictureMaker::make(const Scene& scene, int index, const PictureOp
   for (Eigen::Index k = 0; k < points.rows(); ++k)
     append(picture_.positions, points.row(k).transpose() - options.origin);
   find_normals();
-  if (auto done = find_values(scene, index, options); !done) return done;
+  if (auto status = find_values(scene, index, options); !status) return status;
 
   picture_.net.clear();
   for (Eigen::Index k = 0; k < drawn.size(); ++k) {

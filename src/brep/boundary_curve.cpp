@@ -47,9 +47,9 @@ Expected<Curve> isocurve(const Surface& surface, int direction, double at, Side 
 }
 
 Curve turned(const Curve& curve) {
-  const auto own = curve.knots(0).knots();
-  const double sum = own.front() + own.back();
-  std::vector<double> knots(own.rbegin(), own.rend()), weights;
+  const auto knot_values = curve.knots(0).knots();
+  const double sum = knot_values.front() + knot_values.back();
+  std::vector<double> knots(knot_values.rbegin(), knot_values.rend()), weights;
   for (double& t : knots) t = sum - t;
   if (curve.rational()) weights.assign(curve.weights().rbegin(), curve.weights().rend());
   return *Curve::create({*KnotVector::create(curve.knots(0).degree(), std::move(knots))},

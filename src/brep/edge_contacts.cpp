@@ -31,14 +31,14 @@ class Follower {
     if (points.empty()) return result;
     const SplineSurface* const on = model_.spline_under(face);
     if (on == nullptr) {
-      if (auto done = along_other(face, points, result); !done)
-        return std::unexpected(done.error());
+      if (auto status = along_other(face, points, result); !status)
+        return std::unexpected(status.error());
       return result;
     }
     result.surface = on->id;
-    if (auto done = along_spline(model_.supports[face.support].spline, points, result.feet);
-        !done) {
-      return std::unexpected(done.error());
+    if (auto status = along_spline(model_.supports[face.support].spline, points, result.feet);
+        !status) {
+      return std::unexpected(status.error());
     }
     return result;
   }

@@ -14,18 +14,18 @@ Expected<Point> vertex_place(const Vertex& vertex) {
 }  // namespace
 
 Expected<EdgePiece> edge_piece(const Model& model, Index edge) {
-  const Edge& own = model.edges[edge];
-  if (own.start == none || own.end == none) return std::unexpected(*own.wrong);
-  const bool same_vertex = own.start == own.end;
-  const auto start = vertex_place(model.vertices[own.start]);
-  const auto end = vertex_place(model.vertices[own.end]);
+  const Edge& stored = model.edges[edge];
+  if (stored.start == none || stored.end == none) return std::unexpected(*stored.wrong);
+  const bool same_vertex = stored.start == stored.end;
+  const auto start = vertex_place(model.vertices[stored.start]);
+  const auto end = vertex_place(model.vertices[stored.end]);
   if (!start) return std::unexpected(start.error());
   if (!end) return std::unexpected(end.error());
-  if (own.wrong) return std::unexpected(*own.wrong);
-  auto curve = EdgeCurve::create(*own.curve);
+  if (stored.wrong) return std::unexpected(*stored.wrong);
+  auto curve = EdgeCurve::create(*stored.curve);
   if (!curve) return std::unexpected(std::move(curve.error()));
 
-  bool backwards = !own.same_sense != curve->turned();
+  bool backwards = !stored.same_sense != curve->turned();
   double from = curve->parameter(backwards ? *end : *start);
   double to = curve->parameter(backwards ? *start : *end);
   const auto domain = curve->domain();
@@ -42,7 +42,7 @@ Expected<EdgePiece> edge_piece(const Model& model, Index edge) {
     std::swap(from, to);  // against the stated sense of the edge, yet the same points
     backwards = !backwards;
   }
-  return EdgePiece{*std::move(curve), from, to, backwards, own.start, own.end, *start, *end};
+  return EdgePiece{*std::move(curve), from, to, backwards, stored.start, stored.end, *start, *end};
 }
 
 Expected<EdgeSampler::Sampled> EdgeSampler::sample(Index edge) const {

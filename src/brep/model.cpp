@@ -76,9 +76,9 @@ const Part* Assembly::part_of(const std::string& surface) const {
 }
 
 void Part::add(const Model& model, Index face) {
-  const Face& own = model.faces[face];
-  faces.push_back(own.id);
-  const SplineSurface* below = model.spline_under(own);
+  const Face& stored = model.faces[face];
+  faces.push_back(stored.id);
+  const SplineSurface* below = model.spline_under(stored);
   if (below != nullptr && std::ranges::find(surfaces, below->id) == surfaces.end())
     surfaces.push_back(below->id);
 }

@@ -84,9 +84,9 @@ std::unexpected<Error> not_followed(const SharedEdge& edge) {
 
 /// On the parameters of the curve's record, and in its direction.
 Expected<Curve> recorded(const SharedEdge& edge, const Curve& curve) {
-  const auto own = curve.knots(0).knots();
+  const auto knot_values = curve.knots(0).knots();
   std::vector<double> knots;
-  for (const double t : own) knots.push_back(edge.file_parameter(t));
+  for (const double t : knot_values) knots.push_back(edge.file_parameter(t));
   const Points& net = curve.control_points();
   Points points(net.rows(), 3);
   for (Eigen::Index k = 0; k < net.rows(); ++k)

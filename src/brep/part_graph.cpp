@@ -85,15 +85,15 @@ Expected<void> PartGraph::place(const std::string& unit, Assembly& result) {
     const Index k = ready.front();
     ready.pop_front();
     ++followed;
-    const std::vector<PartPlace> own = nodes_[k].places;
+    const std::vector<PartPlace> above = nodes_[k].places;
     for (const std::size_t u : nodes_[k].down) {
       Node& child = nodes_[uses_[u].child];
-      count += own.size();
+      count += above.size();
       if (count > max_places) {
         return input_error(fmt::format("the assembly has more than {} places of parts", max_places),
                            {}, "open the files of its parts");
       }
-      for (const PartPlace& p : own) {
+      for (const PartPlace& p : above) {
         child.places.push_back({below(p.path, child.name), p.to_model * uses_[u].move});
       }
       if (--child.open == 0) ready.push_back(uses_[u].child);

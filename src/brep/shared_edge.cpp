@@ -192,15 +192,15 @@ Expected<SharedEdge> SharedEdge::create(const Model& model, const std::string& i
   auto piece = edge_piece(model, edge);
   if (!piece) return std::unexpected(piece.error());
   auto made = std::make_shared<Data>(Data{.id = id, .piece = *std::move(piece)});
-  const EdgePiece& own = made->piece;
-  const std::array vertices = own.backwards ? std::array{own.end_vertex, own.start_vertex}
-                                            : std::array{own.start_vertex, own.end_vertex};
+  const EdgePiece& stored = made->piece;
+  const std::array vertices = stored.backwards ? std::array{stored.end_vertex, stored.start_vertex}
+                                               : std::array{stored.start_vertex, stored.end_vertex};
   made->vertices = {model.vertices[vertices[0]].id, model.vertices[vertices[1]].id};
   made->edges_at = edges_ending_at(model, edge, vertices);
-  for (const double t : own.curve.corners()) {
-    if (t > own.from && t < own.to) made->corners.push_back(t);
+  for (const double t : stored.curve.corners()) {
+    if (t > stored.from && t < stored.to) made->corners.push_back(t);
   }
-  for (const double t : sampled(own)) made->samples.push_back({t, own.curve.at(t), {}});
+  for (const double t : sampled(stored)) made->samples.push_back({t, stored.curve.at(t), {}});
   for (const Index k : *surfaces) {
     const SplineSurface& s = model.surfaces[k];
     auto feet = SurfaceFoot::create(s.surface);
@@ -209,7 +209,7 @@ Expected<SharedEdge> SharedEdge::create(const Model& model, const std::string& i
     made->uncertainty = std::max(made->uncertainty, s.uncertainty);
   }
   for (Sample& s : made->samples) {
-    look_across(made->shapes, own.curve.derivative(s.parameter), s);
+    look_across(made->shapes, stored.curve.derivative(s.parameter), s);
     made->angle = std::max(made->angle, s.angle);
   }
   return SharedEdge(std::move(made));
@@ -235,8 +235,8 @@ const std::string& SharedEdge::id() const { return data_->id; }
 const std::vector<std::string>& SharedEdge::surfaces() const { return data_->surfaces; }
 const std::array<std::string, 2>& SharedEdge::vertices() const { return data_->vertices; }
 std::array<Point, 2> SharedEdge::vertex_points() const {
-  const EdgePiece& own = data_->piece;
-  return own.backwards ? std::array{own.end, own.start} : std::array{own.start, own.end};
+  const EdgePiece& piece = data_->piece;
+  return piece.backwards ? std::array{piece.end, piece.start} : std::array{piece.start, piece.end};
 }
 const std::array<std::vector<std::string>, 2>& SharedEdge::edges_at_vertices() const {
   return data_->edges_at;

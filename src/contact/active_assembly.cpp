@@ -130,10 +130,10 @@ Expected<Assembly<D>> assemble(const std::vector<Spline<D>>& patches,
       scaling = k == 0 ? *normalised : in_unit<D>(*normalised, result.scalings.front().length);
     }
     result.scalings.push_back(scaling);
-    if (auto done = add_operators<D>(patches[k], k, first, settings, options, result); !done)
-      return std::unexpected(done.error());
-    if (auto done = assemble_forces<D>(patches[k], k, settings, options, result); !done)
-      return std::unexpected(done.error());
+    if (auto status = add_operators<D>(patches[k], k, first, settings, options, result); !status)
+      return std::unexpected(status.error());
+    if (auto status = assemble_forces<D>(patches[k], k, settings, options, result); !status)
+      return std::unexpected(status.error());
   }
   return result;
 }

@@ -111,9 +111,9 @@ std::optional<Error> read_part(const Json& json, const Type& type, void* value,
     }
     return wrong(name, shown(json) + " does not fit", "give " + wanted);
   }
-  const auto inside = [&](Expected<void> done, const std::string& place) -> std::optional<Error> {
-    if (done) return std::nullopt;
-    Error error = done.error();
+  const auto inside = [&](Expected<void> status, const std::string& place) -> std::optional<Error> {
+    if (status) return std::nullopt;
+    Error error = status.error();
     error.where = place + (error.where.empty() ? "" : "." + error.where);
     return error;
   };

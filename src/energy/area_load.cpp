@@ -90,7 +90,7 @@ class AreaLoad {
 
  private:
   [[nodiscard]] Expected<PieceForces> by_rule(const Piece& piece, int more) const {
-    std::array<BasisTable, 2> own, other;
+    std::array<BasisTable, 2> table, other;
     std::array<std::vector<double>, 2> weights;
     for (std::size_t d = 0; d < 2; ++d) {
       const GaussRule rule = gauss_legendre(points_[d] + more);
@@ -105,12 +105,12 @@ class AreaLoad {
            loaded = tabulate_basis(load_.knots()[d], at, 0);
       if (!made) return std::unexpected(made.error());
       if (!loaded) return std::unexpected(loaded.error());
-      own[d] = std::move(*made);
+      table[d] = std::move(*made);
       other[d] = std::move(*loaded);
     }
     const auto f = evaluate_grid<2>(load_, {&other[0], &other[1]}, 0);
     if (!f) return std::unexpected(f.error());
-    const std::array<int, 2> first{own[0].first.front(), own[1].first.front()};
+    const std::array<int, 2> first{table[0].first.front(), table[1].first.front()};
     PieceForces result;
     for (int r = 0; r < local_; ++r) {
       const auto i = functions_.global(first, r);
@@ -120,8 +120,8 @@ class AreaLoad {
     std::vector<Eigen::MatrixXd> basis(3, Eigen::MatrixXd(local_, 1));
     for (std::size_t a = 0, k = 0; a < weights[0].size(); ++a) {
       for (std::size_t b = 0; b < weights[1].size(); ++b, ++k) {
-        const std::array<const double*, 2> rows{own[0].row(static_cast<int>(a), 0),
-                                                own[1].row(static_cast<int>(b), 0)};
+        const std::array<const double*, 2> rows{table[0].row(static_cast<int>(a), 0),
+                                                table[1].row(static_cast<int>(b), 0)};
         if (auto ok = functions_.evaluate(first, rows, 0, basis); !ok)
           return std::unexpected(ok.error());
         const double area = weights[0][a] * weights[1][b] * area_element(result.nodes, basis);

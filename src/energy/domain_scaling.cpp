@@ -34,7 +34,7 @@ Expected<DomainScaling<D>> normalised_scaling(const Spline<D>& rest) {
   for (std::size_t d = 1; d < D; ++d) {
     std::vector<double> further;
     for (const double w : weights) {
-      for (const double own : q[d].weights) further.push_back(own * w);
+      for (const double weight : q[d].weights) further.push_back(weight * w);
     }
     weights = std::move(further);
   }
@@ -46,8 +46,8 @@ Expected<DomainScaling<D>> normalised_scaling(const Spline<D>& rest) {
   for (int begin = 0; begin < q[0].basis.size(); begin += block) {
     const BasisTable rows = q[0].basis.slice(begin, begin + block);
     tables[0] = &rows;
-    if (auto done = evaluate_grid<D>(rest, tables, 1, grid); !done)
-      return std::unexpected(done.error());
+    if (auto status = evaluate_grid<D>(rest, tables, 1, grid); !status)
+      return std::unexpected(status.error());
     std::array<const Points*, D> derivatives;
     for (std::size_t d = 0; d < D; ++d) {
       MultiIndex<D> first{};

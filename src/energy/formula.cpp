@@ -104,13 +104,13 @@ class FormulaParser {
       return input_error(fmt::format("the formula has {} characters", text_.size()), "",
                          fmt::format("use up to {}", Formula::max_length));
     }
-    if (auto done = expression(0); !done) return std::unexpected(done.error());
+    if (auto status = expression(0); !status) return std::unexpected(status.error());
     if (next() != '\0') return wrong("an operator is expected");
     return std::move(formula_);
   }
 
  private:
-  using Done = Expected<void>;
+  using Status = Expected<void>;
 
   char next() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n'))
@@ -122,7 +122,7 @@ class FormulaParser {
     return input_error(std::move(what), fmt::format("character {}", at_ + 1), std::move(remedy));
   }
 
-  Done push(int code, double value = 0) {
+  Status push(int code, double value = 0) {
     const int takes = code < 0 || code >= first_variable ? 0 : formula_functions[code].arguments;
     waiting_ += 1 - takes;
     if (waiting_ > Formula::max_depth)
@@ -132,32 +132,32 @@ class FormulaParser {
   }
 
   /// What binds tighter than `least`.
-  Done expression(int least) {
+  Status expression(int least) {
     if (++open_ > Formula::max_depth)
       return wrong("the formula is nested too deeply", "leave out parentheses");
-    if (auto done = operand(); !done) return done;
+    if (auto status = operand(); !status) return status;
     for (int op = operator_of(next()); op >= 0 && precedence[op] > least;
          op = operator_of(next())) {
       ++at_;
       const bool to_the_right = op == 4;
-      if (auto done = expression(to_the_right ? precedence[op] - 1 : precedence[op]); !done)
-        return done;
-      if (auto done = push(op); !done) return done;
+      if (auto status = expression(to_the_right ? precedence[op] - 1 : precedence[op]); !status)
+        return status;
+      if (auto status = push(op); !status) return status;
     }
     --open_;
     return {};
   }
 
-  Done operand() {
+  Status operand() {
     const char c = next();
     if (c == '-' || c == '+') {
       ++at_;
-      if (auto done = expression(precedence[negative]); !done) return done;
-      return c == '-' ? push(negative) : Done{};
+      if (auto status = expression(precedence[negative]); !status) return status;
+      return c == '-' ? push(negative) : Status{};
     }
     if (c == '(') {
       ++at_;
-      if (auto done = expression(0); !done) return done;
+      if (auto status = expression(0); !status) return status;
       return close();
     }
     if (is_digit(c) || c == '.') return number();
@@ -165,13 +165,13 @@ class FormulaParser {
     return wrong(c == '\0' ? "the formula ends where a value is expected" : "a value is expected");
   }
 
-  Done close() {
+  Status close() {
     if (next() != ')') return wrong("a closing parenthesis is expected");
     ++at_;
     return {};
   }
 
-  Done number() {
+  Status number() {
     double value = 0;
     const char* const first = text_.data() + at_;
     const auto [end, error] = read_double(first, text_.data() + text_.size(), value);
@@ -180,7 +180,7 @@ class FormulaParser {
     return push(-1, value);
   }
 
-  Done name() {
+  Status name() {
     std::size_t end = at_;
     while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]))) ++end;
     const std::string_view name = text_.substr(at_, end - at_);
@@ -203,7 +203,7 @@ class FormulaParser {
     return arguments(function);
   }
 
-  Done arguments(int function) {
+  Status arguments(int function) {
     const int count = formula_functions[function].arguments;
     const auto expected = [&] {
       return wrong(fmt::format("{} takes {} argument{} in parentheses",
@@ -216,7 +216,7 @@ class FormulaParser {
         if (next() != ',') return expected();
         ++at_;
       }
-      if (auto done = expression(0); !done) return done;
+      if (auto status = expression(0); !status) return status;
     }
     if (next() != ')') return expected();
     ++at_;

@@ -79,7 +79,7 @@ Expected<Points> integrate(const Spline<D>& shape, const std::array<BasisTable, 
 /// A load with weights of its own.
 template <int D>
 Expected<Points> weighted_load(const Spline<D>& shape, const Spline<D>& load) {
-  std::array<BasisTable, D> own, other;
+  std::array<BasisTable, D> first, other;
   std::array<std::vector<double>, D> weights;
   std::array<const BasisTable*, D> pointers;
   for (std::size_t d = 0; d < D; ++d) {
@@ -105,7 +105,7 @@ Expected<Points> weighted_load(const Spline<D>& shape, const Spline<D>& load) {
     }
     auto made = tabulate_basis(a, at, 0);
     if (!made) return std::unexpected(made.error());
-    own[d] = std::move(*made);
+    first[d] = std::move(*made);
     made = tabulate_basis(b, at, 0);
     if (!made) return std::unexpected(made.error());
     other[d] = std::move(*made);
@@ -113,7 +113,7 @@ Expected<Points> weighted_load(const Spline<D>& shape, const Spline<D>& load) {
   }
   auto f = evaluate_grid<D>(load, pointers, 0);
   if (!f) return std::unexpected(f.error());
-  return integrate<D>(shape, own, weights, f->points());
+  return integrate<D>(shape, first, weights, f->points());
 }
 
 }  // namespace

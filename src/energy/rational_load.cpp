@@ -20,12 +20,12 @@ class RationalLoad {
       : shape_(shape), load_(load), elements_(knots_of(shape), shape.weights(), breaks_of(load)) {}
 
   Expected<Points> run() {
-    if (auto done = sum_up(false); !done) return std::unexpected(done.error());
+    if (auto status = sum_up(false); !status) return std::unexpected(status.error());
     // The sizes by few points may have been too large for the tolerance to be kept; those of this
     // pass are not.
     for (int pass = 0; pass < 4; ++pass) {
       size_ = measure_;
-      if (auto done = sum_up(true); !done) return std::unexpected(done.error());
+      if (auto status = sum_up(true); !status) return std::unexpected(status.error());
       if ((errors_.array() <= load_tolerance * measure_.array()).all()) break;
     }
     return forces_;
@@ -53,7 +53,7 @@ class RationalLoad {
     measure_ = errors_ = Eigen::VectorXd::Zero(shape_.size());
     RationalRule<D> rule(
         1, {.most_points = D == 3 ? 16 : 24, .all_points = 1e4 * elements_.count() + 1e7});
-    Expected<void> done;
+    Expected<void> status;
     double error = 0;
     const auto size = [&](const double* bounds, std::size_t d, double rho) {
       return this->size(bounds, d, rho);
@@ -61,8 +61,8 @@ class RationalLoad {
     const auto visit = [&](const RationalPiece<D>& piece, const std::array<int, D>& points,
                            double piece_error) {
       error += piece_error;
-      done = add(piece, points);
-      return done.has_value();
+      status = add(piece, points);
+      return status.has_value();
     };
     elements_.for_each([&](const RationalPiece<D>& piece) {
       error = 0;
@@ -72,17 +72,17 @@ class RationalLoad {
                              RationalElements<D>::share(piece);
       const bool kept =
           certified ? rule.integrate(piece, allowed, size, visit) : visit(piece, few, 0);
-      if (!kept && done) {
-        done = numerical_error(
+      if (!kept && status) {
+        status = numerical_error(
             "the weights of one element differ so much that loads on it cannot be integrated",
             "load", "use weights that differ less");
       }
       for (std::size_t r = 0; r < elements_.functions() && certified; ++r) {
         errors_[elements_.rows()[r]] += error * size_[elements_.rows()[r]];
       }
-      return done.has_value();
+      return status.has_value();
     });
-    return done;
+    return status;
   }
 
   /// A bound of R f relative to ∫ R and max |f|: f is a polynomial, which grows by ρ per degree at

@@ -33,14 +33,16 @@ class RationalAssembly {
     const bool certified =
         options_.rational_gauss_points == 0 && options_.denominator == RationalDenominator::exact;
     if (!certified) {
-      if (auto done = sum_up(result.matrix, false); !done) return std::unexpected(done.error());
+      if (auto status = sum_up(result.matrix, false); !status)
+        return std::unexpected(status.error());
       return result;
     }
-    if (auto done = estimate_sizes(); !done) return std::unexpected(done.error());
+    if (auto status = estimate_sizes(); !status) return std::unexpected(status.error());
     // The sizes by few points may have been too large for the tolerance to be kept; those of this
     // pass are not.
     for (int pass = 0; pass < 4 && !(result.error_bound <= options_.rational_tolerance); ++pass) {
-      if (auto done = sum_up(result.matrix, true); !done) return std::unexpected(done.error());
+      if (auto status = sum_up(result.matrix, true); !status)
+        return std::unexpected(status.error());
       result.error_bound = 0;
       for (Eigen::Index i = 0; i < size_.size(); ++i) {
         if (errors_[i] > 0)
@@ -72,13 +74,13 @@ class RationalAssembly {
   /// visit(piece) for every element, until one fails.
   template <class Visit>
   [[nodiscard]] Expected<void> for_elements(const Visit& visit) {
-    Expected<void> done;
+    Expected<void> status;
     elements_.for_each([&](const RationalPiece<D>& piece) {
       coefficients_.enter(piece.axes());
-      done = visit(piece);
-      return done.has_value();
+      status = visit(piece);
+      return status.has_value();
     });
-    return done;
+    return status;
   }
 
   /// The diagonal of K for |C|, roughly: what errors are relative to.
@@ -89,7 +91,7 @@ class RationalAssembly {
       std::array<int, D> points;
       for (std::size_t d = 0; d < D; ++d) points[d] = pattern_.degree[d] + 2;
       sums.clear();
-      if (auto done = sums.add(piece, points, false); !done) return done;
+      if (auto status = sums.add(piece, points, false); !status) return status;
       for (std::size_t r = 0; r < functions(); ++r)
         size_[elements_.rows()[r]] += sums.diagonal()[static_cast<Eigen::Index>(r)];
       return {};
@@ -103,9 +105,9 @@ class RationalAssembly {
     detail::RationalRule<D> rule(RationalPiece<D>::orders_up_to(coefficients_.order()), limits());
     return for_elements([&](const RationalPiece<D>& piece) -> Expected<void> {
       sums.clear();
-      auto done = certified ? integrate(piece, rule, sums) : integrate_by_count(piece, sums);
-      if (done) add(sums, matrix);
-      return done;
+      auto status = certified ? integrate(piece, rule, sums) : integrate_by_count(piece, sums);
+      if (status) add(sums, matrix);
+      return status;
     });
   }
 
@@ -125,17 +127,17 @@ class RationalAssembly {
     // An entry sums as many spans as there are functions on one; a part of a span has its share.
     const double allowed = options_.rational_tolerance / static_cast<double>(functions()) *
                            detail::RationalElements<D>::share(piece);
-    Expected<void> done;
+    Expected<void> status;
     double error = 0;
     const bool kept = rule.integrate(
         piece, allowed,
         [&](const double* bounds, std::size_t d, double rho) { return size(bounds, d, rho); },
         [&](const RationalPiece<D>& part, const std::array<int, D>& points, double part_error) {
           error += part_error;
-          done = sums.add(part, points, true);
-          return done.has_value();
+          status = sums.add(part, points, true);
+          return status.has_value();
         });
-    if (!done) return done;
+    if (!status) return status;
     if (!kept) return too_uneven();
     for (const int row : elements_.rows()) errors_[row] += error * size_[row];
     return {};
@@ -152,8 +154,8 @@ class RationalAssembly {
       int field = 0;
       for (const auto& v : coefficients_.varying())
         field = std::max(field, v.field->knots()[d].degree());
-      const int own = exact ? options_.rational_gauss_points : pattern_.degree[d] + 1;
-      points[d] = std::min(own + (field + 1) / 2, max_rational_gauss_points);
+      const int gauss_points = exact ? options_.rational_gauss_points : pattern_.degree[d] + 1;
+      points[d] = std::min(gauss_points + (field + 1) / 2, max_rational_gauss_points);
     }
     if (!exact) {
       constant = piece.middle_denominator();
@@ -246,10 +248,10 @@ Expected<void> check(const Spline<D>& spline, const FieldEnergy<D>& energy,
     }
     const auto* field = std::get_if<SplineField<D>>(&term.coefficient);
     for (std::size_t d = 0; d < D && field != nullptr; ++d) {
-      const Interval own = spline.knots()[d].domain(), other = field->knots()[d].domain();
-      if (own.lower != other.lower || own.upper != other.upper) {
-        return input_error(fmt::format("the domains [{}, {}] and [{}, {}] differ", own.lower,
-                                       own.upper, other.lower, other.upper),
+      const Interval range = spline.knots()[d].domain(), other = field->knots()[d].domain();
+      if (range.lower != other.lower || range.upper != other.upper) {
+        return input_error(fmt::format("the domains [{}, {}] and [{}, {}] differ", range.lower,
+                                       range.upper, other.lower, other.upper),
                            {}, "give a field over the domain of the spline");
       }
     }

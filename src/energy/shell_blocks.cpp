@@ -293,11 +293,11 @@ void ShellBlocks::add_hessian(const Points& x, const ShellStress& stress,
       const auto owns = [&](int node) { return from <= node % n && node % n < to; };
       const auto every = [](int) { return true; };
       for (std::size_t k = 0; k < some.size(); ++k) {
-        const double* own = numbers.data() + k * hessian_numbers();
+        const double* local = numbers.data() + k * hessian_numbers();
         if (end - begin == shares) {
-          add_entries(some[k], own, every, sum);
+          add_entries(some[k], local, every, sum);
         } else {
-          add_entries(some[k], own, owns, sum);
+          add_entries(some[k], local, owns, sum);
         }
       }
     });

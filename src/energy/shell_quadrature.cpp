@@ -49,18 +49,18 @@ Expected<ShellQuadrature> shell_quadrature(const std::array<KnotVector, 2>& knot
     int degree = 0;
     for (std::size_t f = 0; f < fields.size(); ++f) {
       if (fields[f] == nullptr) continue;
-      const KnotVector& own = fields[f]->knots()[d];
-      if (own.domain().lower != lower || own.domain().upper != upper) {
+      const KnotVector& stored = fields[f]->knots()[d];
+      if (stored.domain().lower != lower || stored.domain().upper != upper) {
         return input_error(
             fmt::format("the domains [{}, {}] of the shape and [{}, {}] of the field differ", lower,
-                        upper, own.domain().lower, own.domain().upper),
+                        upper, stored.domain().lower, stored.domain().upper),
             names[f], "give a field over the domain of the shape");
       }
-      degree += powers[f] * own.degree();
-      add(own);
+      degree += powers[f] * stored.degree();
+      add(stored);
     }
-    const int own = knots[d].degree() + 1 + degree / 2;
-    result.points[d] = gauss_points > 0 ? gauss_points : std::min(own, max_gauss_points);
+    const int stored = knots[d].degree() + 1 + degree / 2;
+    result.points[d] = gauss_points > 0 ? gauss_points : std::min(stored, max_gauss_points);
     if (breaks.empty()) {
       result.directions[d] = gauss_basis(knots[d], result.points[d], 2);
       continue;

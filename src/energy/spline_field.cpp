@@ -141,10 +141,10 @@ Expected<SplineField<D>> on_knots(const Coefficient<D>& coefficient,
   std::array<BasisTable, D> tables;
   std::array<const BasisTable*, D> pointers;
   for (std::size_t d = 0; d < D; ++d) {
-    const Interval own = field.knots()[d].domain(), other = knots[d].domain();
-    if (own.lower != other.lower || own.upper != other.upper) {
-      return input_error(fmt::format("the domains [{}, {}] and [{}, {}] differ", own.lower,
-                                     own.upper, other.lower, other.upper),
+    const Interval range = field.knots()[d].domain(), other = knots[d].domain();
+    if (range.lower != other.lower || range.upper != other.upper) {
+      return input_error(fmt::format("the domains [{}, {}] and [{}, {}] differ", range.lower,
+                                     range.upper, other.lower, other.upper),
                          fmt::format("direction {}", d),
                          "give a field over the domain of the spline");
     }

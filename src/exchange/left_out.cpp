@@ -59,8 +59,8 @@ std::vector<SkippedFace> failing_faces(const brep::Model& model) {
   if (failed.empty()) return result;
   brep::FaceTessellator close(model, {fine});
   for (const brep::Face* face : failed) {
-    if (auto done = draw(close, *face); !done)
-      result.push_back({face->id, std::move(done.error())});
+    if (auto status = draw(close, *face); !status)
+      result.push_back({face->id, std::move(status.error())});
   }
   return result;
 }

@@ -30,9 +30,9 @@ class LeftOutList {
                        {},
                        line});
     }
-    LeftOut& own = list_[at->second];
-    own.count += count;
-    if (!id.empty() && own.ids.size() < LeftOut::most_ids) own.ids.push_back(std::move(id));
+    LeftOut& stored = list_[at->second];
+    stored.count += count;
+    if (!id.empty() && stored.ids.size() < LeftOut::most_ids) stored.ids.push_back(std::move(id));
   }
   /// In the order in which each was first added.
   [[nodiscard]] std::vector<LeftOut> take() { return std::move(list_); }

@@ -131,21 +131,21 @@ std::string npy(
 std::string npy(std::span<const std::int64_t> numbers) { return npy_list("<i8", numbers); }
 
 Expected<std::string> npz(const Eigen::SparseMatrix<double>& matrix) {
-  Eigen::SparseMatrix<double> own = matrix;
-  own.makeCompressed();
-  const auto entries = static_cast<std::size_t>(own.nonZeros());
-  if (12.0 * static_cast<double>(entries) + 4.0 * static_cast<double>(own.cols()) > 4e9) {
+  Eigen::SparseMatrix<double> compressed = matrix;
+  compressed.makeCompressed();
+  const auto entries = static_cast<std::size_t>(compressed.nonZeros());
+  if (12.0 * static_cast<double>(entries) + 4.0 * static_cast<double>(compressed.cols()) > 4e9) {
     return input_error("the matrix has more entries than an archive of 4 GB holds", {},
                        "write Matrix Market alone");
   }
-  const std::array<std::int64_t, 2> shape = {own.rows(), own.cols()};
+  const std::array<std::int64_t, 2> shape = {compressed.rows(), compressed.cols()};
   StoredZip zip;
-  zip.add("indices.npy", npy_list<int>("<i4", {own.innerIndexPtr(), entries}));
-  zip.add("indptr.npy",
-          npy_list<int>("<i4", {own.outerIndexPtr(), static_cast<std::size_t>(own.cols()) + 1}));
+  zip.add("indices.npy", npy_list<int>("<i4", {compressed.innerIndexPtr(), entries}));
+  zip.add("indptr.npy", npy_list<int>("<i4", {compressed.outerIndexPtr(),
+                                              static_cast<std::size_t>(compressed.cols()) + 1}));
   zip.add("format.npy", npy_of("|S3", "()", "csc", 3));
   zip.add("shape.npy", npy_list<std::int64_t>("<i8", shape));
-  zip.add("data.npy", npy_list<double>("<f8", {own.valuePtr(), entries}));
+  zip.add("data.npy", npy_list<double>("<f8", {compressed.valuePtr(), entries}));
   return std::move(zip).finish();
 }
 

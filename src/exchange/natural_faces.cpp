@@ -106,22 +106,22 @@ class Builder {
     next.push(first);
     known[static_cast<std::size_t>(first)] = true;
     while (!next.empty()) {
-      const int own = next.front();
+      const int present = next.front();
       next.pop();
-      NaturalFace& face = result_.faces[static_cast<std::size_t>(own)];
+      NaturalFace& face = result_.faces[static_cast<std::size_t>(present)];
       face.shell = shell;
       for (const auto& use : face.loop) {
         const auto& users = users_[use.edge];
         closed = closed && users.size() == 2;
         for (const int other : users) {
-          if (other == own) continue;
+          if (other == present) continue;
           if (!known[static_cast<std::size_t>(other)]) {
             known[static_cast<std::size_t>(other)] = true;
             result_.faces[static_cast<std::size_t>(other)].flipped =
-                forward(other, use.edge) == forward(own, use.edge);
+                forward(other, use.edge) == forward(present, use.edge);
             next.push(other);
           }
-          closed = closed && forward(other, use.edge) != forward(own, use.edge);
+          closed = closed && forward(other, use.edge) != forward(present, use.edge);
         }
       }
     }
@@ -182,8 +182,8 @@ class Builder {
 Expected<NaturalFaces> natural_faces(std::span<const Surface* const> surfaces) {
   Builder builder(natural_tolerance(surfaces));
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (auto done = builder.add(*surfaces[k]); !done) {
-      return std::unexpected(done.error().within("surface " + std::to_string(k)));
+    if (auto status = builder.add(*surfaces[k]); !status) {
+      return std::unexpected(status.error().within("surface " + std::to_string(k)));
     }
   }
   return builder.build();

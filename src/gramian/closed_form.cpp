@@ -276,7 +276,7 @@ Expected<ClosedFormGramian> closed_form_rational_gramian(const KnotVector& knots
   const auto functions = elements.functions();
   const double allowed = size > 0 ? tolerance * size / static_cast<double>(functions) : 1;
   detail::PairRule<1> rule({a}, {b}, functions);
-  const bool done = elements.for_each([&](const detail::RationalPiece<1>& piece) {
+  const bool positive = elements.for_each([&](const detail::RationalPiece<1>& piece) {
     const std::vector<long double> fine = SpanFractions<long double>(piece, a, b).integrals();
     const std::vector<double> coarse = SpanFractions<double>(piece, a, b).integrals();
     // What a number of 53 bits loses, one of 64 loses too, 2048 times smaller.
@@ -300,7 +300,7 @@ Expected<ClosedFormGramian> closed_form_rational_gramian(const KnotVector& knots
     }
     return true;
   });
-  if (!done) return detail::no_lower_bound();
+  if (!positive) return detail::no_lower_bound();
   return result;
 }
 

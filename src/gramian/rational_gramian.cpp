@@ -24,7 +24,7 @@ Expected<void> integrate(RationalElements<D> elements, std::size_t count, MultiI
   const double allowed = size > 0 ? tolerance * size / static_cast<double>(functions) : 1;
   detail::PairRule<D> rule(a, b, functions);
   double worst = 0;
-  const bool done = elements.for_each([&](const detail::RationalPiece<D>& piece) {
+  const bool positive = elements.for_each([&](const detail::RationalPiece<D>& piece) {
     if (!rule.integrate(piece, allowed)) return false;
     worst = std::max(worst, rule.error());
     for (std::size_t i = 0; i < functions; ++i) {
@@ -33,7 +33,7 @@ Expected<void> integrate(RationalElements<D> elements, std::size_t count, MultiI
     }
     return true;
   });
-  if (!done) return detail::no_lower_bound();
+  if (!positive) return detail::no_lower_bound();
   summary.error_bound = worst * static_cast<double>(functions);
   summary.pieces = rule.pieces();
   summary.largest_points = rule.largest_points();
@@ -51,11 +51,11 @@ Expected<RationalGramian<BandMatrix>> rational_gramian(const KnotVector& knots,
   }
   RationalGramian<BandMatrix> result{
       BandMatrix(knots.count(), knots.degree(), detail::symmetry_of(a, b))};
-  const auto done = integrate<1>(RationalElements<1>({&knots}, weights), weights.size(), {a}, {b},
-                                 tolerance, result, [&](int i, int j, double value) {
-                                   if (a != b || i <= j) result.matrix.at(i, j) += value;
-                                 });
-  if (!done) return std::unexpected(done.error());
+  const auto status = integrate<1>(RationalElements<1>({&knots}, weights), weights.size(), {a}, {b},
+                                   tolerance, result, [&](int i, int j, double value) {
+                                     if (a != b || i <= j) result.matrix.at(i, j) += value;
+                                   });
+  if (!status) return std::unexpected(status.error());
   return result;
 }
 
@@ -67,10 +67,10 @@ Expected<RationalGramian<Eigen::SparseMatrix<double>>> rational_gramian(
     return std::unexpected(good.error());
   RationalGramian<Eigen::SparseMatrix<double>> result;
   std::vector<Eigen::Triplet<double>> triplets;
-  const auto done = integrate<2>(
+  const auto status = integrate<2>(
       RationalElements<2>({&knots[0], &knots[1]}, weights), weights.size(), a, b, tolerance, result,
       [&](int i, int j, double value) { triplets.emplace_back(i, j, value); });
-  if (!done) return std::unexpected(done.error());
+  if (!status) return std::unexpected(status.error());
   result.matrix.resize(count, count);
   result.matrix.setFromTriplets(triplets.begin(), triplets.end());
   return result;

@@ -53,8 +53,8 @@ void fill_growth(double rho, int degree, double* grow) {
 
 }  // namespace
 
-RationalAxis::RationalAxis(const KnotVector& own, int own_span, double a, double b)
-    : knots(&own), span(own_span), lower(a), upper(b) {
+RationalAxis::RationalAxis(const KnotVector& knot_vector, int own_span, double a, double b)
+    : knots(&knot_vector), span(own_span), lower(a), upper(b) {
   const int width = degree() + 1;
   chebyshev.assign(static_cast<std::size_t>(3 * width * width), 0.0);
   SpanValues<double> at[3];

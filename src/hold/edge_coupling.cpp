@@ -144,11 +144,11 @@ Expected<EdgeCoupling> couple_edges(std::span<const Surface* const> patches,
     return {};
   };
   for (const CoupledEdge& edge : edges) {
-    if (auto done = couple(edge, false, tolerance.position); !done)
-      return std::unexpected(done.error());
+    if (auto status = couple(edge, false, tolerance.position); !status)
+      return std::unexpected(status.error());
     if (edge.across.empty()) continue;
-    if (auto done = couple(edge, true, tolerance.tangent); !done)
-      return std::unexpected(done.error());
+    if (auto status = couple(edge, true, tolerance.tangent); !status)
+      return std::unexpected(status.error());
   }
   return result;
 }

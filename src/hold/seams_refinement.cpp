@@ -38,9 +38,9 @@ bool take_over(Target& target, const Target& other, bool mirror, double agreemen
   std::vector<InnerKnot> missing;
   for (std::size_t j = 0; j < wanted.size(); ++j) {
     if (pair < pairs.size() && pairs[pair].second == j) {
-      InnerKnot& own = target.inner[pairs[pair++].first];
-      if (own.multiplicity >= wanted[j].multiplicity) continue;
-      own.multiplicity = wanted[j].multiplicity;
+      InnerKnot& stored = target.inner[pairs[pair++].first];
+      if (stored.multiplicity >= wanted[j].multiplicity) continue;
+      stored.multiplicity = wanted[j].multiplicity;
     } else {
       missing.push_back(wanted[j]);
     }
@@ -57,13 +57,13 @@ std::vector<SeamRefinement> seam_refinements(std::span<const Surface* const> pat
                                              std::span<const Seam> seams, double agreement) {
   std::vector<std::array<Target, 2>> targets;
   for (const Surface* patch : patches) {
-    std::array<Target, 2> own;
+    std::array<Target, 2> pair;
     for (int d = 0; d < 2; ++d) {
       const KnotVector& knots = patch->knots(d);
-      own[static_cast<std::size_t>(d)] = {
+      pair[static_cast<std::size_t>(d)] = {
           knots.degree(), seams::inner_knots(seams::normalised_knots(knots, false))};
     }
-    targets.push_back(std::move(own));
+    targets.push_back(std::move(pair));
   }
   const auto target = [&](const PatchEdge& e) -> Target& {
     assert(e.patch >= 0 && static_cast<std::size_t>(e.patch) < patches.size());
@@ -87,16 +87,16 @@ std::vector<SeamRefinement> seam_refinements(std::span<const Surface* const> pat
       const Interval domain = knots.domain();
       const Target& wanted = targets[patch][static_cast<std::size_t>(d)];
       SeamRefinement refinement{static_cast<int>(patch), d, wanted.degree - knots.degree(), {}};
-      std::vector<double> own;  // values of the inner knots, bit for bit
+      std::vector<double> own_values;  // values of the inner knots, bit for bit
       for (double x : knots.knots()) {
-        if (x > domain.lower && x < domain.upper && (own.empty() || own.back() != x))
-          own.push_back(x);
+        if (x > domain.lower && x < domain.upper && (own_values.empty() || own_values.back() != x))
+          own_values.push_back(x);
       }
       const auto inner = seams::inner_knots(seams::normalised_knots(knots, false));
       for (const InnerKnot& k : wanted.inner) {
         const auto at = std::ranges::find(inner, k.t, &InnerKnot::t);
         const bool stands = at != inner.end();
-        const double value = stands ? own[static_cast<std::size_t>(at - inner.begin())]
+        const double value = stands ? own_values[static_cast<std::size_t>(at - inner.begin())]
                                     : (k.t < 0.5 ? domain.lower + k.t * domain.length()
                                                  : domain.upper - (1 - k.t) * domain.length());
         const int already = stands ? at->multiplicity + refinement.elevate : 0;

@@ -132,16 +132,16 @@ Expected<TrimRefinement> trim_refinement(const Surface& surface, const std::arra
       if (!lower) return std::unexpected(lower.error());
       if (!upper) return std::unexpected(upper.error());
       const double length = coarser * distance / std::max(8, 2 * degree + 2);
-      auto done = divide(curve, knots, *lower, *upper, length, result.insert[d]);
-      if (done && detail > 0 && coarser * detail / 3 < length) {
+      auto status = divide(curve, knots, *lower, *upper, length, result.insert[d]);
+      if (status && detail > 0 && coarser * detail / 3 < length) {
         const auto a = curve.reach(1.5 * detail, knots.domain().lower),
                    b = curve.reach(1.5 * detail, knots.domain().upper);
         if (!a) return std::unexpected(a.error());
         if (!b) return std::unexpected(b.error());
-        done = divide(curve, knots, std::max(*a, *lower), std::min(*b, *upper),
-                      coarser * detail / 3, result.insert[d]);
+        status = divide(curve, knots, std::max(*a, *lower), std::min(*b, *upper),
+                        coarser * detail / 3, result.insert[d]);
       }
-      if (!done) return std::unexpected(done.error());
+      if (!status) return std::unexpected(status.error());
       std::ranges::sort(result.insert[d]);
       size *= knots.count() +
               static_cast<double>(result.elevate[d]) * static_cast<double>(knots.spans().size()) +

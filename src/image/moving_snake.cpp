@@ -95,7 +95,7 @@ Expected<void> MovingSnake::step(const ImagePotential& image, double side,
   ++iterations;
   motion.went_to(c, settings.motion);
   if (motion.steadied(move)) {
-    if (auto done = net.set_viscosity(viscosity()); !done) return done;
+    if (auto status = net.set_viscosity(viscosity()); !status) return status;
   }
   const bool normal = image.settings().region != 0 || settings.balloon != 0;
   const bool may =

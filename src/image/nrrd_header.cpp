@@ -321,15 +321,15 @@ Expected<NrrdHeader> parse_nrrd_header(std::string_view bytes, std::string name)
         version[7] > '5') {
       return HeaderFields::wrong(1, "it is no NRRD file of the versions NRRD0001 to NRRD0005");
     }
-    if (auto done = fields.read(bytes, header); !done) return done;
-    if (auto done = read_type(fields, header); !done) return done;
-    if (auto done = read_sizes(fields, header); !done) return done;
-    if (auto done = read_data_place(fields, header); !done) return done;
+    if (auto status = fields.read(bytes, header); !status) return status;
+    if (auto status = read_type(fields, header); !status) return status;
+    if (auto status = read_sizes(fields, header); !status) return status;
+    if (auto status = read_data_place(fields, header); !status) return status;
     const bool in_space = fields.find("space directions") != nullptr;
     return in_space ? read_space(fields, header) : read_axes(fields, header);
   };
-  if (auto done = read(); !done) {
-    Error error = done.error();
+  if (auto status = read(); !status) {
+    Error error = status.error();
     error.file = std::move(name);
     return std::unexpected(std::move(error));
   }

@@ -25,9 +25,9 @@ class Cover {
   }
 
   /// Whether a place is inside of other snakes than this one, or beyond the image.
-  [[nodiscard]] bool forbidden(double x, double y, int own) const {
+  [[nodiscard]] bool forbidden(double x, double y, int snake_index) const {
     const auto at = pixel(x, y);
-    return !at || (owner_[*at] != none && owner_[*at] != own);
+    return !at || (owner_[*at] != none && owner_[*at] != snake_index);
   }
   [[nodiscard]] bool free(double x, double y) const {
     const auto at = pixel(x, y);
@@ -35,14 +35,14 @@ class Cover {
   }
 
  private:
-  void add(const MovingSnake& snake, int own) {
+  void add(const MovingSnake& snake, int snake_index) {
     const Points v = snake.net.at_gauss(snake.c, 0);
     std::vector<std::array<double, 2>> line;
     for (Eigen::Index q = 0; q < v.rows(); ++q) line.push_back({v(q, 0), v(q, 1)});
     for_rows_inside(line, width_, height_, [&](int y, int from, int to) {
       for (int x = from; x <= to; ++x) {
         int& owner = owner_[*pixel(x, y)];
-        owner = owner == none ? own : several;
+        owner = owner == none ? snake_index : several;
       }
     });
   }
@@ -71,7 +71,7 @@ std::optional<double> median(GreySamples samples) {
 
 /// Fills in what is outside within the snake's band.
 void look_around(const ImagePotential& image, const MovingSnake& snake, double side,
-                 const Cover& cover, int own, Sides& sides) {
+                 const Cover& cover, int snake_index, Sides& sides) {
   const Points v = snake.net.at_gauss(snake.c, 0), t = snake.net.at_gauss(snake.c, 1);
   GreySamples band;
   std::vector<std::array<double, 2>> least_and_most;  // on the way outwards from each point
@@ -82,14 +82,14 @@ void look_around(const ImagePotential& image, const MovingSnake& snake, double s
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (double d = 0; d < snake.settings.band; ++d) {
       const double x = v(q, 0) + d * normal[0], y = v(q, 1) + d * normal[1];
-      if (cover.forbidden(x, y, own)) break;
+      if (cover.forbidden(x, y, snake_index)) break;
       const double grey = image.intensity(x, y);
       least = std::min(least, grey);
       most = std::max(most, grey);
       if (cover.free(x, y)) band.emplace_back(grey, length);
     }
     least_and_most.push_back({least, most});
-    sides.beyond.push_back(cover.forbidden(v(q, 0), v(q, 1), own));
+    sides.beyond.push_back(cover.forbidden(v(q, 0), v(q, 1), snake_index));
   }
   const double around = median(std::move(band)).value_or(sides.outside.front());
   for (std::size_t q = 0; q < least_and_most.size(); ++q) {

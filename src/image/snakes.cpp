@@ -23,8 +23,8 @@ Expected<void> step_all(const ImagePotential& image, std::vector<MovingSnake>& s
   const auto sides = sides_of(image, snakes, insides);
   for (std::size_t k = 0; k < snakes.size(); ++k) {
     if (snakes[k].ended()) continue;
-    if (auto done = snakes[k].step(image, std::copysign(1, insides[k].area), sides[k]); !done)
-      return done;
+    if (auto status = snakes[k].step(image, std::copysign(1, insides[k].area), sides[k]); !status)
+      return status;
   }
   return {};
 }
@@ -51,7 +51,7 @@ struct Snakes::State {
     while (!ended()) {
       std::vector<MovingSnake>& moving = fine.empty() ? snakes : fine;
       if (!all_ended(moving)) return step_all(image, moving);
-      if (auto done = fine.empty() ? try_finer() : adopt(); !done) return done;
+      if (auto status = fine.empty() ? try_finer() : adopt(); !status) return status;
     }
     return {};
   }
@@ -121,7 +121,7 @@ bool Snakes::ended() const { return state_->ended(); }
 Expected<int> Snakes::advance(int iterations) {
   int made = 0;
   for (; made < iterations && !state_->ended(); ++made) {
-    if (auto done = state_->advance(); !done) return std::unexpected(done.error());
+    if (auto status = state_->advance(); !status) return std::unexpected(status.error());
   }
   return made;
 }
@@ -147,7 +147,7 @@ Expected<void> Snakes::change(int snake, const SnakeSettings& settings) {
   const double share = before.settings.end_tension * before.settings.alpha;
   auto pull = before.end_pull;  // of where it started, not of where it is
   for (double& p : pull) p *= share > 0 ? settings.end_tension * settings.alpha / share : 0;
-  if (auto done = replace(snake, now->curve, settings); !done) return done;
+  if (auto status = replace(snake, now->curve, settings); !status) return status;
   if (share > 0) state_->snakes[static_cast<std::size_t>(snake)].end_pull = pull;
   return {};
 }
@@ -178,7 +178,7 @@ Expected<std::vector<SnakeResult>> run_snakes(const ImagePotential& potential,
   auto snakes = Snakes::create(potential, starts, settings);
   if (!snakes) return std::unexpected(snakes.error());
   while (!snakes->ended()) {
-    if (auto done = snakes->advance(100); !done) return std::unexpected(done.error());
+    if (auto status = snakes->advance(100); !status) return std::unexpected(status.error());
   }
   return snakes->results();
 }

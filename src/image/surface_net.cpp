@@ -128,7 +128,7 @@ Expected<SurfaceNet> SurfaceNet::create(const SurfaceSpace& space, double alpha,
     }
   }
   net.make_transform();
-  if (auto done = net.make_modes(alpha, beta); !done) return std::unexpected(done.error());
+  if (auto status = net.make_modes(alpha, beta); !status) return std::unexpected(status.error());
   return net;
 }
 
@@ -341,7 +341,7 @@ Points SurfaceNet::unknowns_of(const Surface& surface) const {
 Expected<Points> projected(const SurfaceSpace& space, const Points& places) {
   auto net = SurfaceNet::create(space, 0, 0);
   if (!net) return std::unexpected(net.error());
-  if (auto done = net->factor(1, true); !done) return std::unexpected(done.error());
+  if (auto status = net->factor(1, true); !status) return std::unexpected(status.error());
   return net->solve(net->load(net->weights_on_domain().asDiagonal() * places));
 }
 

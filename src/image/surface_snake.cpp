@@ -43,7 +43,7 @@ struct MovingSurface {
 
   /// Everything that depends on the net and the viscosity.
   Expected<void> prepare() {
-    if (auto done = net.factor(viscosity()); !done) return done;
+    if (auto status = net.factor(viscosity()); !status) return status;
     const auto count = std::ssize(settings.springs);
     const auto domain = net.space().lengths;
     held.resize(c.rows(), count);
@@ -154,7 +154,7 @@ struct MovingSurface {
     ++iterations;
     motion.went_to(c, settings.motion);
     if (motion.steadied(move)) {
-      if (auto done = prepare(); !done) return done;
+      if (auto status = prepare(); !status) return status;
     }
     const bool normal =
         image.settings().region != 0 || image.settings().flow != 0 || settings.balloon != 0;
@@ -185,8 +185,8 @@ struct MovingSurface {
       auto plain = SurfaceNet::create(net.space(), 0, 0),
            laplace = SurfaceNet::create(net.space(), 1, 0);
       if (!plain || !laplace) return std::unexpected(plain ? laplace.error() : plain.error());
-      if (auto done = plain->factor(1, true); !done) return done;
-      if (auto done = laplace->factor(nearly_singular / (turn * turn)); !done) return done;
+      if (auto status = plain->factor(1, true); !status) return status;
+      if (auto status = laplace->factor(nearly_singular / (turn * turn)); !status) return status;
       mass = std::move(*plain);
       poisson = std::move(*laplace);
     }
@@ -238,7 +238,7 @@ Expected<void> run_until_rest(const VolumePotential& image, std::vector<MovingSu
         greys = Greys{insides[k].intensity / insides[k].volume, outside};
         if (snakes[k].settings.band > 0) greys->outside = snakes[k].grey_around(image, side);
       }
-      if (auto done = snakes[k].step(image, side, greys); !done) return done;
+      if (auto status = snakes[k].step(image, side, greys); !status) return status;
     }
   }
   return {};
@@ -250,7 +250,7 @@ Expected<MovingSurface> activated(const SurfaceSnakeSettings& settings, const Su
   if (!net) return std::unexpected(net.error());
   MovingSurface active{settings, std::move(*net), std::move(c)};
   active.iterations = iterations;
-  if (auto done = active.prepare(); !done) return std::unexpected(done.error());
+  if (auto status = active.prepare(); !status) return std::unexpected(status.error());
   return active;
 }
 
@@ -296,7 +296,7 @@ Expected<void> refine_all(const VolumePotential& image, std::vector<MovingSurfac
       if (!finer) return std::unexpected(finer.error());
       fine.back() = std::move(*finer);
     }
-    if (auto done = run_until_rest(image, fine); !done) return done;
+    if (auto status = run_until_rest(image, fine); !status) return status;
     for (std::size_t k = 0; k < snakes.size(); ++k) {
       if (!refined[k]) continue;
       const auto moved = difference(snakes[k], fine[k]);
@@ -340,7 +340,8 @@ Expected<std::vector<SurfaceSnakeResult>> run_surface_snakes(
     }
     snakes.push_back(std::move(*active));
   }
-  if (auto done = run_until_rest(potential, snakes); !done) return std::unexpected(done.error());
+  if (auto status = run_until_rest(potential, snakes); !status)
+    return std::unexpected(status.error());
   if (auto refined = refine_all(potential, snakes); !refined)
     return std::unexpected(refined.error());
   std::vector<SurfaceSnakeResult> results;

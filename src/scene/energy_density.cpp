@@ -18,11 +18,11 @@ EnergyScalingInput energy_scaling_input(const Scene& scene, int surface) {
 
 Expected<DomainScaling<2>> energy_scaling(const EnergyScalingInput& input) {
   if (input.mode == ScalingMode::raw) return DomainScaling<2>{};
-  auto own = normalised_scaling<2>(*input.reference);
-  if (!own || !input.first) return own;
+  auto scaling = normalised_scaling<2>(*input.reference);
+  if (!scaling || !input.first) return scaling;
   const auto first = normalised_scaling<2>(*input.first);
   if (!first) return first;
-  return in_unit<2>(*own, first->length);
+  return in_unit<2>(*scaling, first->length);
 }
 
 Expected<std::vector<double>> energy_density(

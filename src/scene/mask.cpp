@@ -90,7 +90,7 @@ Expected<void> change_mask(SceneSurface& surface, MaskChange change, double radi
     const auto values = SiteValues<2>::create(*surface.current, Sites::chebyshev);
     if (!values) return std::unexpected(values.error());
     BrushSamples samples;
-    if (auto done = samples.append(*surface.current, *values); !done) return done;
+    if (auto status = samples.append(*surface.current, *values); !status) return status;
     mask = spread(mask, samples, change, radius);
   }
   if (std::ranges::all_of(mask, [](double m) { return m == 0; })) mask.clear();

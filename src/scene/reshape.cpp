@@ -66,7 +66,7 @@ class MaskKept {
 Expected<void> change_basis(SceneSurface& surface, const SurfaceChange& change) {
   const MaskKept mask(surface);
   const auto net = surface.current->net();
-  if (auto done = replace(shapes_of(surface), change); !done) return done;
+  if (auto status = replace(shapes_of(surface), change); !status) return status;
   return surface.current->net() == net ? Expected<void>() : mask.put_on(surface);
 }
 
@@ -83,14 +83,14 @@ Expected<void> change_net(SceneSurface& surface, const SurfaceChange& change) {
   const MaskKept mask(surface);
   auto shapes = shapes_of(surface);
   if (same_basis(*surface.opened, *surface.current)) shapes.push_back(&surface.opened);
-  if (auto done = replace(shapes, change); !done) return done;
+  if (auto status = replace(shapes, change); !status) return status;
   surface.velocity = std::move(velocity);
   return mask.put_on(surface);
 }
 
 Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
   if (auto free = check_pins(s); !free) return std::unexpected(free.error());
-  Coarsening done;
+  Coarsening total;
   const MaskKept mask(s);
   for (int d = 0; d < 2; ++d) {
     // Each direction may use half of the tolerance.
@@ -102,8 +102,8 @@ Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
     auto result = remove_knots<2>(*s.current, d, 0.5 * tolerance, others);
     if (!result) return std::unexpected(result.error());
     if (result->removed.empty()) continue;
-    done.removed += result->removed.size();
-    done.bound += result->error_bound;
+    total.removed += result->removed.size();
+    total.bound += result->error_bound;
     const auto current = std::make_shared<const Surface>(std::move(result->spline));
     std::map<const Surface*, Shape2> made = {{s.current.get(), current}};
     for (std::size_t k = 0; k < shapes.size(); ++k) {
@@ -116,11 +116,11 @@ Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
     }
     for (Shape2* shape : shapes) *shape = made[shape->get()];
     s.current = current;
-    done.stopped = done.stopped || s.velocity.rows() > 0;
+    total.stopped = total.stopped || s.velocity.rows() > 0;
     s.velocity.resize(0, 3);
   }
   if (auto put = mask.put_on(s); !put) return std::unexpected(put.error());
-  return done;
+  return total;
 }
 
 Expected<Lattice> lattice_around(const std::vector<std::shared_ptr<const Surface>>& surfaces,

@@ -235,10 +235,10 @@ Expected<TrimReport> trim_report(const SceneSurface& s) {
         ++report.samples;
         return {};
       };
-      if (auto done = measure(edge.course[k]); !done) return std::unexpected(done.error());
+      if (auto status = measure(edge.course[k]); !status) return std::unexpected(status.error());
       if (k == 0) continue;
-      if (auto done = measure(0.5 * (edge.course[k - 1] + edge.course[k])); !done)
-        return std::unexpected(done.error());
+      if (auto status = measure(0.5 * (edge.course[k - 1] + edge.course[k])); !status)
+        return std::unexpected(status.error());
     }
     if (!made.follows) report.largest = std::max(report.largest, made.deviation);
   }

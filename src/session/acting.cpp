@@ -53,9 +53,9 @@ Expected<bool> Session::act(std::span<const Command> commands, const ActOptions&
   bool joins = options.join;
   for (const Command& command : commands) {
     const std::size_t place = position_;
-    if (auto done = execute(command, progress, go_on); !done) {
+    if (auto status = execute(command, progress, go_on); !status) {
       go_back(std::move(before));
-      return std::unexpected(std::move(done.error()));
+      return std::unexpected(std::move(status.error()));
     }
     if (travels(command)) {
       joins = false;

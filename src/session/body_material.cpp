@@ -25,8 +25,8 @@ Expected<void> set_material(SceneShape<D>& s, const MaterialCommand& c) {
     std::ranges::copy(*given, to.begin());
     return {};
   };
-  if (auto done = set(c.alpha, next.alpha, "alpha"); !done) return done;
-  if (auto done = set(c.beta, next.beta, "beta"); !done) return done;
+  if (auto status = set(c.alpha, next.alpha, "alpha"); !status) return status;
+  if (auto status = set(c.beta, next.beta, "beta"); !status) return status;
   if (auto checked = validated<D>(next); !checked) return std::unexpected(checked.error());
   s.material = MaterialFieldOf<D>(next, mass, damping);
   return {};
@@ -90,7 +90,7 @@ Expected<void> set_body_material(Act& act, const MaterialCommand& c) {
   }
   const auto set = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
     if (c.reset) reset_material(s);
-    if (auto done = set_elasticity<D>(c, s.elasticity); !done) return done;
+    if (auto status = set_elasticity<D>(c, s.elasticity); !status) return status;
     return set_material(s, c);
   };
   return std::visit(set, *body(act));

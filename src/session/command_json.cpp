@@ -99,8 +99,9 @@ Expected<Command> read_command(const Json& given) {
   const auto json = spelled_out(given);
   if (!json) return std::unexpected(json.error());
   AnyCommand any;
-  if (auto done = read_variant(*json, type_of<CommandVariant>(), &any.fields, "command"); !done) {
-    return std::unexpected(done.error());
+  if (auto status = read_variant(*json, type_of<CommandVariant>(), &any.fields, "command");
+      !status) {
+    return std::unexpected(status.error());
   }
   return Command(std::move(any));
 }
@@ -117,7 +118,7 @@ Expected<std::vector<Command>> parse_commands(std::string_view text) {
   if (!json->is(Json::Kind::list))
     return input_error("this is no list of commands", "commands", R"(write [{"do": …}])");
   std::vector<Command> commands;
-  if (auto done = read_commands(*json, commands); !done) return std::unexpected(done.error());
+  if (auto status = read_commands(*json, commands); !status) return std::unexpected(status.error());
   return commands;
 }
 
@@ -149,7 +150,7 @@ Expected<std::vector<Command>> parse_script(std::string_view text, const std::st
   }
   std::vector<Command> commands = {default_hold()};
   if (before != nullptr) *before = commands.size();
-  if (auto done = read_commands(*list, commands); !done) return fail(done.error());
+  if (auto status = read_commands(*list, commands); !status) return fail(status.error());
   return commands;
 }
 

@@ -45,10 +45,10 @@ inline CoefficientForm form_of(const std::optional<SplineField<2>>& field) {
 }
 inline bool take(std::optional<SplineField<2>>& field, CoefficientForm& form) {
   Coefficient<2> c = 0.0;
-  const bool done = take<2>(c, form);
+  const bool taken = take<2>(c, form);
   field.reset();
   if (auto* made = std::get_if<SplineField<2>>(&c)) field = std::move(*made);
-  return done;
+  return taken;
 }
 
 template <class E>

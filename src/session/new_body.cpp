@@ -253,8 +253,8 @@ Expected<void> check_counts(const NewCommand& c, std::size_t directions) {
         fmt::format("{} numbers for {} direction{}", given, directions, directions == 1 ? "" : "s"),
         field, directions == 1 ? "give one" : fmt::format("give {}, or one for all", directions));
   };
-  if (auto done = check(c.degree.size(), "degree"); !done) return done;
-  if (auto done = check(c.net.size(), "net"); !done) return done;
+  if (auto status = check(c.degree.size(), "degree"); !status) return status;
+  if (auto status = check(c.net.size(), "net"); !status) return status;
   return c.size ? check(c.size->size(), "size") : Expected<void>();
 }
 

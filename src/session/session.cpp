@@ -78,11 +78,11 @@ Expected<void> apply(const C& command, Act& act) {
 Expected<void> Session::execute(const Command& command, const Progress& progress,
                                 const GoOn& go_on) {
   const Interruption interruption(go_on);
-  auto done = carry_out(command, progress);
+  auto status = carry_out(command, progress);
   // What a command asks for is input, also where the function that refuses it takes it as an
   // argument.
-  if (!done && done.error().kind == ErrorKind::usage) done.error().kind = ErrorKind::input;
-  if (done || !interruption.happened()) return done;
+  if (!status && status.error().kind == ErrorKind::usage) status.error().kind = ErrorKind::input;
+  if (status || !interruption.happened()) return status;
   *cache_ = {};
   return interrupted_error();
 }
@@ -111,7 +111,7 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   }
   act.meeting = FaceMeeting(through_of(meant, stops_at_faces_).value_or(Through::allow));
   const auto applied = [&](const auto& fields) { return apply(fields, act); };
-  if (auto done = std::visit(applied, meant.any().fields); !done) return done;
+  if (auto status = std::visit(applied, meant.any().fields); !status) return status;
   if (auto kept = keep_law(act); !kept) return kept;
   if (auto met = act.meeting.at_end(act, state()); !met) return met;
   if (auto closed = check_followed(*next, state()); !closed) return closed;
@@ -154,7 +154,7 @@ Expected<void> Session::rehearse(std::span<const Command> commands, const GoOn& 
   const Kept kept{*this, std::exchange(states_, std::move(alone)), std::exchange(entries_, {}),
                   std::exchange(position_, 0), std::exchange(floor_, 0)};
   for (const Command& command : commands) {
-    if (auto done = execute(command, {}, go_on); !done) return done;
+    if (auto status = execute(command, {}, go_on); !status) return status;
   }
   return {};
 }

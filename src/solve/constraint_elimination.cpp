@@ -62,7 +62,7 @@ Expected<void> ConstraintElimination::add(const LinearConstraint& c) {
   for (int k = 0; k < 3; ++k) {
     terms.clear();
     for (const auto& [unknown, a] : c.terms) terms.emplace_back(3 * unknown + k, a);
-    if (auto done = eliminate(terms, &c.value[k], it->second); !done) return done;
+    if (auto status = eliminate(terms, &c.value[k], it->second); !status) return status;
   }
   return {};
 }

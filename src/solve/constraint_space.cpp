@@ -41,11 +41,11 @@ Expected<detail::ConstraintElimination> ConstraintSpace::eliminated(
   for (const bool sources :
        {false, true}) {  // who contradicts whom is found out only where somebody does
     detail::ConstraintElimination elimination(size, held, *coupled || coordinates, sources);
-    Expected<void> done;
-    for (std::size_t k = 0; k < constraints.size() && done; ++k)
-      done = elimination.add(constraints[k]);
-    if (done) return elimination;
-    if (sources) return std::unexpected(done.error());
+    Expected<void> status;
+    for (std::size_t k = 0; k < constraints.size() && status; ++k)
+      status = elimination.add(constraints[k]);
+    if (status) return elimination;
+    if (sources) return std::unexpected(status.error());
   }
   return input_error("constraints contradict each other", "constraints",
                      "release one of them");  // not reached

@@ -61,19 +61,19 @@ class Dissector {
 
   /// Gives places to the unknowns of a part, and returns its last node. \param own it is or has
   /// nodes of its own.
-  int divide(std::span<int> part, bool own) {
-    const bool one_node = own && part.size() <= node_size_;
+  int divide(std::span<int> part, bool is_own) {
+    const bool one_node = is_own && part.size() <= node_size_;
     const int begin = next_;
     const int direction = part.size() <= leaf ? -1 : longest(part);
     std::size_t first = 0, second = 0;
     if (direction >= 0) std::tie(first, second) = split(part, direction);
     std::vector<int> children;
     if (second > 0) {
-      const bool further = own && !one_node;
+      const bool further = is_own && !one_node;
       children = {divide(part.first(first), further), divide(part.subspan(first, second), further)};
     }
     for (const int i : part.subspan(first + second)) result_.order[i] = next_++;
-    if (!own) return -1;
+    if (!is_own) return -1;
     const int from = one_node || children.empty()
                          ? begin
                          : next_ - static_cast<int>(part.size() - first - second);

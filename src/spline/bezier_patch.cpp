@@ -243,10 +243,10 @@ Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Surface& surf
         extract(ku, su, column);
         for (int i = 0; i <= p; ++i) net[index(i * (q + 1) + j)] = column[index(i)];
       }
-      if (auto done =
+      if (auto status =
               normalise(net, surface.rational(), fmt::format("surface: span ({}, {})", su, sv));
-          !done) {
-        return std::unexpected(done.error());
+          !status) {
+        return std::unexpected(status.error());
       }
       patches.push_back(std::make_unique<BezierPatch>(p, q, std::move(net), surface.rational()));
     }
@@ -266,8 +266,9 @@ Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Curve& curve)
       net[index(i)] << w * curve.control_points().row(from).transpose(), w;
     }
     extract(knots, span, net);
-    if (auto done = normalise(net, curve.rational(), fmt::format("curve: span {}", span)); !done) {
-      return std::unexpected(done.error());
+    if (auto status = normalise(net, curve.rational(), fmt::format("curve: span {}", span));
+        !status) {
+      return std::unexpected(status.error());
     }
     patches.push_back(std::make_unique<BezierPatch>(p, 0, std::move(net), curve.rational()));
   }

@@ -89,8 +89,9 @@ Expected<std::vector<CurvatureComb>> curvature_combs(const Surface& surface,
   }
   std::vector<CurvatureComb> combs;
   for (const int d : {0, 1}) {
-    if (auto done = append(surface, d, d == 0 ? along_u : along_v, options.teeth, combs); !done) {
-      return std::unexpected(done.error());
+    if (auto status = append(surface, d, d == 0 ? along_u : along_v, options.teeth, combs);
+        !status) {
+      return std::unexpected(status.error());
     }
   }
   return combs;

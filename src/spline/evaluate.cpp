@@ -234,8 +234,8 @@ Expected<Evaluation<D>> evaluate(const Spline<D>& spline, const Parameters<D>& p
     pointers[d] = &tables[d];
   }
   Evaluation<D> result;
-  auto done = evaluate<D>(spline, pointers, order, result);
-  if (!done) return std::unexpected(std::move(done.error()));
+  auto status = evaluate<D>(spline, pointers, order, result);
+  if (!status) return std::unexpected(std::move(status.error()));
   return result;
 }
 

@@ -184,12 +184,12 @@ class GridWalk {
 
   bool divide_row() {
     const auto size = static_cast<std::ptrdiff_t>(task_.basis.size());
-    const std::ptrdiff_t done =
+    const std::ptrdiff_t evaluated =
         task_.kernels.divide(task_.quotient.terms(), homogeneous_.data(),
                              static_cast<std::ptrdiff_t>(task_.basis.stride()), size, work_.data(),
                              task_.out.data(), static_cast<std::ptrdiff_t>(row_));
-    at_[D - 1] = static_cast<std::size_t>(done);
-    return done == size;
+    at_[D - 1] = static_cast<std::size_t>(evaluated);
+    return evaluated == size;
   }
 
   const GridTask<D>& task_;
@@ -289,8 +289,8 @@ template <int D>
 Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline,
                                       const std::array<const BasisTable*, D>& tables, int order) {
   Evaluation<D> result;
-  auto done = evaluate_grid<D>(spline, tables, order, result);
-  if (!done) return std::unexpected(std::move(done.error()));
+  auto status = evaluate_grid<D>(spline, tables, order, result);
+  if (!status) return std::unexpected(std::move(status.error()));
   return result;
 }
 

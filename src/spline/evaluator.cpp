@@ -60,7 +60,8 @@ Expected<void> Evaluator<D>::evaluate(const Spline<D>& spline, Evaluation<D>& re
 template <int D>
 Expected<Evaluation<D>> Evaluator<D>::evaluate(const Spline<D>& spline) const {
   Evaluation<D> result;
-  if (auto done = evaluate(spline, result); !done) return std::unexpected(std::move(done.error()));
+  if (auto status = evaluate(spline, result); !status)
+    return std::unexpected(std::move(status.error()));
   return result;
 }
 

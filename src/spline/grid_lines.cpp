@@ -112,8 +112,8 @@ Expected<std::vector<SpanChord>> span_chords(const Surface& surface, int d) {
   if (!u) return std::unexpected(u.error());
   if (!v) return std::unexpected(v.error());
   Evaluation<2> values;
-  if (auto done = evaluate_grid<2>(surface, {&*u, &*v}, 2, values); !done)
-    return std::unexpected(done.error());
+  if (auto status = evaluate_grid<2>(surface, {&*u, &*v}, 2, values); !status)
+    return std::unexpected(status.error());
   const Points& first = d == 0 ? values.at({1, 0}) : values.at({0, 1});
   const Points& second = d == 0 ? values.at({2, 0}) : values.at({0, 2});
   const double slow = least_speed * first.rowwise().norm().maxCoeff();

@@ -135,14 +135,14 @@ Point section_curvature(const Evaluation<2>& s, Eigen::Index k, const Point& acr
 /// The sides along each curve, in order: open ones from an end, closed ones back to their first.
 std::vector<std::vector<int>> curves_of(const std::vector<CrossedSide>& sides) {
   std::vector<std::vector<int>> curves;
-  std::vector<bool> done(sides.size(), false);
+  std::vector<bool> followed(sides.size(), false);
   const auto follow = [&](int start) {
     std::vector<int>& curve = curves.emplace_back();
     int before = -1;
     for (int k = start; k >= 0;) {
       curve.push_back(k);
-      if (done[static_cast<std::size_t>(k)]) break;  // back at the start
-      done[static_cast<std::size_t>(k)] = true;
+      if (followed[static_cast<std::size_t>(k)]) break;  // back at the start
+      followed[static_cast<std::size_t>(k)] = true;
       const auto& [a, b] = sides[static_cast<std::size_t>(k)].next;
       const int next = a == before ? b : a;
       before = k;
@@ -151,7 +151,7 @@ std::vector<std::vector<int>> curves_of(const std::vector<CrossedSide>& sides) {
   };
   for (const bool ends : {true, false}) {
     for (std::size_t k = 0; k < sides.size(); ++k) {
-      if (!done[k] && (!ends || sides[k].next[1] < 0)) follow(static_cast<int>(k));
+      if (!followed[k] && (!ends || sides[k].next[1] < 0)) follow(static_cast<int>(k));
     }
   }
   return curves;

@@ -38,17 +38,17 @@ std::string to_use() {
 /// they are squared.
 template <int D>
 Expected<void> check_knots(const std::array<KnotVector, D>& knots) {
-  for (const KnotVector& own : knots) {
-    const auto values = own.knots();
+  for (const KnotVector& knot_vector : knots) {
+    const auto values = knot_vector.knots();
     for (const std::size_t k : {std::size_t{0}, values.size() - 1}) {  // they do not decrease
       if (std::abs(values[k]) > largest_number) {
         return input_error(fmt::format("{} is too large for a knot", values[k]),
                            fmt::format("knot {}", k), to_use());
       }
     }
-    if (own.domain().length() < 1 / largest_number) {
-      return input_error(fmt::format("the domain is only {} long", own.domain().length()), "knots",
-                         fmt::format("use at least {}", 1 / largest_number));
+    if (knot_vector.domain().length() < 1 / largest_number) {
+      return input_error(fmt::format("the domain is only {} long", knot_vector.domain().length()),
+                         "knots", fmt::format("use at least {}", 1 / largest_number));
     }
   }
   return {};

@@ -58,15 +58,15 @@ bool in_supertoroid(const SupertoroidShape& s, const Point& x) {
 }  // namespace
 
 bool is_outside(const PlacedShape& placed, const Point& x) {
-  const auto own = [&] {
+  const auto stored = [&] {
     const Placement& at = placed.placement();
     const Point y = at.rotation.conjugate() * (x - at.position);
     return Point(y.x() / at.scale[0], y.y() / at.scale[1], y.z() / at.scale[2]);
   };
   if (const auto* s = std::get_if<SuperellipsoidShape>(&placed.shape()))
-    return !in_superellipsoid(*s, own());
+    return !in_superellipsoid(*s, stored());
   if (const auto* s = std::get_if<SupertoroidShape>(&placed.shape()))
-    return !in_supertoroid(*s, own());
+    return !in_supertoroid(*s, stored());
   return false;
 }
 

@@ -227,8 +227,8 @@ class ToolLoad<D>::Evaluation {
       std::size_t stride = 1;
       for (std::size_t d = D; d-- > 0;) {
         const auto all = static_cast<std::size_t>(load_.quadrature_[d].basis.degree + 1);
-        for (std::size_t done = 1, more; done < all; done += more) {
-          more = std::min(done, all - done);
+        for (std::size_t finished = 1, more; finished < all; finished += more) {
+          more = std::min(finished, all - finished);
           const unsigned char* further = sides + more * stride;
           for (std::size_t i = 0; i + more * stride < count_; ++i) sides[i] &= further[i];
         }

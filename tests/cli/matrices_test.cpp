@@ -121,9 +121,9 @@ TEST(Matrices, OfAFileLeaveOutWhatIsHeld) {
   const Read all = read_matrix(shop / "all/K.mtx"), free = read_matrix(shop / "free/K.mtx");
   for (int i = 0; i < m - 4; ++i) {
     for (int j = 0; j < n - 4; ++j) {
-      const int own = i * (n - 4) + j, whole = (i + 2) * n + j + 2;
-      EXPECT_EQ(free.at(own, own), all.at(whole, whole));
-      EXPECT_EQ(j == 0 ? 0 : free.at(own, own - 1), j == 0 ? 0 : all.at(whole, whole - 1));
+      const int row = i * (n - 4) + j, whole = (i + 2) * n + j + 2;
+      EXPECT_EQ(free.at(row, row), all.at(whole, whole));
+      EXPECT_EQ(j == 0 ? 0 : free.at(row, row - 1), j == 0 ? 0 : all.at(whole, whole - 1));
     }
   }
   const std::vector<double> one(static_cast<std::size_t>(m * n), 1.0);

@@ -78,13 +78,13 @@ TEST(SplineField, OnCommonKnotsIsTheSameFunction) {
   for (const auto& [name, other] : testing::knot_families(3)) {
     if (name.find("cluster") != name.npos || name.find("ulp") != name.npos) continue;
     const Interval domain = other.domain();
-    const KnotVector own =
+    const KnotVector knot_vector =
         testing::clamped_knots(2,
                                {domain.lower, domain.lower + 0.3 * domain.length(),
                                 domain.lower + 0.55 * domain.length(), domain.upper},
                                {3, 2, 3, 3});
-    const auto field = random_field<1>({own}, 3);
-    const std::array<KnotVector, 1> pair[2] = {{own}, {other}};
+    const auto field = random_field<1>({knot_vector}, 3);
+    const std::array<KnotVector, 1> pair[2] = {{knot_vector}, {other}};
     const auto common = common_knots<1>(std::span<const std::array<KnotVector, 1>>(pair));
     ASSERT_TRUE(common) << name;
     const auto moved = on_knots<1>(field, *common);

@@ -35,9 +35,9 @@ Session run(const std::vector<Command>& commands, const std::string& file = {},
   if (!document) ADD_FAILURE() << document.error().message();
   Session session(std::move(*document));
   for (const Command& command : commands) {
-    const auto done = session.execute(command);
-    if (!done) {
-      ADD_FAILURE() << to_json(command) << ": " << done.error().message();
+    const auto status = session.execute(command);
+    if (!status) {
+      ADD_FAILURE() << to_json(command) << ": " << status.error().message();
       break;
     }
     if (after) after(command, session.state());

@@ -60,8 +60,8 @@ std::string gzip_by_another() {
   const std::string header = std::string("\x1F\x8B\x08\x1E\x11\x22\x33\x44\x02\x03", 10) +
                              std::string("\x02\0ab", 4) + std::string("part.step\0", 10) +
                              std::string("a comment\0", 10) + "zz";
-  const std::string own = *compress(a_model(), Compression::gzip, "");
-  return header + own.substr(10);
+  const std::string stream = *compress(a_model(), Compression::gzip, "");
+  return header + stream.substr(10);
 }
 
 class Compressed : public ::testing::TestWithParam<Compression> {

@@ -58,13 +58,14 @@ void expect_only_surfaces_differ(const step::File& before, const std::string& af
   const auto b = *Part21File::parse(after, "after");
   std::set<std::uint64_t> surfaces;
   std::map<std::uint64_t, std::uint32_t>
-      own;  // control points of edited surfaces, and how often these use them
+      uses_of_points;  // control points of edited surfaces, and how often these use them
   for (const auto& id : edited) {
     const auto name = std::stoull(id.substr(1));
     surfaces.insert(name);
     const auto& record = a.instance(*a.find(name));
     for (auto k = record.first; k < record.last; ++k) {
-      if (a.value(k).kind == Part21Kind::reference) ++own[a.instance(a.value(k).target).id];
+      if (a.value(k).kind == Part21Kind::reference)
+        ++uses_of_points[a.instance(a.value(k).target).id];
     }
   }
   std::uint32_t end_a = 0;
@@ -81,7 +82,8 @@ void expect_only_surfaces_differ(const step::File& before, const std::string& af
     end_b = other->bytes.end;
     if (a.text(record.bytes) != b.text(other->bytes)) {
       const bool surface = surfaces.contains(record.id);
-      const bool point = own.contains(record.id) && own[record.id] == record.uses;
+      const bool point =
+          uses_of_points.contains(record.id) && uses_of_points[record.id] == record.uses;
       EXPECT_TRUE(surface || point) << a.text(record.bytes) << " became " << b.text(other->bytes);
       if (!refined || !surface) {
         EXPECT_EQ(skeleton(a, record), skeleton(b, *other));

@@ -27,9 +27,9 @@ ssize_t write(int fd, const void* bytes, std::size_t count) {
     return -1;
   }
   if (fault == Fault::half_write || fault == Fault::killed) count /= 2;
-  const auto done = syscall(SYS_write, fd, bytes, count);
+  const auto result = syscall(SYS_write, fd, bytes, count);
   if (fault == Fault::killed) _exit(9);
-  return done;
+  return result;
 }
 int fsync(int fd) {
   if (fault != Fault::flush) return static_cast<int>(syscall(SYS_fsync, fd));
@@ -113,10 +113,10 @@ TEST_F(FileIo, ADiskThatFailsLeavesTheOldFileAndNothingElse) {
   ASSERT_TRUE(write_file_atomically(path, old));
   for (const Fault each : {Fault::write, Fault::half_write, Fault::flush, Fault::rename}) {
     fault = each;
-    const auto done = write_file_atomically(path, std::string(5000, 'n'));
+    const auto result = write_file_atomically(path, std::string(5000, 'n'));
     fault = Fault::none;
-    ASSERT_FALSE(done) << static_cast<int>(each);
-    EXPECT_EQ(done.error().file, path.string());
+    ASSERT_FALSE(result) << static_cast<int>(each);
+    EXPECT_EQ(result.error().file, path.string());
     EXPECT_EQ(read_file(path), old);
     EXPECT_EQ(entries(), 1U) << static_cast<int>(each);
   }
@@ -163,10 +163,10 @@ TEST_F(FileIo, AProtectedFileIsNotReplaced) {
   const auto path = directory_ / "x.step";
   ASSERT_TRUE(write_file_atomically(path, "1"));
   fs::permissions(path, fs::perms::owner_read);
-  for (const auto& done : {check_writable(path), write_file_atomically(path, "2")}) {
-    ASSERT_FALSE(done);
-    EXPECT_NE(done.error().message().find("may not be written to"), std::string::npos)
-        << done.error().message();
+  for (const auto& status : {check_writable(path), write_file_atomically(path, "2")}) {
+    ASSERT_FALSE(status);
+    EXPECT_NE(status.error().message().find("may not be written to"), std::string::npos)
+        << status.error().message();
   }
   EXPECT_EQ(read_file(path), "1");
 }

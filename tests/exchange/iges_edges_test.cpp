@@ -103,13 +103,13 @@ TEST(IgesEdges, EdgesThatMoveAreWrittenWithEveryCurveAlongThem) {
     EXPECT_EQ(curves, static_cast<std::size_t>(plates.curves));
     EXPECT_EQ(lines_of(*bytes, 'D').size(), lines_of(plates.text, 'D').size());
     for (const std::string& line : before) {
-      const bool own = !line.starts_with("110,") && !line.starts_with("102,") &&
-                       !line.starts_with("14") && !line.starts_with("50") &&
-                       !line.starts_with("124,");
+      const bool is_own = !line.starts_with("110,") && !line.starts_with("102,") &&
+                          !line.starts_with("14") && !line.starts_with("50") &&
+                          !line.starts_with("124,");
       const bool along = line.starts_with("110,4.,0.,0.,4.,2.,0.;") ||
                          line.starts_with("110,4,2.,0.,4,0.,0.;") ||
                          line.starts_with("110,4,0.,0.,4,2.,0.;");
-      EXPECT_TRUE(own || along || after.contains(line)) << line << " is lost";
+      EXPECT_TRUE(is_own || along || after.contains(line)) << line << " is lost";
     }
     EXPECT_GT(kept, 8U);
   }

@@ -226,17 +226,17 @@ TEST(RefinedSurface, ImpliedKnotsStayImpliedWhenWeightsCome) {
   const auto bezier =
       step_text(unit_square_points() +
                 "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.);\n");
-  const auto own =
+  const auto shared_part =
       "BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),\n(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)";
   const auto tail = three_weights + "REPRESENTATION_ITEM('b')SURFACE()";
   const std::tuple<const char*, std::string> expected[] = {
-      {"BEZIER_SURFACE", std::string("#10=(BEZIER_SURFACE()") + own +
+      {"BEZIER_SURFACE", std::string("#10=(BEZIER_SURFACE()") + shared_part +
                              "GEOMETRIC_REPRESENTATION_ITEM()" + tail + ");\n"},
-      {"QUASI_UNIFORM_SURFACE", std::string("#10=(") + own +
+      {"QUASI_UNIFORM_SURFACE", std::string("#10=(") + shared_part +
                                     "GEOMETRIC_REPRESENTATION_ITEM()QUASI_UNIFORM_SURFACE()" +
                                     tail + ");\n"},
-      {"UNIFORM_SURFACE", std::string("#10=(") + own + "GEOMETRIC_REPRESENTATION_ITEM()" + tail +
-                              "UNIFORM_SURFACE());\n"}};
+      {"UNIFORM_SURFACE", std::string("#10=(") + shared_part + "GEOMETRIC_REPRESENTATION_ITEM()" +
+                              tail + "UNIFORM_SURFACE());\n"}};
   for (const auto& [form, text] : expected) {
     const auto bytes = edited(bezier, {{"BEZIER_SURFACE", form}});
     const auto result = replaced(bytes, weighted(surface_of(bytes)));

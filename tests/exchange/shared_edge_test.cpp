@@ -159,8 +159,9 @@ TEST(SharedEdge, EdgesOfFourArcsFollow) {
     for (const SourceSurface& s : (*source)->surfaces()) {
       Points points = s.surface->control_points();
       points.col(2).array() += 10;
-      const bool own = std::ranges::find(edge->surfaces(), s.id) != edge->surfaces().end();
-      moved.push_back(own ? std::make_shared<const Surface>(*s.surface->with_control_points(points))
+      const bool is_own = std::ranges::find(edge->surfaces(), s.id) != edge->surfaces().end();
+      moved.push_back(is_own
+                          ? std::make_shared<const Surface>(*s.surface->with_control_points(points))
                           : s.surface);
     }
     const auto bytes = (*source)->save(moved, std::array{id});

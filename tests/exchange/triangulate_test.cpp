@@ -44,9 +44,9 @@ void expect_filled(const std::vector<Loop>& loops) {
     wanted += area_of_loop(loop);
   }
   for (const auto& [a, b, c] : *triangles) {
-    const double own = doubled_area(points[a], points[b], points[c]) / 2;
+    const double triangle = doubled_area(points[a], points[b], points[c]) / 2;
     EXPECT_EQ(orientation(points[a], points[b], points[c]), 1) << a << " " << b << " " << c;
-    area += own;
+    area += triangle;
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
       if (const auto back = sides.find({to, from}); back != sides.end() && back->second > 0) {
         --back->second;

@@ -87,9 +87,9 @@ inline void run(Session& session, std::string_view script, std::size_t most) {
     const auto command = small((*commands)[k]);
     if (!command || control_points(session) > 600) continue;
     const SessionState* before = &session.state();
-    const auto done = session.execute(*command);
-    if (!done) check_error(done.error());
-    if (!done) check(&session.state() == before, "a command that failed changed the state");
+    const auto status = session.execute(*command);
+    if (!status) check_error(status.error());
+    if (!status) check(&session.state() == before, "a command that failed changed the state");
     check_state(session);
   }
 }

@@ -41,8 +41,8 @@ Session after(const std::vector<std::string>& commands) {
   Session session(Document::fresh("sheet"));
   for (const std::string& json : commands) {
     const auto command = parse_command(json);
-    const auto done = command ? session.execute(*command) : std::unexpected(command.error());
-    if (!done) std::cerr << "seeds: " << json << ": " << done.error().message() << "\n";
+    const auto status = command ? session.execute(*command) : std::unexpected(command.error());
+    if (!status) std::cerr << "seeds: " << json << ": " << status.error().message() << "\n";
   }
   return session;
 }

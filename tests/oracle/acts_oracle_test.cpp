@@ -103,8 +103,8 @@ bool has_area(const Surface& s) {
 class DefaultActs : public testing::FileTest {
  protected:
   void SetUp() override {
-    const bool own = testing::file_makers().contains(GetParam()) || GetParam() == "bonnet.step";
-    if (!own && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
+    const bool is_own = testing::file_makers().contains(GetParam()) || GetParam() == "bonnet.step";
+    if (!is_own && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
     KNEAD_NEEDS(path_);
     const auto bytes = read_file(path_);
     ASSERT_TRUE(bytes);

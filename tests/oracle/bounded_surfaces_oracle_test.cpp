@@ -29,7 +29,7 @@ TEST_P(BoundedSheetsInOcct, StayClosed) {
       west, [&](brep::Index e) { return std::ranges::find(east, e) != east.end(); });
   ASSERT_NE(shared, west.end());
   Session session(Document::from(source));
-  const auto done = testing::run(
+  const auto status = testing::run(
       session, R"({"do":"select","surfaces":[")" + sheets.surfaces[0] + R"(",")" +
                    sheets.surfaces[1] + R"("]},{"do":"edge","which":")" + model.edges[*shared].id +
                    R"(","hold":"free"},)" +
@@ -37,7 +37,7 @@ TEST_P(BoundedSheetsInOcct, StayClosed) {
       {{"do":"tool","name":"ball","radius":{},"rigid":true,"position":[{},{},{}]}},
       {{"do":"evolve","mode":"static"}})",
                                0.4 * scale, 2 * scale, scale, scale * (testing::roof(2, 1) + 0.3)));
-  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(status) << status.error().message();
   const auto bytes = session.save();
   ASSERT_TRUE(bytes) << bytes.error().message();
   const fs::path directory =

@@ -70,8 +70,8 @@ std::size_t lost_of(const std::string& before, const std::string& after, const s
     if (now.contains(record) || record.find("CARTESIAN_POINT") != std::string::npos) continue;
     std::string name = record.substr(0, record.find('='));  // comments may stand before it
     name.erase(name.find_last_not_of(" \r\n") + 1);
-    const bool own = name.ends_with(surface);
-    lost += own ? 0 : 1;
+    const bool is_own = name.ends_with(surface);
+    lost += is_own ? 0 : 1;
   }
   return lost;
 }
@@ -224,10 +224,10 @@ void Exchange::press_all(const std::string& held) {
     EXPECT_GE((*there - pressed->place).norm() / pressed->depth, 0.9)
         << "of the depth that was asked for";
   }
-  std::string done = pressed_ids.empty() ? "written unchanged" : pressed_ids;
-  if (!refused.empty()) done += "; refused: " + refused;
+  std::string acts = pressed_ids.empty() ? "written unchanged" : pressed_ids;
+  if (!refused.empty()) acts += "; refused: " + refused;
   const std::string key = key_of(name, held);
-  std::string row = key + " " + traits() + " | " + done + " | ";
+  std::string row = key + " " + traits() + " | " + acts + " | ";
   if (pressed_ids.empty()) {
     row += "the same bytes | | | | |";
   } else {

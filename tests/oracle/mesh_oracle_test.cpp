@@ -48,9 +48,9 @@ void expect_model(const step::File& file, const fs::path& path, double tolerance
     const auto found = areas.find(mesh.id);
     if (found == areas.end()) continue;
     // Chords shorten curves; and a strip as wide as the tolerance around the face.
-    Eigen::AlignedBox3d own;
-    for (const Point& p : mesh.points) own.extend(p);
-    EXPECT_NEAR(area, found->second, 0.02 * found->second + 8 * tolerance * own.diagonal().norm())
+    Eigen::AlignedBox3d box;
+    for (const Point& p : mesh.points) box.extend(p);
+    EXPECT_NEAR(area, found->second, 0.02 * found->second + 8 * tolerance * box.diagonal().norm())
         << mesh.id;
   }
   const OcctWhole other = occt_whole(path, assembly->unit, assembly->placed());

@@ -90,10 +90,10 @@ TEST_P(NewFile, IsReadWithoutAComplaint) {
 TEST_P(NewFile, HasItsUnit) {
   for (const auto& [unit, mm] :
        {std::pair("mm", 1.0), {"inch", 25.4}, {"m", 1000.0}, {"foot", 304.8}, {"cm", 10.0}}) {
-    const auto own = checked({surfaces()[0]}, true, "mm"),
+    const auto plain = checked({surfaces()[0]}, true, "mm"),
                scaled = checked({surfaces()[0]}, true, unit);
-    ASSERT_TRUE(own && scaled);
-    EXPECT_NEAR(scaled->area / own->area, mm * mm, 1e-9 * mm * mm) << unit;
+    ASSERT_TRUE(plain && scaled);
+    EXPECT_NEAR(scaled->area / plain->area, mm * mm, 1e-9 * mm * mm) << unit;
   }
 }
 

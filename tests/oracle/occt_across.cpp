@@ -60,13 +60,13 @@ int direction(const Course& a, const Course& b) {
 
 /// The largest angle between both sides, the first lying on `own` and the second on its own
 /// surface.
-double angle_of(const Course& a, const Course& b, int way, const SurfaceHandle& own) {
+double angle_of(const Course& a, const Course& b, int way, const SurfaceHandle& surface) {
   double most = 0;
   for (int k = 0; k <= samples; ++k) {
     const auto i = static_cast<std::size_t>(k),
                j = static_cast<std::size_t>(way > 0 ? k : samples - k);
     const double angle =
-        degrees_between(normal_at(own, a.feet[i]), normal_at(b.surface, b.feet[j]));
+        degrees_between(normal_at(surface, a.feet[i]), normal_at(b.surface, b.feet[j]));
     most = std::max(most, std::min(angle, 180 - angle));
   }
   return most;
@@ -81,15 +81,15 @@ std::vector<OcctFaces::Across> OcctFaces::across(const std::string& surface,
   const auto from = data_->on.find(surface), to = after.data_->on.find(surface);
   if (from == data_->on.end() || to == after.data_->on.end() || to->second.empty()) return result;
   const SurfaceHandle moved = surface_of(to->second.front());
-  std::vector<Course> own, others;
+  std::vector<Course> ours, others;
   for (const auto& [id, faces] : data_->on) {
     for (const TopoDS_Face& face : faces) {
       auto courses = courses_of(face);
-      auto& list = id == surface ? own : others;
+      auto& list = id == surface ? ours : others;
       list.insert(list.end(), courses.begin(), courses.end());
     }
   }
-  for (const Course& edge : own) {
+  for (const Course& edge : ours) {
     for (const Course& other : others) {
       const int way = direction(edge, other);
       if (way == 0) continue;

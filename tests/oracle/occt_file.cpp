@@ -47,7 +47,7 @@ double gap_of(const TopoDS_Edge& edge, const TopoDS_Face& face) {
 }
 
 /// The largest distance of an edge's points from the nearest of these faces but its own.
-double parting_of(const TopoDS_Edge& edge, const TopoDS_Face& own,
+double parting_of(const TopoDS_Edge& edge, const TopoDS_Face& face_here,
                   const std::vector<TopoDS_Face>& faces) {
   double first = 0, last = 0;
   const auto curve = BRep_Tool::Curve(edge, first, last);
@@ -59,7 +59,7 @@ double parting_of(const TopoDS_Edge& edge, const TopoDS_Face& own,
         BRepBuilderAPI_MakeVertex(curve->Value(first + (last - first) * k / steps)).Vertex();
     double nearest = std::numeric_limits<double>::infinity();
     for (const TopoDS_Face& face : faces) {
-      if (face.IsSame(own)) continue;
+      if (face.IsSame(face_here)) continue;
       const BRepExtrema_DistShapeShape distance(vertex, face);
       if (distance.IsDone()) nearest = std::min(nearest, distance.Value());
     }

@@ -92,8 +92,8 @@ void for_each_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, const F& f) {
 bool is_smooth(const TopoDS_Edge& edge, const TopoDS_Face& face,
                const TopTools_ListOfShape& around) {
   double f = 0, l = 0;
-  const auto own = BRep_Tool::CurveOnSurface(edge, face, f, l);
-  if (own.IsNull()) return false;
+  const auto pcurve = BRep_Tool::CurveOnSurface(edge, face, f, l);
+  if (pcurve.IsNull()) return false;
   for (const TopoDS_Shape& shape : around) {
     const TopoDS_Face& other = TopoDS::Face(shape);
     if (other.IsSame(face)) continue;
@@ -104,7 +104,7 @@ bool is_smooth(const TopoDS_Edge& edge, const TopoDS_Face& face,
     for (int k = 1; k < 8; ++k) {
       const double t = f + (l - f) * k / 8;
       const double angle = degrees_between(
-          normal_at(BRep_Tool::Surface(face), own->Value(t)),
+          normal_at(BRep_Tool::Surface(face), pcurve->Value(t)),
           normal_at(BRep_Tool::Surface(other), theirs->Value(f2 + (l2 - f2) * k / 8)));
       most = std::max(most, std::min(angle, 180 - angle));
     }
@@ -155,7 +155,7 @@ std::vector<OcctEdge> OcctFaces::edges(const std::string& surface, const OcctFac
   if (from == data_->on.end() || to == after.data_->on.end() || to->second.empty()) return result;
   const SurfaceHandle moved = surface_of(to->second.front());
   for (const TopoDS_Face& face : from->second) {
-    const SurfaceHandle own = surface_of(face);
+    const SurfaceHandle handle = surface_of(face);
     for_each_of(face, TopAbs_EDGE, [&](const TopoDS_Shape& shape) {
       const TopoDS_Edge& edge = TopoDS::Edge(shape);
       if (BRep_Tool::Degenerated(edge)) return;
@@ -169,11 +169,11 @@ std::vector<OcctEdge> OcctFaces::edges(const std::string& surface, const OcctFac
       for (int k = 0; k <= samples; ++k) {
         const gp_Pnt p =
             curve->Value(f + (l - f) * k / samples).Transformed(location.Transformation());
-        const gp_Pnt2d at = flat.IsNull() ? ShapeAnalysis_Surface(own).ValueOfUV(p, 1e-7)
+        const gp_Pnt2d at = flat.IsNull() ? ShapeAnalysis_Surface(handle).ValueOfUV(p, 1e-7)
                                           : flat->Value(f2 + (l2 - f2) * k / samples);
         measured.gap = std::max(measured.gap, distance(moved, p, at, std::max(1e-6, measured.gap)));
         measured.turn =
-            std::max(measured.turn, degrees_between(normal_at(own, at), normal_at(moved, at)));
+            std::max(measured.turn, degrees_between(normal_at(handle, at), normal_at(moved, at)));
       }
       for (const auto& [vertex, t] :
            {std::pair(TopExp::FirstVertex(edge), f), std::pair(TopExp::LastVertex(edge), l)}) {
@@ -237,18 +237,18 @@ OcctFaces::Moved OcctFaces::moved(const std::string& surface, const OcctFaces& a
   if (from == data_->on.end() || to == after.data_->on.end() || to->second.empty()) return result;
   const SurfaceHandle moved = surface_of(to->second.front());
   for (const TopoDS_Face& face : from->second) {
-    const SurfaceHandle own = surface_of(face);
+    const SurfaceHandle handle = surface_of(face);
     BRepTopAdaptor_FClass2d side(face, 1e-7);
     double a = 0, b = 0, c = 0, d = 0, u0 = 0, u1 = 0, v0 = 0, v1 = 0;
     BRepTools::UVBounds(face, a, b, c, d);
-    own->Bounds(u0, u1, v0, v1);
+    handle->Bounds(u0, u1, v0, v1);
     const auto look = [&](double u, double v) {
       const gp_Pnt2d at(u, v);
-      const double way = own->Value(u, v).Distance(moved->Value(u, v));
+      const double way = handle->Value(u, v).Distance(moved->Value(u, v));
       double& most = side.Perform(at) == TopAbs_IN ? result.visible : result.hidden;
       most = std::max(most, way);
       // Where nothing moves but the rounding, a normal that turns is that of a degenerate point.
-      if (way > 1e-9 && degrees_between(normal_at(own, at), normal_at(moved, at)) > 90)
+      if (way > 1e-9 && degrees_between(normal_at(handle, at), normal_at(moved, at)) > 90)
         result.folded = true;
     };
     for (int i = 0; i < count; ++i) {
@@ -270,7 +270,7 @@ OcctFaces::Apart OcctFaces::apart(const std::string& surface, const OcctFaces& a
     return result;
   for (std::size_t n = 0; n < from->second.size(); ++n) {
     const TopoDS_Face &face = from->second[n], &other = to->second[n];
-    const SurfaceHandle own = surface_of(face), theirs = surface_of(other);
+    const SurfaceHandle handle = surface_of(face), theirs = surface_of(other);
     const bool turned =
         (face.Orientation() == TopAbs_REVERSED) != (other.Orientation() == TopAbs_REVERSED);
     BRepTopAdaptor_FClass2d side(face, 1e-7);
@@ -281,13 +281,13 @@ OcctFaces::Apart OcctFaces::apart(const std::string& surface, const OcctFaces& a
       for (int j = 0; j < count; ++j) {
         const gp_Pnt2d at(a + (b - a) * (i + 0.5) / count, c + (d - c) * (j + 0.5) / count);
         if (side.Perform(at) != TopAbs_IN) continue;
-        const gp_Pnt p = own->Value(at.X(), at.Y());
+        const gp_Pnt p = handle->Value(at.X(), at.Y());
         gp_Pnt2d foot;
         result.distance =
             std::max(result.distance, distance(theirs, p, search.ValueOfUV(p, 1e-9), 1e-9, &foot));
-        const double angle = degrees_between(normal_at(own, at), normal_at(theirs, foot));
+        const double angle = degrees_between(normal_at(handle, at), normal_at(theirs, foot));
         const bool known =
-            normal_at(own, at).Magnitude() > 0 && normal_at(theirs, foot).Magnitude() > 0;
+            normal_at(handle, at).Magnitude() > 0 && normal_at(theirs, foot).Magnitude() > 0;
         if (known) result.turn = std::max(result.turn, turned ? 180 - angle : angle);
         ++result.points;
       }

@@ -47,28 +47,29 @@ std::optional<Pair> pair_at(const brep::Model& file,
   for (const std::string& surface : surfaces) {
     const VisibleRegion& region = regions.at(surface);
     std::vector<bool> others;
-    const TrimEdge* own = nullptr;
+    const TrimEdge* edge_here = nullptr;
     for (const TrimEdge& edge : region.edges) {
       others.push_back(edge.id != id);
-      if (edge.id == id) own = &edge;
+      if (edge.id == id) edge_here = &edge;
     }
-    if (own->neighbours.size() != surfaces.size()) return std::nullopt;
-    if (result.normal.isZero()) result.place = own->points[own->points.size() / 2];
-    if (own->points.size() == 2 && result.normal.isZero())
-      result.place = 0.5 * (own->points[0] + own->points[1]);
+    if (edge_here->neighbours.size() != surfaces.size()) return std::nullopt;
+    if (result.normal.isZero()) result.place = edge_here->points[edge_here->points.size() / 2];
+    if (edge_here->points.size() == 2 && result.normal.isZero())
+      result.place = 0.5 * (edge_here->points[0] + edge_here->points[1]);
     const Surface& shape = file.find_surface(surface)->surface;
     if (result.across.isZero()) {
-      const std::size_t k = own->points.size() / 2;
-      result.across = own->points[k] - own->points[k - 1];  // the direction of the edge, so far
+      const std::size_t k = edge_here->points.size() / 2;
+      result.across =
+          edge_here->points[k] - edge_here->points[k - 1];  // the direction of the edge, so far
     }
-    Eigen::Vector2d at = course_at(*own, result.place);
-    if (own->points.size() == 2) at = 0.5 * (own->course[0] + own->course[1]);
+    Eigen::Vector2d at = course_at(*edge_here, result.place);
+    if (edge_here->points.size() == 2) at = 0.5 * (edge_here->course[0] + edge_here->course[1]);
     const Point n = normal_at(shape, at);
     result.normal += result.normal.dot(n) < 0 ? Point(-n) : n;
     result.radius = std::min(result.radius, region.distance(result.place, others) / 2);
     const Points& net = shape.control_points();
     size = std::max(size, (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm());
-    if (own->seam) {  // small beside the other side of a tube
+    if (edge_here->seam) {  // small beside the other side of a tube
       const Eigen::VectorXd heights = net * n;
       result.radius = std::min(result.radius, (heights.maxCoeff() - heights.minCoeff()) / 4);
     }

@@ -41,8 +41,8 @@ Points points_of(const Session& session) {
 
 void expect_done(Session& session, std::initializer_list<const char*> commands,
                  const ActOptions& options = {}) {
-  const auto done = session.act(all_of(commands), options);
-  ASSERT_TRUE(done) << done.error().message();
+  const auto status = session.act(all_of(commands), options);
+  ASSERT_TRUE(status) << status.error().message();
 }
 
 TEST(Act, IsOneEntryOfTheHistory) {

@@ -28,9 +28,9 @@ Session session_after(const std::string& name) {
   if (!script) ADD_FAILURE() << script.error().message();
   if (!script) return session;
   for (const Command& command : *script) {
-    const auto done = session.execute(command);
-    if (!done) ADD_FAILURE() << done.error().message();
-    if (!done) break;
+    const auto status = session.execute(command);
+    if (!status) ADD_FAILURE() << status.error().message();
+    if (!status) break;
   }
   return session;
 }

@@ -52,7 +52,7 @@ class PressedBoundedSurfaces : public ::testing::TestWithParam<MadeSheets> {
                                     double radius = 0.4) {
     Session session(Document::from(source_));
     const double s = sheets_.scale;
-    const auto done =
+    const auto status =
         run(session,
             R"({"do":"select","surfaces":[")" + sheets_.surfaces[0] + R"(",")" +
                 sheets_.surfaces[1] + R"("]},)" + before +
@@ -60,7 +60,7 @@ class PressedBoundedSurfaces : public ::testing::TestWithParam<MadeSheets> {
         {{"do":"tool","name":"ball","radius":{},"rigid":true,"position":[{},{},{}]}},
         {{"do":"evolve","mode":"static"}})",
                             s * radius, s * x, s * y, s * (testing::roof(x, y) + radius - depth)));
-    EXPECT_TRUE(done) << done.error().message();
+    EXPECT_TRUE(status) << status.error().message();
     moved_ = std::max(session.largest_displacement(0), session.largest_displacement(1));
     const auto bytes = session.save();
     EXPECT_TRUE(bytes) << bytes.error().message();
@@ -109,9 +109,9 @@ TEST_P(PressedBoundedSurfaces, StayClosedWhereTheirEdgeFollows) {
 TEST_P(PressedBoundedSurfaces, LeadTheirOwnEdgesAlong) {
   const brep::Model& model = *source_->model();
   // Along y = 0.
-  const std::string own = model.edges[brep::edges_around(model.faces[0]).front()].id;
+  const std::string stored = model.edges[brep::edges_around(model.faces[0]).front()].id;
   const std::string bytes =
-      pressed(R"({"do":"edge","which":")" + own + R"(","hold":"free"},)", 1, 0.1, 0.1);
+      pressed(R"({"do":"edge","which":")" + stored + R"(","hold":"free"},)", 1, 0.1, 0.1);
   EXPECT_GT(moved_, 0.05 * sheets_.scale);
   expect_closed(bytes);
 }

@@ -30,8 +30,8 @@ std::string free_edge(const TwoSheets& sheets) {
 TEST(Convert, TheSurfaceJoinsTheSceneWithItsEdgesHeld) {
   Session session = opened(two_sheets(false, true));
   ASSERT_EQ(session.state().surfaces.size(), 1U);
-  const auto done = run(session, convert);
-  ASSERT_TRUE(done) << done.error().message();
+  const auto status = run(session, convert);
+  ASSERT_TRUE(status) << status.error().message();
   ASSERT_EQ(session.state().surfaces.size(), 2U);
   const SceneSurface& s = session.state().surfaces[1];
   EXPECT_EQ(s.id, "#20");
@@ -49,8 +49,8 @@ TEST(Convert, TheSurfaceJoinsTheSceneWithItsEdgesHeld) {
 TEST(Convert, AnEdgeToItFollowsThen) {
   const TwoSheets sheets = two_sheets(false, true);
   Session session = opened(sheets);
-  const auto done = run(session, convert + "," + both + "," + free_edge(sheets) + "," + press);
-  ASSERT_TRUE(done) << done.error().message();
+  const auto status = run(session, convert + "," + both + "," + free_edge(sheets) + "," + press);
+  ASSERT_TRUE(status) << status.error().message();
   const auto apart = parting(session.state(), *session.state().followed.at(0).course);
   ASSERT_TRUE(apart);
   EXPECT_LE(apart->distance, apart->tolerance);
@@ -77,8 +77,8 @@ TEST(Convert, WithoutItTheErrorNamesTheFaceAndTheCommand) {
   ASSERT_EQ(fixes.size(), 1U);
   Session fixed = opened(sheets);
   for (const Command& command : fixes[0].commands) {
-    const auto done = fixed.execute(command);
-    ASSERT_TRUE(done) << done.error().message();
+    const auto status = fixed.execute(command);
+    ASSERT_TRUE(status) << status.error().message();
   }
   EXPECT_EQ(fixed.state().followed.size(), 1U);
   EXPECT_NE(refused.error().remedy.find(R"({"do":"convert","surfaces":["#20"]})"),
@@ -98,9 +98,9 @@ TEST(Convert, WithoutItTheErrorNamesTheFaceAndTheCommand) {
 
 TEST(Convert, NeighboursOfTheSelectionAreFound) {
   Session session = opened(two_sheets(false, true));
-  const auto done =
+  const auto status =
       run(session, R"({"do":"select","surface":"#10"},{"do":"convert","neighbours":true})");
-  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(status) << status.error().message();
   ASSERT_EQ(session.state().surfaces.size(), 2U);
   EXPECT_EQ(session.state().surfaces[1].id, "#20");
   const auto again = run(session, R"({"do":"convert","neighbours":true})");
@@ -148,16 +148,16 @@ TEST(Convert, TheJournalGivesTheSameBytes) {
 
 TEST(Convert, WithoutAFieldItSaysWhichThereAre) {
   Session session = opened(two_sheets(false, true));
-  const auto done = run(session, R"({"do":"convert"})");
-  ASSERT_FALSE(done);
-  EXPECT_NE(done.error().remedy.find("neighbours"), std::string::npos);
+  const auto status = run(session, R"({"do":"convert"})");
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().remedy.find("neighbours"), std::string::npos);
 }
 
 TEST(Convert, ADocumentWithoutFacesIsRefused) {
   Session session(Document::fresh("fresh"));
-  const auto done = run(session, convert);
-  ASSERT_FALSE(done);
-  EXPECT_EQ(done.error().kind, ErrorKind::input);
+  const auto status = run(session, convert);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::input);
 }
 
 }  // namespace

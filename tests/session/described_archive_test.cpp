@@ -154,9 +154,9 @@ TEST(DescribedArchive, WhatCopiesShareWeighsOnceAndWhatTheyOwnEachTime) {
   EXPECT_GE(weight.of(type, &steps), 300 * sizeof(StepRecord));
   EXPECT_LE(weight.of(type, &copy), 64U);
   copy.own(5).time = -1;  // 128 of them are the copy's own now
-  const std::size_t own = weight.of(type, &copy);
-  EXPECT_GE(own, 128 * sizeof(StepRecord));
-  EXPECT_LT(own, 256 * sizeof(StepRecord));
+  const std::size_t bytes = weight.of(type, &copy);
+  EXPECT_GE(bytes, 128 * sizeof(StepRecord));
+  EXPECT_LT(bytes, 256 * sizeof(StepRecord));
 }
 
 TEST(DescribedArchive, ForcesAreCheckedWhereverTheyComeFrom) {

@@ -56,8 +56,8 @@ Expected<Pot> read(const std::string& text) {
   const auto json = parse_json(text);
   if (!json) return std::unexpected(json.error());
   Pot pot;
-  if (auto done = read_record(*json, type_of<Pot>(), &pot); !done)
-    return std::unexpected(done.error());
+  if (auto status = read_record(*json, type_of<Pot>(), &pot); !status)
+    return std::unexpected(status.error());
   return pot;
 }
 std::string write(const Pot& pot) { return to_json(type_of<Pot>(), &pot); }

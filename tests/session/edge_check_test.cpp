@@ -26,8 +26,8 @@ void run(Session& session, const std::vector<std::string>& commands) {
   for (const std::string& json : commands) {
     const auto command = parse_command(json);
     ASSERT_TRUE(command) << json << ": " << command.error().message();
-    const auto done = session.execute(*command);
-    ASSERT_TRUE(done) << json << ": " << done.error().message();
+    const auto status = session.execute(*command);
+    ASSERT_TRUE(status) << json << ": " << status.error().message();
   }
 }
 

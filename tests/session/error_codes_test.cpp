@@ -35,8 +35,8 @@ TEST_P(RefusedSheet, HasACodeAndWhatHelpsCanBeDone) {
   ASSERT_EQ(code_of(error), code) << error.message();
   for (const Fix& fix : fixes_for(*error.diagnostic)) {
     ASSERT_FALSE(fix.commands.empty());
-    const auto done = session.act(fix.commands);
-    EXPECT_TRUE(done) << done.error().message();
+    const auto status = session.act(fix.commands);
+    EXPECT_TRUE(status) << status.error().message();
   }
   const auto json = nlohmann::json::parse(error_json(error)).at("error");
   EXPECT_EQ(json.at("code"),

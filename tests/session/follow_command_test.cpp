@@ -24,8 +24,8 @@ std::string edge_command(const TwoSheets& sheets, const std::string& hold) {
 TEST(FollowCommands, AnEdgeFreedInVersion2MovesWithItsFacesAndStaysClosed) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto done = run(session, both + "," + edge_command(sheets, "free") + "," + press);
-  ASSERT_TRUE(done) << done.error().message();
+  const auto status = run(session, both + "," + edge_command(sheets, "free") + "," + press);
+  ASSERT_TRUE(status) << status.error().message();
   const SessionState& state = session.state();
   ASSERT_EQ(state.followed.size(), 1U);
   const auto apart = parting(state, *state.followed[0].course);
@@ -58,9 +58,9 @@ Parting parted(const Session& session) {
 TEST(FollowCommands, ASmoothEdgeStaysSmooth) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto done =
+  const auto status =
       run(session, both + "," + edge_command(sheets, "free") + "," + no_seams + "," + press);
-  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(status) << status.error().message();
   EXPECT_TRUE(is_smooth(*session.state().followed[0].course));
   const Parting apart = parted(session);
   EXPECT_LE(apart.angle, asked_angle);
@@ -114,11 +114,11 @@ TEST(FollowCommands, WhatWouldCreaseASmoothEdgeIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free")));
-  const auto done = run_on(
+  const auto status = run_on(
       session, R"({"do":"select","surface":"#10"},{"do":"points","which":[0,1],"by":[0,0,0.1]})");
-  ASSERT_FALSE(done);
-  EXPECT_EQ(done.error().kind, ErrorKind::numerical);
-  EXPECT_NE(done.error().what.find("degrees"), std::string::npos) << done.error().message();
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::numerical);
+  EXPECT_NE(status.error().what.find("degrees"), std::string::npos) << status.error().message();
   EXPECT_EQ(session.largest_displacement(0), 0);
 }
 
@@ -152,10 +152,10 @@ TEST(FollowCommands, TheFaceThatWouldHaveToFollowIsNamed) {
 TEST(FollowCommands, WithOneOfItsFacesNoLongerSelectedTheStepIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto done = run(session, both + "," + edge_command(sheets, "free") +
-                                     R"(,{"do":"select","surface":"#10"},)" + press);
-  ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message().find("#20"), std::string::npos) << done.error().message();
+  const auto status = run(session, both + "," + edge_command(sheets, "free") +
+                                       R"(,{"do":"select","surface":"#10"},)" + press);
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message().find("#20"), std::string::npos) << status.error().message();
 }
 
 TEST(FollowCommands, WhatPartsTheFacesIsRefused) {
@@ -163,11 +163,11 @@ TEST(FollowCommands, WhatPartsTheFacesIsRefused) {
   Session session = opened(sheets);
   ASSERT_TRUE(run(
       session, both + "," + edge_command(sheets, "free") + R"(,{"do":"select","surface":"#10"})"));
-  const auto done = run_on(session, R"({"do":"points","which":[2],"by":[0,0,0.1]})");
-  ASSERT_FALSE(done);
-  EXPECT_EQ(done.error().kind, ErrorKind::numerical);
-  EXPECT_NE(done.error().what.find("part by 0.1"), std::string::npos) << done.error().message();
-  EXPECT_EQ(testing::code_of(done.error()), ErrorCode::edge_would_part);
+  const auto status = run_on(session, R"({"do":"points","which":[2],"by":[0,0,0.1]})");
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::numerical);
+  EXPECT_NE(status.error().what.find("part by 0.1"), std::string::npos) << status.error().message();
+  EXPECT_EQ(testing::code_of(status.error()), ErrorCode::edge_would_part);
   EXPECT_EQ(session.largest_displacement(0), 0);
 }
 
@@ -222,9 +222,9 @@ TEST(FollowCommands, BoundaryIsocurvesDoNotFollow) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   ASSERT_TRUE(run(session, both));
-  const auto done = run(session, R"({"do":"edge","which":"u0","hold":"follow"})");
-  ASSERT_FALSE(done);
-  EXPECT_EQ(done.error().where, "hold");
+  const auto status = run(session, R"({"do":"edge","which":"u0","hold":"follow"})");
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().where, "hold");
 }
 
 const std::string clay = R"({"do":"material","preset":"clay"},
@@ -236,8 +236,9 @@ TEST(FollowStrokes, AGrooveAcrossAnEdgeIsLeftOnBothSidesOfIt) {
     Session session = opened(sheets);
     ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + "," + seams + "," + clay));
     const std::size_t ready = session.journal().size();
-    const auto done = run_on(session, R"({"do":"stroke","path":[[0.6,0.5,0.15],[1.4,0.5,0.15]]})");
-    ASSERT_TRUE(done) << done.error().message();
+    const auto status =
+        run_on(session, R"({"do":"stroke","path":[[0.6,0.5,0.15],[1.4,0.5,0.15]]})");
+    ASSERT_TRUE(status) << status.error().message();
     const Parting apart = parted(session);
     EXPECT_LE(apart.distance, apart.tolerance);
     EXPECT_LE(apart.angle, asked_angle);
@@ -286,9 +287,9 @@ TEST(FollowStrokes, ABrushOverAnEdgeMovesBothFaces) {
     for (const std::string& seams : {std::string(R"({"do":"seams","couple":true})"), no_seams}) {
       const TwoSheets sheets = two_sheets();
       Session session = opened(sheets);
-      const auto done = run(session, both + "," + edge_command(sheets, "free") + "," + seams +
-                                         R"(,{"do":"brush","radius":0.35,)" + kind + "}");
-      ASSERT_TRUE(done) << done.error().message();
+      const auto status = run(session, both + "," + edge_command(sheets, "free") + "," + seams +
+                                           R"(,{"do":"brush","radius":0.35,)" + kind + "}");
+      ASSERT_TRUE(status) << status.error().message();
       const Parting apart = parted(session);
       EXPECT_LE(apart.distance, apart.tolerance) << kind;
       EXPECT_LE(apart.angle, asked_angle) << kind;

@@ -28,9 +28,9 @@ const std::string left = R"({"do":"select","surface":"#10"})";
 // with #20.
 const std::string lift_corner = R"({"do":"points","which":[2],"by":[0,0,0.25]})";
 
-Error refused(const Expected<void>& done) {
-  EXPECT_FALSE(done);
-  return done ? Error{} : done.error();
+Error refused(const Expected<void>& status) {
+  EXPECT_FALSE(status);
+  return status ? Error{} : status.error();
 }
 
 Error refused(Session& session, const std::string& commands) {
@@ -70,12 +70,12 @@ TEST(HeldEdges, ALatticeOverThemIsRefused) {
   // With a net of its own, of which a pull in the middle leaves the boundary where it is, it is
   // done.
   Session inner = opened(sheets);
-  const auto done =
+  const auto status =
       run(inner, left +
                      R"(,{"do":"elevate","by":[2,2]},{"do":"refine","region":[[0,1],[0,1]]},
       {"do":"refine","region":[[0,1],[0,1]]},
       {"do":"lattice","net":[9,9,4],"degree":[2,2,1],"which":[161],"by":[0,0,0.2]})");
-  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(status) << status.error().message();
   EXPECT_GT(inner.largest_displacement(0), 0.01);
   EXPECT_TRUE(inner.save());
 }
@@ -83,9 +83,9 @@ TEST(HeldEdges, ALatticeOverThemIsRefused) {
 TEST(HeldEdges, WhatLeavesThemMayMove) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto done = run(
+  const auto status = run(
       session, left + R"(,{"do":"elevate","by":[1,1]},{"do":"points","which":[4],"by":[0,0,0.2]})");
-  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(status) << status.error().message();
   EXPECT_NEAR(session.largest_displacement(0), 0.05, 1e-6);
   EXPECT_TRUE(session.save());
 }
@@ -120,9 +120,9 @@ TEST(HeldEdges, WhereAllFollowALatticeMovesThemAlong) {
     for (const EdgeContact& c : *contacts)
       commands += R"(,{"do":"edge","edge":")" + c.id + R"(","hold":"follow"})";
   }
-  const auto done = run(session, commands + R"(,{"do":"lattice","net":[2,2,2],"degree":[1,1,1],
+  const auto status = run(session, commands + R"(,{"do":"lattice","net":[2,2,2],"degree":[1,1,1],
       "which":[0,1,2,3],"by":[0,0,0.2]})");
-  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(status) << status.error().message();
   EXPECT_TRUE(session.parted_edges()->empty());
   EXPECT_TRUE(session.save());
 }
@@ -196,9 +196,9 @@ TEST(PartedEdges, AnEdgeOfOneFaceThatIsLeftBehindCounts) {
 TEST(PartedEdges, FacesThatMoveTogetherLeaveTheirEdgeToo) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto done = run_on(session, both + R"(,{"do":"lattice","net":[2,2,2],"degree":[1,1,1],
+  const auto status = run_on(session, both + R"(,{"do":"lattice","net":[2,2,2],"degree":[1,1,1],
       "which":[0,1,2,3,4,5,6,7],"by":[0,0,1]})");
-  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(status) << status.error().message();
   EXPECT_EQ(session.parted_edges()->size(), 7U);
   EXPECT_FALSE(session.save());
 }
@@ -227,11 +227,11 @@ TEST(PartedEdges, BothSidesOfASeamCount) {
       ++seams;
       const int d = brep::closed_directions(*s.opened)[0] ? 0 : 1;
       const int row = last ? s.opened->net()[static_cast<std::size_t>(d)] - 1 : 0;
-      const auto done = run_on(
+      const auto status = run_on(
           session, fmt::format(R"({{"do":"select","surface":"{}"}},{{"do":"seams","couple":false}},
           {{"do":"points","rows_{}":[{}],"by":[0,0.1,0]}})",
                                s.id, d == 0 ? 'u' : 'v', row));
-      ASSERT_TRUE(done) << done.error().message();
+      ASSERT_TRUE(status) << status.error().message();
       const auto parted = session.parted_edges();
       ASSERT_TRUE(parted);
       const auto torn = std::ranges::find(*parted, seam->id, &PartedEdge::id);
@@ -259,8 +259,8 @@ TEST(SecondFace, IsHeldAsTheFirst) {
     ASSERT_TRUE(run_on(session, R"({"do":"edge","hold":"follow","edge":")" +
                                     TwoSheets::name(sheets.edge) + "\"}"));
     EXPECT_EQ(std::ranges::count(orders_of(session, 1), -1), 1);
-    const auto done = run_on(session, press);
-    ASSERT_TRUE(done) << done.error().message();
+    const auto status = run_on(session, press);
+    ASSERT_TRUE(status) << status.error().message();
     EXPECT_GT(session.largest_displacement(1), 0.01);
     const auto parted = session.parted_edges();
     ASSERT_TRUE(parted);
@@ -283,11 +283,11 @@ TEST(SecondFace, IsHeldAsItIsSaid) {
   const TwoSheets sheets = two_sheets();
   const std::string said[] = {R"({"do":"hold","mode":"free"})", R"({"do":"hold","rows":1})",
                               R"({"do":"pin","at":[0.5,0.5]})"};
-  for (const std::string& own : said) {
+  for (const std::string& command : said) {
     Session session = opened(sheets);
-    ASSERT_TRUE(run_on(
-        session, right_alone + "," + own + "," + left + R"(,{"do":"hold","mode":"trim"},)" + both));
-    EXPECT_FALSE(holds_trims(session.state().surfaces[1].constraints)) << own;
+    ASSERT_TRUE(run_on(session, right_alone + "," + command + "," + left +
+                                    R"(,{"do":"hold","mode":"trim"},)" + both));
+    EXPECT_FALSE(holds_trims(session.state().surfaces[1].constraints)) << command;
   }
   // Where the first is not held, nor is the second.
   Session session = opened(sheets);
@@ -305,11 +305,12 @@ TEST(SecondFace, ASeamThatWasNearlySmoothStaysSo) {
     sheets.text.replace(at + 7, 2, fmt::format("{:.12f}", rise));
   }
   Session session = opened(sheets);
-  const auto done = run(session, both + R"(,{"do":"edge","edge":")" + TwoSheets::name(sheets.edge) +
-                                     R"(","hold":"free"},
+  const auto status =
+      run(session, both + R"(,{"do":"edge","edge":")" + TwoSheets::name(sheets.edge) +
+                       R"(","hold":"free"},
       {"do":"seams","couple":false},)" +
-                                     press);
-  ASSERT_TRUE(done) << done.error().message();
+                       press);
+  ASSERT_TRUE(status) << status.error().message();
   const auto apart = parting(session.state(), *session.state().followed.at(0).course);
   ASSERT_TRUE(apart);
   EXPECT_NEAR(apart->angle_before, 0.34 * std::numbers::pi / 180, 1e-6);

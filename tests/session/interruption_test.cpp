@@ -14,13 +14,13 @@ namespace {
 /// often it asked.
 struct Asked {
   long long count = 0;
-  Expected<void> done;
+  Expected<void> status;
 };
 Asked stopped_at(Session& session, const std::string& text, long long n) {
   Asked asked;
   const auto command = parse_command(text);
   EXPECT_TRUE(command) << text;
-  asked.done = session.execute(*command, {}, [&] { return ++asked.count < n; });
+  asked.status = session.execute(*command, {}, [&] { return ++asked.count < n; });
   return asked;
 }
 
@@ -36,7 +36,7 @@ TEST(Interruption, WithinAStepKeepsTheStepsBefore) {
   const std::string steps = R"({"do":"step","count":4})";
   Session whole = on_sheet({ball});
   const Asked all = stopped_at(whole, steps, never);
-  ASSERT_TRUE(all.done);
+  ASSERT_TRUE(all.status);
   EXPECT_GT(all.count, 100);
   std::size_t last = 4;
   for (const double share : {0.95, 0.85, 0.7}) {
@@ -44,7 +44,7 @@ TEST(Interruption, WithinAStepKeepsTheStepsBefore) {
     const auto at = static_cast<long long>(share * static_cast<double>(all.count));
     const Asked asked = stopped_at(session, steps, at);
     EXPECT_EQ(asked.count, at) << "nobody asks again";
-    if (!asked.done) continue;  // the first step
+    if (!asked.status) continue;  // the first step
     const std::size_t made = session.state().steps.size();
     ASSERT_GE(made, 1U);
     ASSERT_LE(made, last);
@@ -67,21 +67,21 @@ TEST(Interruption, OfTheFirstStepAndOfOtherCommandsChangesNothing) {
   for (const std::string& text : commands) {
     Session whole = on_sheet({ball});
     const Asked all = stopped_at(whole, text, never);
-    ASSERT_TRUE(all.done) << text << all.done.error().message();
+    ASSERT_TRUE(all.status) << text << all.status.error().message();
     ASSERT_GT(all.count, 10) << text;
     for (const long long at : {1LL, 2LL, all.count / 5}) {
       Session session = on_sheet({ball});
       const auto before = session.journal().size();
       const auto shape = first(session).current;
       const Asked asked = stopped_at(session, text, at);
-      if (at > 2 && asked.done) continue;  // a later step
-      ASSERT_FALSE(asked.done) << text;
-      EXPECT_NE(asked.done.error().what.find("stopped"), std::string::npos)
-          << asked.done.error().message();
+      if (at > 2 && asked.status) continue;  // a later step
+      ASSERT_FALSE(asked.status) << text;
+      EXPECT_NE(asked.status.error().what.find("stopped"), std::string::npos)
+          << asked.status.error().message();
       EXPECT_EQ(session.journal().size(), before);
       EXPECT_EQ(first(session).current, shape);
       EXPECT_TRUE(session.state().steps.empty());
-      ASSERT_TRUE(stopped_at(session, text, never).done);
+      ASSERT_TRUE(stopped_at(session, text, never).status);
       expect_same_shape(session, whole);
     }
   }

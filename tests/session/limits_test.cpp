@@ -41,11 +41,11 @@ TEST(Limits, SizesAreCheckedBeforeTheyAreAllocated) {
 TEST(Limits, ANetThatIsHalvedAgainAndAgainEndsInAnError) {
   Session session = sheet_and({});
   const auto halve = parse_command(R"({"do":"refine","region":[[0,1],[0,1]]})");
-  Expected<void> done;
-  for (int k = 0; k < 12 && done; ++k) done = session.execute(*halve);
-  ASSERT_FALSE(done);
-  EXPECT_NE(done.error().what.find("million control points"), std::string::npos)
-      << done.error().message();
+  Expected<void> status;
+  for (int k = 0; k < 12 && status; ++k) status = session.execute(*halve);
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().what.find("million control points"), std::string::npos)
+      << status.error().message();
   const auto [m, n] = session.state().surfaces[0].current->net();
   EXPECT_LE(static_cast<double>(m) * n, 4e6);
 }
@@ -94,10 +94,10 @@ TEST(Limits, OtherCommandsThatAreStoppedChangeNothing) {
     const SessionState* before = &session.state();
     const auto command = parse_command(json);
     ASSERT_TRUE(command);
-    const auto done = session.execute(*command, [](int, int) { return false; });
-    ASSERT_FALSE(done) << json;
-    EXPECT_NE(done.error().what.find("stopped after 1 of 3 steps"), std::string::npos)
-        << done.error().message();
+    const auto status = session.execute(*command, [](int, int) { return false; });
+    ASSERT_FALSE(status) << json;
+    EXPECT_NE(status.error().what.find("stopped after 1 of 3 steps"), std::string::npos)
+        << status.error().message();
     EXPECT_EQ(&session.state(), before);
     EXPECT_TRUE(session.execute(*command, [](int k, int n) { return k < n; }))
         << "the last step is done";

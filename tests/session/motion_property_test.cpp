@@ -171,12 +171,12 @@ void act(Random& random, unsigned seed, Tally& tally) {
   }
   const auto parsed = parse_command(command);
   ASSERT_TRUE(parsed) << command << ": " << parsed.error().message();
-  const auto done = session.execute(*parsed);
+  const auto status = session.execute(*parsed);
   ++tally.made;
-  if (!done) {
+  if (!status) {
     ++tally.refused;
-    EXPECT_FALSE(done.error().remedy.empty())
-        << "seed " << seed << ": " << command << ": " << done.error().message();
+    EXPECT_FALSE(status.error().remedy.empty())
+        << "seed " << seed << ": " << command << ": " << status.error().message();
     return;
   }
   const auto noted = [&](std::string_view begins) {

@@ -183,10 +183,10 @@ TEST_P(RandomScript, GivesTheSameBitsByUndoRedoAndReplay) {
   for (int k = 0; k < 25; ++k) {
     const auto before = std::make_shared<const SessionState>(session.state());
     const std::string json = random_command(random, {});
-    const auto done = session.execute(*parse_command(json));
-    if (!done) {
+    const auto status = session.execute(*parse_command(json));
+    if (!status) {
       ASSERT_TRUE(same_state(session.state(), *before))
-          << json << " was refused: " << done.error().message();
+          << json << " was refused: " << status.error().message();
       continue;
     }
     ++accepted;
@@ -247,8 +247,8 @@ TEST(Property, EnergyFallsWithoutForces) {
       const std::string json = random_command(random, {}, false);
       const auto command = parse_command(json);
       if (fields_of<MoveCommand>(*command)) continue;
-      const auto done = session.execute(*command);
-      ASSERT_TRUE(done) << json << done.error().message();
+      const auto status = session.execute(*command);
+      ASSERT_TRUE(status) << json << status.error().message();
     }
     run(session,
         {R"({"do":"drag","at":[0.4,0.6],"by":[0.2,0.1,0.8],"plasticity":0})", R"({"do":"load"})"});

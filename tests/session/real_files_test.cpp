@@ -70,8 +70,9 @@ void bend(const std::vector<std::filesystem::path>& files, int& sculpted, int& l
           {R"({"do":"select","surface":")" + s.id + R"("})", R"({"do":"hold","mode":"free"})",
            R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55],"touches":"all"})",
            R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
-      if (const auto done = session.execute(make_command(StepCommand{1, 3, {}})); !done) {
-        EXPECT_NE(done.error().what.find("no area"), std::string::npos) << done.error().message();
+      if (const auto status = session.execute(make_command(StepCommand{1, 3, {}})); !status) {
+        EXPECT_NE(status.error().what.find("no area"), std::string::npos)
+            << status.error().message();
         continue;
       }
       const StepRecord& step = session.state().steps.back();
@@ -118,8 +119,8 @@ TEST(RealFiles, CollapsedCapsOfAWingAreLeftOutOfWhatIsConnected) {
     const auto select = R"({"do":"select","surface":")" + s.id + R"(","connected":true})";
     const auto command = parse_command(select);
     ASSERT_TRUE(command);
-    if (const auto done = session.execute(*command); !done) {
-      EXPECT_EQ(done.error().what, s.id + " has no area");
+    if (const auto status = session.execute(*command); !status) {
+      EXPECT_EQ(status.error().what, s.id + " has no area");
       ++refused;
       continue;
     }

@@ -12,7 +12,7 @@ namespace knead::testing {
 inline Expected<void> run_all(Session& session, const Expected<std::vector<Command>>& commands) {
   if (!commands) return std::unexpected(commands.error());
   for (const Command& command : *commands) {
-    if (auto done = session.execute(command); !done) return done;
+    if (auto status = session.execute(command); !status) return status;
   }
   return {};
 }

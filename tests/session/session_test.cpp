@@ -269,9 +269,9 @@ TEST_P(SessionOnFile, EverySurfaceCanBeSculptedOrSaysWhyNot) {
       continue;
     }
     run(session, {R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
-    const auto done = session.execute(make_command(StepCommand{1, 1, StepWeight::mass}));
-    if (!done) {
-      EXPECT_EQ(done.error().kind, ErrorKind::numerical) << done.error().message();
+    const auto status = session.execute(make_command(StepCommand{1, 1, StepWeight::mass}));
+    if (!status) {
+      EXPECT_EQ(status.error().kind, ErrorKind::numerical) << status.error().message();
       continue;
     }
     ++sculpted;

@@ -118,8 +118,8 @@ TEST(Stamp, SaysWhatIsWrong) {
   Session session = flat(48);
   const auto error = [&](const std::string& more) {
     const auto command = parse_command(stamp(more, {100, 100, 0}));
-    const auto done = command ? session.execute(*command) : std::unexpected(command.error());
-    return done ? std::string("no error") : done.error().message();
+    const auto status = command ? session.execute(*command) : std::unexpected(command.error());
+    return status ? std::string("no error") : status.error().message();
   };
   EXPECT_NE(error(R"("angle":0)").find("either a pattern or a shape"), std::string::npos);
   EXPECT_NE(error(R"("pattern":[[1,2],[3]])").find("row 2 has 1 heights"), std::string::npos);

@@ -34,8 +34,8 @@ inline void run(Session& session, const std::vector<std::string>& commands) {
   for (const std::string& json : commands) {
     const auto command = parse_command(json);
     ASSERT_TRUE(command) << json << ": " << command.error().message();
-    const auto done = session.execute(*command);
-    ASSERT_TRUE(done) << json << ": " << done.error().message();
+    const auto status = session.execute(*command);
+    ASSERT_TRUE(status) << json << ": " << status.error().message();
   }
 }
 
@@ -43,12 +43,12 @@ inline void run(Session& session, const std::vector<std::string>& commands) {
 inline Error refusal(Session& session, const std::string& json) {
   const auto command = parse_command(json);
   if (!command) return command.error();
-  const auto done = session.execute(*command);
-  if (done) {
+  const auto status = session.execute(*command);
+  if (status) {
     ADD_FAILURE() << json << " was accepted";
     return {};
   }
-  return done.error();
+  return status.error();
 }
 
 inline bool same_bits(const Surface& a, const Surface& b) {

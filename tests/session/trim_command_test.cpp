@@ -47,8 +47,8 @@ double largest_gap(const Session& session) {
 
 TEST(TrimCommands, AScriptOfVersion2HoldsTheEdgesOfFacesAndRefinesForIt) {
   Session session(document(disc().file));
-  const auto done = run(session, pressed);
-  ASSERT_TRUE(done) << done.error().message();
+  const auto result = run(session, pressed);
+  ASSERT_TRUE(result) << result.error().message();
   EXPECT_GT(session.largest_displacement(0), 0.005);
   EXPECT_EQ(largest_gap(session), 0);
   const Surface& now = *session.state().surfaces[0].current;
@@ -64,8 +64,8 @@ TEST(TrimCommands, ANetWithPinnedControlPointsStaysAsItIs) {
   for (const bool pinned : {true, false}) {
     Session session(document(disc().file));
     const std::string pin = R"({"do":"pin","control_points":[[0,0]]},)";
-    const auto done = run(session, finer + (pinned ? pin : "") + pressed);
-    ASSERT_TRUE(done) << done.error().message();
+    const auto result = run(session, finer + (pinned ? pin : "") + pressed);
+    ASSERT_TRUE(result) << result.error().message();
     EXPECT_GT(session.largest_displacement(0), 0.005);
     EXPECT_EQ(session.state().surfaces[0].current->net() == (std::array{19, 19}), pinned);
   }
@@ -74,10 +74,10 @@ TEST(TrimCommands, ANetWithPinnedControlPointsStaysAsItIs) {
 // The net of degree 1 gets a higher degree between tool and edges while the stroke is under way.
 TEST(TrimCommands, AStrokeInClayLeavesItsGrooveInAFlatFace) {
   Session session(document(disc().file));
-  const auto done = run(session, R"({"do":"material","preset":"clay"},
+  const auto result = run(session, R"({"do":"material","preset":"clay"},
     {"do":"tool","name":"ball","radius":0.05,"position":[0.3,0.4,0.2],"plasticity":1},
     {"do":"stroke","tool":"ball","path":[[0.3,0.4,0.03],[0.35,0.65,0.03],[0.45,0.7,0.03]]})");
-  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(result) << result.error().message();
   EXPECT_NEAR(session.largest_displacement(0), 0.02, 0.002);
   EXPECT_EQ(largest_gap(session), 0);
   EXPECT_EQ(session.state().surfaces[0].current->knots(0).degree(), 3);
@@ -102,10 +102,10 @@ step::File square() {
 // A wide brush, pressed deep beside a corner.
 TEST(TrimCommands, AStrokeThatWouldFoldAFaceIsMadeShallower) {
   Session session(document(square()));
-  const auto done = run(session, R"({"do":"material","preset":"clay"},
+  const auto result = run(session, R"({"do":"material","preset":"clay"},
     {"do":"tool","name":"ball","radius":0.25,"position":[0.8,0.8,-0.75],"plasticity":1},
     {"do":"stroke","tool":"ball","path":[[0.8,0.8,-0.125],[0.8,0.8,0]]})");
-  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(result) << result.error().message();
   EXPECT_GT(session.largest_displacement(0), 0.05);
   EXPECT_LT(session.largest_displacement(0), 0.2);
   EXPECT_EQ(largest_gap(session), 0);
@@ -119,11 +119,12 @@ TEST(TrimCommands, AFoldBesideAHeldEdgeNamesIt) {
   const Disc d = disc();
   const auto refused = [&](const std::string& first, const char* at, const char* by) {
     Session session(document(d.file));
-    const auto done = run(session, first + R"({"do":"brush","kind":"grab","radius":0.15,"path":[)" +
-                                       at + R"(],"by":)" + by + R"(})");
-    EXPECT_FALSE(done);
+    const auto result =
+        run(session, first + R"({"do":"brush","kind":"grab","radius":0.15,"path":[)" + at +
+                         R"(],"by":)" + by + R"(})");
+    EXPECT_FALSE(result);
     EXPECT_EQ(session.largest_displacement(0), 0);
-    return done ? Error{} : done.error();
+    return result ? Error{} : result.error();
   };
   for (const auto& [edge, by] : {std::pair{d.hole, "[-0.2,0,0]"}, {d.edge, "[0.2,0,0]"}}) {
     const Error error = refused("", "[0.8,0.5]", by);
@@ -142,9 +143,9 @@ TEST(TrimCommands, AFoldBesideAHeldEdgeNamesIt) {
 
 TEST(TrimCommands, HoldingNoRowsOfAllUndoesWhatAScriptBeginsWith) {
   Session session(document(disc().file));
-  const auto done =
+  const auto result =
       run(session, R"({"do":"hold","rows":0,"all":true},)" + ball + R"(,{"do":"step"})");
-  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(result) << result.error().message();
   EXPECT_EQ(session.state().surfaces[0].current->net(), (std::array{2, 2}));
   EXPECT_TRUE(session.state().surfaces[0].constraints.empty());
 }
@@ -156,9 +157,9 @@ const std::string in_hole =
 TEST(TrimCommands, AToolInAHoleTouchesNothing) {
   for (const char* hold : {"", R"({"do":"hold","mode":"free"},)"}) {
     Session session(document(disc().file));
-    const auto done =
+    const auto result =
         run(session, hold + in_hole + R"(},{"do":"evolve","mode":"acm"},{"do":"step"})");
-    ASSERT_TRUE(done) << done.error().message();
+    ASSERT_TRUE(result) << result.error().message();
     EXPECT_EQ(session.largest_displacement(0), 0);
     const StepRecord& step = session.state().steps.back();
     EXPECT_EQ(step.gap, 0);
@@ -192,13 +193,13 @@ TEST(TrimCommands, WhatToolsTouchIsInSnapshots) {
 
 TEST(TrimCommands, WhereNothingMayBeRefinedAndNothingIsFreeThatIsAnErrorWithTheRemedy) {
   Session session(document(disc().file));
-  const auto done = run(session, R"({"do":"refine","permission":"never"},)" + pressed);
-  ASSERT_FALSE(done);
-  EXPECT_EQ(done.error().kind, ErrorKind::numerical);
-  EXPECT_NE(done.error().message().find("nothing is free"), std::string::npos);
-  EXPECT_NE(done.error().remedy.find("permission"), std::string::npos);
-  EXPECT_EQ(testing::code_of(done.error()), ErrorCode::nothing_free_at_edges);
-  const std::vector<Fix> fixes = fixes_for(*done.error().diagnostic);
+  const auto result = run(session, R"({"do":"refine","permission":"never"},)" + pressed);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::numerical);
+  EXPECT_NE(result.error().message().find("nothing is free"), std::string::npos);
+  EXPECT_NE(result.error().remedy.find("permission"), std::string::npos);
+  EXPECT_EQ(testing::code_of(result.error()), ErrorCode::nothing_free_at_edges);
+  const std::vector<Fix> fixes = fixes_for(*result.error().diagnostic);
   ASSERT_EQ(fixes.size(), 1U);
   for (const Command& command : fixes[0].commands) ASSERT_TRUE(session.execute(command));
   EXPECT_TRUE(run(session, pressed)) << "what is offered helps";
@@ -206,9 +207,9 @@ TEST(TrimCommands, WhereNothingMayBeRefinedAndNothingIsFreeThatIsAnErrorWithTheR
 
 TEST(TrimCommands, AStepOverWhatIsHeldCanBeAllowed) {
   Session session(document(disc().file));
-  const auto done = run(session, R"({"do":"refine","permission":"never"},)" + ball +
-                                     R"(,{"do":"step","allow":"held"})");
-  EXPECT_TRUE(done) << done.error().message();
+  const auto result = run(session, R"({"do":"refine","permission":"never"},)" + ball +
+                                       R"(,{"do":"step","allow":"held"})");
+  EXPECT_TRUE(result) << result.error().message();
   EXPECT_EQ(session.largest_displacement(0), 0);
 }
 
@@ -233,17 +234,17 @@ TEST(TrimCommands, AnEdgeThatIsFreedMayMove) {
 TEST(TrimCommands, AnEdgeThatThereIsNotIsNamedWithThoseThereAre) {
   const Disc d = disc();
   Session session(document(d.file));
-  const auto done = run(session, R"({"do":"edge","which":"#5","hold":"free"})");
-  ASSERT_FALSE(done);
-  EXPECT_NE(done.error().remedy.find(d.edge), std::string::npos);
+  const auto result = run(session, R"({"do":"edge","which":"#5","hold":"free"})");
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().remedy.find(d.edge), std::string::npos);
 }
 
 TEST(TrimCommands, APlaceThatIsNotVisibleIsAnErrorThatNamesTheNearestOneThatIs) {
   Session session(document(disc().file));
-  const auto done = run(session, R"({"do":"tool","radius":0.1,"at":[0.58,0.5]})");
-  ASSERT_FALSE(done);
-  EXPECT_EQ(done.error().where, "at");
-  EXPECT_NE(done.error().remedy.find("[0.5"), std::string::npos) << done.error().remedy;
+  const auto result = run(session, R"({"do":"tool","radius":0.1,"at":[0.58,0.5]})");
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().where, "at");
+  EXPECT_NE(result.error().remedy.find("[0.5"), std::string::npos) << result.error().remedy;
 }
 
 TEST(TrimCommands, WhereNoEdgesAreHeldItIsNoted) {

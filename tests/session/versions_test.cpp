@@ -24,8 +24,8 @@ std::string text_of(const std::string& name) {
 void run_all(Session& session, const Expected<std::vector<Command>>& commands) {
   ASSERT_TRUE(commands) << commands.error().message();
   for (const Command& command : *commands) {
-    const auto done = session.execute(command);
-    ASSERT_TRUE(done) << to_json(command) << ": " << done.error().message();
+    const auto status = session.execute(command);
+    ASSERT_TRUE(status) << to_json(command) << ": " << status.error().message();
   }
 }
 

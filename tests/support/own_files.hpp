@@ -69,9 +69,9 @@ inline std::vector<std::string> names_of(const std::vector<MadeFile>& made) {
   for (const auto& [name, text] : made) result.push_back(name);
   return result;
 }
-inline std::vector<std::string> with_own(std::vector<std::string> own, const auto& foreign) {
-  own.insert(own.end(), foreign.begin(), foreign.end());
-  return own;
+inline std::vector<std::string> with_own(std::vector<std::string> files, const auto& foreign) {
+  files.insert(files.end(), foreign.begin(), foreign.end());
+  return files;
 }
 /// STEP files of the project: those of `samples`, and made ones.
 inline std::vector<std::string> own_step() {

@@ -19,9 +19,9 @@ namespace {
 
 /// Scripts begin so: the edges of faces are held. It cannot be undone.
 Expected<void> begin(Session& session) {
-  auto done = session.execute(default_hold());
-  if (done) session.begin_history();
-  return done;
+  auto status = session.execute(default_hold());
+  if (status) session.begin_history();
+  return status;
 }
 
 std::shared_ptr<const Source> source_of(const py::bytes& bytes, const std::string& name,
@@ -104,13 +104,13 @@ std::unique_ptr<PySession> PySession::from_state(const py::tuple& state) {
 void PySession::execute(const std::string& json, py::object progress) {
   const Command command = value_of(parse_command(json));
   Work work(std::move(progress));
-  auto done = alone([&] {
+  auto status = alone([&] {
     return session_.execute(
         command, [&](int step, int all) { return work.tell(step, all); },
         [&] { return work.go_on(); });
   });
   work.finish();
-  value_of(std::move(done));
+  value_of(std::move(status));
 }
 
 void PySession::run(const std::string& text, const std::string& name, bool list,
@@ -120,7 +120,7 @@ void PySession::run(const std::string& text, const std::string& name, bool list,
   if (!read) raise(list ? read.error() : error_of_script(read.error(), text, name));
   const std::span<const Command> commands = std::span(*read).subspan(implied);
   Work work(std::move(progress));
-  auto done = alone([&]() -> Expected<void> {
+  auto status = alone([&]() -> Expected<void> {
     const auto carry_out = [&](const Command& command) {
       return session_.execute(
           command, [&](int step, int all) { return work.tell(step, all); },
@@ -139,7 +139,7 @@ void PySession::run(const std::string& text, const std::string& name, bool list,
     return {};
   });
   work.finish();
-  value_of(std::move(done));
+  value_of(std::move(status));
 }
 
 py::list PySession::shapes() {

@@ -48,23 +48,23 @@ void evaluate_into(const Held<D>& held, const py::sequence& parameters, int orde
   for (const Doubles& part : memory) parts.push_back(part.span());
   std::array<BasisTable, D> tables;
   std::array<const BasisTable*, D> pointers;
-  Expected<void> done;
-  for (std::size_t d = 0; d < D && done; ++d) {
+  Expected<void> status;
+  for (std::size_t d = 0; d < D && status; ++d) {
     auto table = tabulate_basis(held.spline->knots()[d], at[d].span(), order, side);
     if (!table) {
-      done = std::unexpected(table.error().within("direction " + std::to_string(d)));
+      status = std::unexpected(table.error().within("direction " + std::to_string(d)));
       break;
     }
     tables[d] = *std::move(table);
     pointers[d] = &tables[d];
   }
-  if (done) {
-    done = grid ? evaluate_grid_into<D>(*held.spline, pointers, order, parts)
-                : evaluate_into<D>(*held.spline, pointers, order, parts);
+  if (status) {
+    status = grid ? evaluate_grid_into<D>(*held.spline, pointers, order, parts)
+                  : evaluate_into<D>(*held.spline, pointers, order, parts);
   }
-  if (done) return;
+  if (status) return;
   const py::gil_scoped_acquire interpreter;
-  raise(done.error());
+  raise(status.error());
 }
 
 template <int D>

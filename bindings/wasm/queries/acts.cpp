@@ -30,9 +30,9 @@ Expected<Nothing> ask(Studio& studio, const ActQuery& q) {
   const bool first =
       session.document().is_fresh() && state.surfaces.empty() && state.bodies.empty();
   session.stop_at_faces(true);
-  if (auto done = session.act(q.commands, {.join = q.join, .keep = q.keep}, studio.progress);
-      !done) {
-    return std::unexpected(std::move(done.error()));
+  if (auto status = session.act(q.commands, {.join = q.join, .keep = q.keep}, studio.progress);
+      !status) {
+    return std::unexpected(std::move(status.error()));
   }
   if (first) studio.origin = origin_near(session.state(), studio.origin);
   return {};
@@ -81,8 +81,8 @@ void describe(RehearseQuery& q, Fields& fields) {
 }
 
 Expected<Nothing> ask(Session& session, const RehearseQuery& q) {
-  if (auto done = session.rehearse(q.commands); !done)
-    return std::unexpected(std::move(done.error()));
+  if (auto status = session.rehearse(q.commands); !status)
+    return std::unexpected(std::move(status.error()));
   return {};
 }
 

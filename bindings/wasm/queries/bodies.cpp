@@ -136,7 +136,7 @@ void draw_net(const Spline<D>& spline, const Point& origin, BodyPicture& picture
 template <int D>
 Expected<BodyPicture> picture_of(const Spline<D>& spline, const Point& origin) {
   BodyPicture picture;
-  if (auto done = draw(spline, origin, picture); !done) return std::unexpected(done.error());
+  if (auto status = draw(spline, origin, picture); !status) return std::unexpected(status.error());
   draw_net(spline, origin, picture);
   return picture;
 }

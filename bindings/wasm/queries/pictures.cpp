@@ -96,8 +96,8 @@ Expected<const Picture*> ask(Studio& studio, const PictureQuery& q) {
   const PictureOptions options{
       studio.origin, q.detail, *std::move(display), q.opened, visible_part(studio, q.surface),
       q.window,      seen};
-  if (auto done = studio.pictures.make(studio.session->state(), q.surface, options); !done) {
-    return std::unexpected(std::move(done.error()));
+  if (auto status = studio.pictures.make(studio.session->state(), q.surface, options); !status) {
+    return std::unexpected(std::move(status.error()));
   }
   return &studio.pictures.picture();
 }

@@ -41,13 +41,13 @@ Expected<FaceSurface> FaceSurface::under(const Model& model, const Face& face,
 
 Expected<FaceSurface> FaceSurface::elementary(const Model& model, const Support& support,
                                               std::span<const Point> on_it) {
-  const auto& own = std::get<ElementarySurface>(support.form);
+  const auto& form = std::get<ElementarySurface>(support.form);
   static_assert(static_cast<int>(ElementarySurface::Kind::torus) == static_cast<int>(Kind::torus));
-  const auto kind = static_cast<Kind>(own.kind);
-  FaceSurface surface(kind, own.frame);
-  surface.radius_ = own.radius;
-  surface.minor_ = own.second;
-  surface.inner_ = own.inner;
+  const auto kind = static_cast<Kind>(form.kind);
+  FaceSurface surface(kind, form.frame);
+  surface.radius_ = form.radius;
+  surface.minor_ = form.second;
+  surface.inner_ = form.inner;
   if (kind != Kind::plane) surface.periods_[0] = turn;
   if (kind == Kind::cone && !surface.find_half_angle(on_it, model.angle_units)) {
     return model.error(support, "its half angle is not below a right angle");
@@ -60,11 +60,11 @@ Expected<FaceSurface> FaceSurface::elementary(const Model& model, const Support&
 
 Expected<FaceSurface> FaceSurface::swept(const Model& model, const Support& support,
                                          std::span<const Point> on_it) {
-  const auto& own = std::get<SweptSurface>(support.form);
-  FaceSurface surface(own.revolution ? Kind::revolution : Kind::extrusion, own.frame);
-  if (own.revolution) surface.periods_[0] = turn;
-  if (auto done = surface.tabulate(model, support, on_it); !done)
-    return std::unexpected(std::move(done.error()));
+  const auto& form = std::get<SweptSurface>(support.form);
+  FaceSurface surface(form.revolution ? Kind::revolution : Kind::extrusion, form.frame);
+  if (form.revolution) surface.periods_[0] = turn;
+  if (auto status = surface.tabulate(model, support, on_it); !status)
+    return std::unexpected(std::move(status.error()));
   surface.set_poles();
   surface.set_reach(on_it);
   return surface;

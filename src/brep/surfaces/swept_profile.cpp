@@ -31,10 +31,10 @@ Expected<void> FaceSurface::tabulate(const Model& model, const Support& support,
   auto curve = EdgeCurve::create(*swept.curve);
   if (!curve) return std::unexpected(std::move(curve.error()));
   profile_ = *std::move(curve);
-  if (auto done = find_range(model, support, on_it); !done) return done;
+  if (auto status = find_range(model, support, on_it); !status) return status;
   if (kind_ == Kind::revolution) {
     find_side();
-    if (auto done = end_at_axis(model, support, on_it); !done) return done;
+    if (auto status = end_at_axis(model, support, on_it); !status) return status;
   }
   sample_profile();
   if (one_side_) keep_one_side();

@@ -28,16 +28,17 @@ Chart::Chart(std::shared_ptr<const ChartedSurface> surface, std::span<const Foot
 }
 
 ParameterSpace Chart::space() const {
-  const ParameterSpace own = surface_->space();
+  const ParameterSpace space = surface_->space();
   ParameterSpace result;
   const Vector2d base = surface_->foot(surface_->at({0, 0}), Vector2d(0, 0)).parameters;
   for (int d = 0; d < 2; ++d) {
     const auto k = static_cast<std::size_t>(d);
     Vector2d period = Vector2d::Zero();
-    period[d] = own.periods[k];
+    period[d] = space.periods[k];
     if (period[d] > 0) result.periods[k] = to(base + period)[d] - to(base)[d];
     for (std::size_t end = 0; end < 2; ++end) {
-      if (own.poles[k][end]) result.poles[k][end] = to(Vector2d::Constant(*own.poles[k][end]))[d];
+      if (space.poles[k][end])
+        result.poles[k][end] = to(Vector2d::Constant(*space.poles[k][end]))[d];
     }
   }
   return result;

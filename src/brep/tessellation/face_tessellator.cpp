@@ -143,8 +143,9 @@ void weld(std::vector<Point>& points, std::uint32_t first,
 Expected<void> FaceTessellator::legible(const Face& face) {
   const auto loops = edges_.loops(face);
   if (!loops) return std::unexpected(loops.error());
-  if (const SplineSurface* own = model_.spline_under(face)) {
-    return check_extent(model_, face, *loops, net_diagonal(own->surface.control_points()));
+  if (const SplineSurface* spline_surface = model_.spline_under(face)) {
+    return check_extent(model_, face, *loops,
+                        net_diagonal(spline_surface->surface.control_points()));
   }
   const auto surface = FaceSurface::under(model_, face, *loops);
   return surface ? Expected<void>() : std::unexpected(surface.error());
@@ -152,11 +153,11 @@ Expected<void> FaceTessellator::legible(const Face& face) {
 
 Expected<std::unique_ptr<ChartedSurface>> FaceTessellator::surface_of(
     const Face& face, const std::vector<Loop>& loops) {
-  if (const SplineSurface* own = model_.spline_under(face)) {
-    const double size = net_diagonal(own->surface.control_points());
+  if (const SplineSurface* spline_surface = model_.spline_under(face)) {
+    const double size = net_diagonal(spline_surface->surface.control_points());
     if (auto checked = check_extent(model_, face, loops, size); !checked)
       return std::unexpected(checked.error());
-    auto spline = SplineFace::create(own->surface);
+    auto spline = SplineFace::create(spline_surface->surface);
     if (!spline) return model_.error(face, spline.error().what);
     return std::make_unique<SplineFace>(*std::move(spline));
   }
@@ -198,7 +199,7 @@ Expected<void> FaceTessellator::divide_edges(const FaceOnSurface& on) {
       }
       pieces.push_back(static_cast<int>(std::clamp(std::ceil(steps - 1e-6), 1.0, most_pieces)));
     }
-    if (auto done = edges_.divide(edge, pieces); !done) return done;
+    if (auto status = edges_.divide(edge, pieces); !status) return status;
   }
   return {};
 }
@@ -214,8 +215,8 @@ Expected<std::size_t> FaceTessellator::halve_edges(std::span<const Index> edges)
       pieces.push_back((**points)[k] == (**points)[k + 1] ? 1 : 2);
       count += static_cast<std::size_t>(pieces.back());
     }
-    if (auto done = edges_.divide(edge, pieces); !done)
-      return std::unexpected(std::move(done.error()));
+    if (auto status = edges_.divide(edge, pieces); !status)
+      return std::unexpected(std::move(status.error()));
   }
   return count;
 }

@@ -88,11 +88,11 @@ class Bridges {
       if (orientation(below->begin, below->end, v) < 0 ||
           orientation(over->begin, over->end, v) > 0)
         continue;
-      const Facing own = facing(ring, k, p);
-      if (own == Facing::outside) continue;
-      if (best && v == at(ring[*best]) && own <= best_facing) continue;
+      const Facing facing_here = facing(ring, k, p);
+      if (facing_here == Facing::outside) continue;
+      if (best && v == at(ring[*best]) && facing_here <= best_facing) continue;
       best = k;
-      best_facing = own;
+      best_facing = facing_here;
     }
     return best ? *best : nearest(ring, p);
   }
@@ -121,10 +121,10 @@ class Bridges {
     Facing best_facing = Facing::outside;
     for (std::size_t j = 0; j < ring.size(); ++j) {
       if (at(ring[j]) != at(ring[k])) continue;
-      const Facing own = facing(ring, j, q);
-      if (own <= best_facing) continue;
+      const Facing facing_here = facing(ring, j, q);
+      if (facing_here <= best_facing) continue;
       best = j;
-      best_facing = own;
+      best_facing = facing_here;
     }
     return best;
   }

@@ -54,10 +54,10 @@ class Standing {
 
   /// Extends by the corners of a box round it.
   void extend(Eigen::AlignedBox3d& box, const std::string& id,
-              const Eigen::AlignedBox3d& own) const {
+              const Eigen::AlignedBox3d& own_box) const {
     for_each(id, [&](const Eigen::Affine3d& move) {
       for (int k = 0; k < 8; ++k)
-        box.extend(move * own.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+        box.extend(move * own_box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
     });
   }
 
@@ -121,18 +121,18 @@ double diagonal_of(const Model& model, const Standing& standing) {
   for (const Face& face : model.faces) {
     const auto loops = edges.loops(face);
     if (!loops) continue;
-    Eigen::AlignedBox3d own;
+    Eigen::AlignedBox3d own_box;
     for (const brep::Loop& loop : *loops) {
-      for (const Point& p : loop) own.extend(p);
+      for (const Point& p : loop) own_box.extend(p);
     }
-    const double width = own.isEmpty() ? 0 : own.diagonal().norm();
-    if (closed_extent(model, face, *loops) > bulging * width) own.extend(box_of(coarse, face));
-    if (!own.isEmpty()) standing.extend(box, face.id, own);
+    const double width = own_box.isEmpty() ? 0 : own_box.diagonal().norm();
+    if (closed_extent(model, face, *loops) > bulging * width) own_box.extend(box_of(coarse, face));
+    if (!own_box.isEmpty()) standing.extend(box, face.id, own_box);
   }
   for (const TessellatedItem& item : model.tessellated.items) {
-    Eigen::AlignedBox3d own;
-    for (const Point& p : item.mesh.points) own.extend(p);
-    if (!own.isEmpty()) standing.extend(box, item.mesh.id, own);
+    Eigen::AlignedBox3d own_box;
+    for (const Point& p : item.mesh.points) own_box.extend(p);
+    if (!own_box.isEmpty()) standing.extend(box, item.mesh.id, own_box);
   }
   if (box.isEmpty()) {
     for (const SplineSurface& s : model.surfaces) {
@@ -217,8 +217,8 @@ Expected<FaceMeshes> model_faces(const Model& model, double tolerance) {
   FaceMeshes result;
   std::map<float, std::vector<const Face*>> by_scale;
   for (const Face& face : model.faces) by_scale[standing.scale(face.id)].push_back(&face);
-  for (const auto& [scale, own] : by_scale)
-    add_faces(model, own, tolerance / scale, standing, result);
+  for (const auto& [scale, faces] : by_scale)
+    add_faces(model, faces, tolerance / scale, standing, result);
   for (const SplineSurface& entity : model.surfaces) {
     if (entity.faces > 0) continue;
     auto mesh = whole(entity, tolerance / standing.scale(entity.id));

@@ -371,13 +371,13 @@ Expected<std::vector<RegionPart>> parameter_region(const ParameterSpace& space,
   const Sight sight(space, every);
   std::vector<RegionPart> parts;
   if (bounds->direction >= 0) {
-    if (auto done =
+    if (auto status =
             between_round_loops(space, std::move(bounds->round), bounds->direction, sight, parts);
-        !done)
-      return std::unexpected(done.error());
+        !status)
+      return std::unexpected(status.error());
   }
-  if (auto done = add_plain_loops(space, std::move(bounds->plain), sight, parts); !done)
-    return std::unexpected(done.error());
+  if (auto status = add_plain_loops(space, std::move(bounds->plain), sight, parts); !status)
+    return std::unexpected(status.error());
   if (parts.empty()) return no_region("it has no bounds, and its surface has no end");
   orient(parts);
   return parts;

@@ -102,7 +102,7 @@ class Planner {
         return std::unexpected(*model_.vertices[bound.vertex].wrong);
       if (!vertex && bound.edges.empty()) return refuse("one of its bounds is of an unknown form");
       for (const brep::EdgeUse& use : bound.edges) {
-        if (const auto& own = piece(use.edge); !*own) return std::unexpected(own->error());
+        if (const auto& stored = piece(use.edge); !*stored) return std::unexpected(stored->error());
       }
     }
     return {};
@@ -110,15 +110,15 @@ class Planner {
 
   const std::optional<Expected<WrittenEdge>>& piece(Index edge) {
     pieces_.resize(model_.edges.size());
-    auto& own = pieces_[edge];
-    if (own) return own;
+    auto& stored = pieces_[edge];
+    if (stored) return stored;
     const auto made = brep::edge_piece(model_, edge);
-    if (!made) return own = std::unexpected(made.error());
+    if (!made) return stored = std::unexpected(made.error());
     const auto* spline = std::get_if<std::shared_ptr<const Curve>>(&model_.edges[edge].curve->form);
     if (spline != nullptr && torn(**spline))
-      return own = std::unexpected(
+      return stored = std::unexpected(
                  input_error("new files know no curve that is torn along a knot").error());
-    return own = WrittenEdge{{made->from, made->to}, made->backwards};
+    return stored = WrittenEdge{{made->from, made->to}, made->backwards};
   }
 
   void add_part(const brep::Part& part) {
@@ -139,14 +139,14 @@ class Planner {
     for (const std::string& id : part.surfaces) {
       const brep::SplineSurface* s = model_.find_surface(id);
       if (s == nullptr || covered.contains(id)) continue;
-      NamedSurface& own =
+      NamedSurface& stored =
           made.surfaces.emplace_back(NamedSurface{s->name.empty() ? s->id : s->name, s->surface});
       if (const auto colour = plan_.colours.find(id); colour != plan_.colours.end())
-        own.colour = colour->second;
+        stored.colour = colour->second;
       if (torn(s->surface)) {
         list_.add({"surface", "surfaces", "new files know none that is torn along a knot"}, id);
         made.surfaces.pop_back();
-      } else if (without_face(own)) {
+      } else if (without_face(stored)) {
         list_.add({"surface", "surfaces", "all its sides are points, so that it has no face",
                    "write it bare, with --sets"},
                   id);
@@ -177,9 +177,9 @@ class Planner {
 
   void put_places(const brep::Part& part, WrittenPart& made) {
     constexpr double same = 1e-9;
-    const auto *own = length_unit_named(made.unit), *whole = length_unit_named(plan_.unit);
+    const auto *made_unit = length_unit_named(made.unit), *whole = length_unit_named(plan_.unit);
     const double ratio =
-        own != nullptr && whole != nullptr ? own->millimetres / whole->millimetres : 1;
+        made_unit != nullptr && whole != nullptr ? made_unit->millimetres / whole->millimetres : 1;
     for (const brep::PartPlace& place : part.places) {
       const Eigen::Matrix3d linear = place.to_model.linear();
       const auto scale = brep::scale_of(linear);

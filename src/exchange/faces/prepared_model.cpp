@@ -37,11 +37,11 @@ std::vector<Point> corners_on(const brep::Model& model, Index support) {
 
 /// The unit in which the half angle of a cone brings it to the corners of its faces.
 double angle_unit(const brep::Model& model, Index support) {
-  const brep::Support& own = model.supports[support];
+  const brep::Support& stored = model.supports[support];
   if (model.angle_units.size() < 2) return model.angle_units.front();
-  const auto surface = brep::FaceSurface::create(model, own, corners_on(model, support));
+  const auto surface = brep::FaceSurface::create(model, stored, corners_on(model, support));
   if (!surface) return model.angle_units.front();
-  const auto& cone = std::get<brep::ElementarySurface>(own.form);
+  const auto& cone = std::get<brep::ElementarySurface>(stored.form);
   const auto radius = [&](double v) {
     return (surface->at({0, v}) - cone.frame.origin).dot(cone.frame.x);
   };
@@ -184,12 +184,12 @@ std::vector<SkippedFace> use_splines(brep::Model& model, const brep::Model& from
 PreparedModel prepared(std::shared_ptr<const brep::Model> model, Conversion conversion) {
   const bool convert = conversion != Conversion::none;
   PreparedModel result{std::move(model), {}};
-  const brep::Model& own = *result.model;
-  const bool angles = own.angle_units != std::vector<double>{1};
-  const bool polygons = std::ranges::any_of(own.faces, has_polygon);
-  if (!angles && !polygons && !(convert && !brep::other_surfaces(own).empty())) return result;
-  auto made = std::make_shared<brep::Model>(own);
-  if (angles) use_radians(*made, own);
+  const brep::Model& read = *result.model;
+  const bool angles = read.angle_units != std::vector<double>{1};
+  const bool polygons = std::ranges::any_of(read.faces, has_polygon);
+  if (!angles && !polygons && !(convert && !brep::other_surfaces(read).empty())) return result;
+  auto made = std::make_shared<brep::Model>(read);
+  if (angles) use_radians(*made, read);
   if (polygons) {
     PolygonEdges edges(*made);
     for (brep::Face& face : made->faces) {

@@ -122,21 +122,21 @@ class ShellFinder {
                                                              const Runs& runs) {
     std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>>
         neighbours;  // and whether they differ
-    for (const auto& [edge, own] : runs) {
-      if (own.size() > 2) return std::nullopt;
-      if (own.size() < 2) continue;
-      const bool differ = own[0].forward == own[1].forward;
-      neighbours[own[0].face].emplace_back(own[1].face, differ);
-      neighbours[own[1].face].emplace_back(own[0].face, differ);
+    for (const auto& [edge, uses] : runs) {
+      if (uses.size() > 2) return std::nullopt;
+      if (uses.size() < 2) continue;
+      const bool differ = uses[0].forward == uses[1].forward;
+      neighbours[uses[0].face].emplace_back(uses[1].face, differ);
+      neighbours[uses[1].face].emplace_back(uses[0].face, differ);
     }
     std::map<std::size_t, bool> result = {{part.front(), false}};
     std::queue<std::size_t> next({part.front()});
     for (; !next.empty(); next.pop()) {
-      const bool own = result.at(next.front());
+      const bool is_own = result.at(next.front());
       for (const auto& [other, differ] : neighbours[next.front()]) {
-        const auto [at, fresh] = result.try_emplace(other, own != differ);
+        const auto [at, fresh] = result.try_emplace(other, is_own != differ);
         if (fresh) next.push(other);
-        if (at->second != (own != differ)) return std::nullopt;
+        if (at->second != (is_own != differ)) return std::nullopt;
       }
     }
     return result;
@@ -200,14 +200,14 @@ class ShellFinder {
       inside[around.value_or(hollow)].push_back(hollow);
     }
     for (std::size_t k = 0; k < closed.size(); ++k) {
-      const auto own = inside.find(k);
+      const auto found = inside.find(k);
       const bool alone =
-          own != inside.end() && std::ranges::find(own->second, k) != own->second.end();
+          found != inside.end() && std::ranges::find(found->second, k) != found->second.end();
       if (std::ranges::find(solids, k) == solids.end() && !alone) continue;
       WrittenSolid& solid = result.solids.emplace_back();
       solid.outer = closed[k].shell;
-      if (own == inside.end() || alone) continue;
-      for (const std::size_t hollow : own->second) solid.hollows.push_back(closed[hollow].shell);
+      if (found == inside.end() || alone) continue;
+      for (const std::size_t hollow : found->second) solid.hollows.push_back(closed[hollow].shell);
     }
   }
 

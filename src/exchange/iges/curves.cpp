@@ -45,9 +45,9 @@ Expected<void> CurveReader::add_nested(int number, const Eigen::Affine3d& outer,
   if (exceeded() || depth > max_composite_nesting) {
     return file_.error(number, "curves are nested too deeply, or used too often");
   }
-  const auto own = transform_of(file_, number);
-  if (!own) return std::unexpected(own.error());
-  const Eigen::Affine3d move = outer * *own;
+  const auto transform = transform_of(file_, number);
+  if (!transform) return std::unexpected(transform.error());
+  const Eigen::Affine3d move = outer * *transform;
   if (entity->type == 102) {
     const auto parameters = file_.parameters(number);
     if (!parameters) return std::unexpected(parameters.error());
@@ -61,7 +61,7 @@ Expected<void> CurveReader::add_nested(int number, const Eigen::Affine3d& outer,
       const Entity* other = file_.find(part);
       if (other != nullptr && (other->type == 116 || other->type == 132))
         continue;  // points between curves
-      if (auto done = add_nested(part, move, pieces, depth + 1); !done) return done;
+      if (auto status = add_nested(part, move, pieces, depth + 1); !status) return status;
     }
     return {};
   }
@@ -165,8 +165,9 @@ Expected<Piece> CurveReader::spline(int number, const Eigen::Affine3d& outer) {
                                                        1 + 4 * curve->size());
   Interval domain = curve->knots(0).domain();
   if (const auto limits = numbers(file_, number, *parameters, end, 2)) {
-    const Interval own{std::max((*limits)[0], domain.lower), std::min((*limits)[1], domain.upper)};
-    if (own.length() > 0) domain = own;
+    const Interval range{std::max((*limits)[0], domain.lower),
+                         std::min((*limits)[1], domain.upper)};
+    if (range.length() > 0) domain = range;
   }
   Piece piece;
   points_ += static_cast<std::size_t>(curve->size());

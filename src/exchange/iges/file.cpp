@@ -187,9 +187,11 @@ Expected<File> File::parse(std::string bytes, std::string name) {
   File file;
   file.name_ = std::move(name);
   file.bytes_ = std::move(bytes);
-  if (auto done = file.split(); !done) return std::unexpected(std::move(done.error()));
-  if (auto done = file.read_global(); !done) return std::unexpected(std::move(done.error()));
-  if (auto done = file.read_directory(); !done) return std::unexpected(std::move(done.error()));
+  if (auto outcome = file.split(); !outcome) return std::unexpected(std::move(outcome.error()));
+  if (auto outcome = file.read_global(); !outcome)
+    return std::unexpected(std::move(outcome.error()));
+  if (auto outcome = file.read_directory(); !outcome)
+    return std::unexpected(std::move(outcome.error()));
   return file;
 }
 
@@ -202,9 +204,9 @@ Expected<void> File::split() {
     Line line{static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(stop)};
     at = broken ? stop + 1 : stop;
     if (broken && line.end > line.begin && bytes_[line.end - 1] == '\r') --line.end;
-    const std::string_view own = text(line);
-    if (own.find_first_not_of(" \t\x1A\0") == std::string_view::npos) continue;
-    const char letter = own.size() > letter_column ? own[letter_column] : ' ';
+    const std::string_view record = text(line);
+    if (record.find_first_not_of(" \t\x1A\0") == std::string_view::npos) continue;
+    const char letter = record.size() > letter_column ? record[letter_column] : ' ';
     if (letter == 'C' && at < 2 * record_columns) {
       return line_error(line, "an IGES file in compressed ASCII form",
                         "export it in fixed ASCII form");
@@ -272,9 +274,10 @@ Expected<void> File::read_directory() {
   entities_.reserve(directory.size() / 2);
   for (std::size_t k = 0; k + 1 < directory.size(); k += 2) {
     const auto field = [&](std::size_t line, std::size_t n) {
-      const std::string_view own = text(directory[k + line]);
+      const std::string_view record = text(directory[k + line]);
       const std::size_t at = 8 * n;
-      return at < std::min(own.size(), letter_column) ? own.substr(at, 8) : std::string_view();
+      return at < std::min(record.size(), letter_column) ? record.substr(at, 8)
+                                                         : std::string_view();
     };
     const auto type = integer(field(0, 0)), first = integer(field(0, 1)),
                transform = integer(field(0, 6)), count = integer(field(1, 3)),
@@ -302,13 +305,13 @@ Expected<Parameters> File::parameters(int number) const {
   Lexer lexer(global_.separator, global_.terminator);
   Parameters result;
   for (auto k = static_cast<std::size_t>(entity->first); k < records.size(); ++k) {
-    const std::string_view own = text(records[k]);
+    const std::string_view record = text(records[k]);
     const auto owner =
-        integer(own.substr(std::min(data_columns, own.size()), letter_column - data_columns));
+        integer(record.substr(std::min(data_columns, record.size()), letter_column - data_columns));
     // The directory may state too few records; the next entity's are not taken for its own.
     if (result.lines >= std::max(entity->lines, 1) && owner != number) break;
     ++result.lines;
-    if (lexer.take(own.substr(0, data_columns))) {
+    if (lexer.take(record.substr(0, data_columns))) {
       result.values = std::move(lexer.values());
       result.rest = std::string(lexer.rest());
       return result;

@@ -69,8 +69,8 @@ Points points_of(const std::vector<double>& all, std::array<int, 2> count,
   for (int i = 0; i < count[0]; ++i) {
     for (int j = 0; j < count[1]; ++j) {
       const double* p = &all[3 * static_cast<std::size_t>(i + count[0] * j)];
-      const Point own(p[0], p[1], p[2]);
-      result.row(i * count[1] + j) = (still ? own : Point(move * own)).transpose();
+      const Point point(p[0], p[1], p[2]);
+      result.row(i * count[1] + j) = (still ? point : Point(move * point)).transpose();
     }
   }
   return result;
@@ -78,9 +78,9 @@ Points points_of(const std::vector<double>& all, std::array<int, 2> count,
 
 Expected<Eigen::Affine3d> with_matrices(const File& file, int number,
                                         const Eigen::Affine3d& outer) {
-  const auto own = transform_of(file, number);
-  if (!own) return std::unexpected(own.error());
-  return Eigen::Affine3d(outer * *own);
+  const auto transform = transform_of(file, number);
+  if (!transform) return std::unexpected(transform.error());
+  return Eigen::Affine3d(outer * *transform);
 }
 
 }  // namespace
@@ -148,15 +148,17 @@ Expected<Eigen::Affine3d> transform_of(const File& file, int number) {
     if (!parameters) return std::unexpected(parameters.error());
     const auto rows = numbers(file, matrix, *parameters, 1, 12);
     if (!rows) return std::unexpected(rows.error());
-    Eigen::Affine3d own = Eigen::Affine3d::Identity();
+    Eigen::Affine3d place = Eigen::Affine3d::Identity();
     for (int i = 0; i < 3; ++i) {
-      for (int k = 0; k < 4; ++k) own.matrix()(i, k) = (*rows)[static_cast<std::size_t>(4 * i + k)];
+      for (int k = 0; k < 4; ++k)
+        place.matrix()(i, k) = (*rows)[static_cast<std::size_t>(4 * i + k)];
     }
-    const bool small = own.matrix().cwiseAbs().maxCoeff() <= largest_number;
-    if (!own.matrix().allFinite() || !small || !(std::abs(own.linear().determinant()) > 1e-12)) {
+    const bool small = place.matrix().cwiseAbs().maxCoeff() <= largest_number;
+    if (!place.matrix().allFinite() || !small ||
+        !(std::abs(place.linear().determinant()) > 1e-12)) {
       return file.error(matrix, "its numbers are not those of a transformation");
     }
-    result = own * result;
+    result = place * result;
   }
   return result;
 }

@@ -95,8 +95,9 @@ class ModelReader {
       const int number = File::number(k);
       if (!is_face(file_.entities()[k].type)) continue;
       faces.push_back(number);
-      const auto own = transform_of(file_, number);
-      if (own && !own->matrix().isIdentity(0)) outer_.try_emplace(surface_of(file_, number), *own);
+      const auto transform = transform_of(file_, number);
+      if (transform && !transform->matrix().isIdentity(0))
+        outer_.try_emplace(surface_of(file_, number), *transform);
     }
     for (std::size_t k = 0; k < file_.entities().size(); ++k) {
       if (is_spline(file_.entities()[k].type)) add_spline(File::number(k));
@@ -223,7 +224,8 @@ class ModelReader {
     };
     if (pointer(4) != 0) return curves_.add(pointer(4), move, pieces);
     std::vector<Piece> flat;
-    if (auto done = curves_.add(pointer(3), Eigen::Affine3d::Identity(), flat); !done) return done;
+    if (auto status = curves_.add(pointer(3), Eigen::Affine3d::Identity(), flat); !status)
+      return status;
     const brep::SplineSurface* spline = spline_of(surface);
     if (spline == nullptr)
       return file_.error(surface, "a boundary in parameters of another surface than a B-spline");
@@ -258,13 +260,13 @@ class ModelReader {
     };
     std::size_t at = 5;
     for (int n = pointer(4); n > 0 && at + 2 < values.size(); --n) {
-      std::vector<Piece> own;
-      if (auto done = curves_.add(pointer(at), move, own); !done) return done;
+      std::vector<Piece> part;
+      if (auto status = curves_.add(pointer(at), move, part); !status) return status;
       if (pointer(at + 1) == 2) {
-        std::ranges::reverse(own);
-        for (Piece& piece : own) piece.reversed = !piece.reversed;
+        std::ranges::reverse(part);
+        for (Piece& piece : part) piece.reversed = !piece.reversed;
       }
-      pieces.insert(pieces.end(), own.begin(), own.end());
+      pieces.insert(pieces.end(), part.begin(), part.end());
       at += 3 + static_cast<std::size_t>(std::max(pointer(at + 2), 0));
     }
     return {};
@@ -308,8 +310,8 @@ class ModelReader {
     const auto parameters = vertex_list(list);
     Point p = Point::Zero();
     if (index >= 1 && 3 * static_cast<std::size_t>(index) <= parameters.size()) {
-      const double* own = &parameters[3 * static_cast<std::size_t>(index - 1)];
-      p = move * Point(own[0], own[1], own[2]);
+      const double* xyz = &parameters[3 * static_cast<std::size_t>(index - 1)];
+      p = move * Point(xyz[0], xyz[1], xyz[2]);
     }
     const int number = builder_.fresh();
     sources_.vertices.emplace(brep::ModelBuilder::name(number), EdgeVertex{list, index, move});
@@ -338,20 +340,21 @@ class ModelReader {
       for (const std::string& value : parameters->values)
         lists->second.push_back(integer(value).value_or(0));
     }
-    const std::vector<int>& own = lists->second;
+    const std::vector<int>& numbers = lists->second;
     const std::size_t at = 2 + 5 * static_cast<std::size_t>(std::max(index, 1) - 1);
-    if (at + 5 > own.size())
+    if (at + 5 > numbers.size())
       return file_.error(list, fmt::format("it has no edge {}", index), "get the whole file");
     std::vector<Piece> pieces;
-    if (auto done = curves_.add(own[at], move, pieces); !done) return std::unexpected(done.error());
-    const brep::Index from = shared_vertex(own[at + 1], own[at + 2], move),
-                      to = shared_vertex(own[at + 3], own[at + 4], move);
+    if (auto status = curves_.add(numbers[at], move, pieces); !status)
+      return std::unexpected(status.error());
+    const brep::Index from = shared_vertex(numbers[at + 1], numbers[at + 2], move),
+                      to = shared_vertex(numbers[at + 3], numbers[at + 4], move);
     if (pieces.size() != 1) {
       pieces.assign(1, Piece{});
-      pieces[0].number = own[at];
-      pieces[0].name = brep::ModelBuilder::name(own[at]);
+      pieces[0].number = numbers[at];
+      pieces[0].name = brep::ModelBuilder::name(numbers[at]);
       pieces[0].in_space = false;
-      pieces[0].geometry = file_.error(own[at], "it is made of several curves, as no edge is");
+      pieces[0].geometry = file_.error(numbers[at], "it is made of several curves, as no edge is");
     }
     const brep::Index edge = edges_.add(pieces[0], from, to);
     sources_.note(builder_.model().edges[edge].id, pieces[0], false);

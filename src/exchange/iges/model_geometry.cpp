@@ -41,11 +41,11 @@ Expected<Curve> starting_at(const Curve& curve, double start) {
   points.bottomRows(at) = split->control_points().middleRows(1, at);
   std::vector<double> weights;
   if (split->rational()) {
-    const auto own = split->weights();
-    const double ratio = own.back() / own.front();
-    weights.assign(own.begin() + at, own.end());
+    const auto its_weights = split->weights();
+    const double ratio = its_weights.back() / its_weights.front();
+    weights.assign(its_weights.begin() + at, its_weights.end());
     for (Eigen::Index k = 1; k <= at; ++k)
-      weights.push_back(ratio * own[static_cast<std::size_t>(k)]);
+      weights.push_back(ratio * its_weights[static_cast<std::size_t>(k)]);
   }
   auto vector = KnotVector::create(p, std::move(turned));
   if (!vector) return std::unexpected(std::move(vector.error()));
@@ -117,14 +117,14 @@ int ModelGeometry::elementary(const brep::ElementarySurface& surface) {
 Expected<int> ModelGeometry::surface(brep::Index support) {
   const auto known = surfaces_.find(support);
   if (known != surfaces_.end()) return known->second;
-  const brep::Support& own = model_.supports[support];
-  if (own.spline != brep::none) {
-    const brep::SplineSurface& s = model_.surfaces[own.spline];
+  const brep::Support& stored = model_.supports[support];
+  if (stored.spline != brep::none) {
+    const brep::SplineSurface& s = model_.surfaces[stored.spline];
     const int number = to_.add(128, surface_values(s.surface), {.name = s.name, .dependent = true});
     return surfaces_[support] = number;
   }
-  const auto* form = std::get_if<brep::ElementarySurface>(&own.form);
-  if (form == nullptr) return input_error("IGES cannot hold this surface", own.id, "write STEP");
+  const auto* form = std::get_if<brep::ElementarySurface>(&stored.form);
+  if (form == nullptr) return input_error("IGES cannot hold this surface", stored.id, "write STEP");
   return surfaces_[support] = elementary(*form);
 }
 
@@ -155,9 +155,9 @@ Expected<int> ModelGeometry::curve(brep::Index edge) {
     if (conic->form == brep::Conic::Form::ellipse && std::abs(a - b) <= same_axes * std::max(a, b))
       return arc(*conic, range);
   }
-  const auto own = brep::EdgeCurve::create(geometry);
-  if (!own) return std::unexpected(own.error());
-  auto spline = own->spline(range);
+  const auto edge_curve = brep::EdgeCurve::create(geometry);
+  if (!edge_curve) return std::unexpected(edge_curve.error());
+  auto spline = edge_curve->spline(range);
   if (!spline) return std::unexpected(std::move(spline.error()));
   const bool whole = range.lower <= spline->knots(0).domain().lower &&
                      range.upper >= spline->knots(0).domain().upper;

@@ -26,13 +26,15 @@ bool self_crossing(const brep::Support& support) {
 Expected<brep::Model> in_iges_forms(const brep::Model& model) {
   brep::Model result = model;
   for (std::size_t k = 0; k < model.supports.size(); ++k) {
-    const brep::Support& own = model.supports[k];
-    if (own.spline != brep::none || own.wrong) continue;
-    if (!std::holds_alternative<brep::SweptSurface>(own.form) && !self_crossing(own)) continue;
-    auto made = brep::exact_spline(model, own.id);
-    if (!made) return std::unexpected(made.error().within(own.id));
+    const brep::Support& stored = model.supports[k];
+    if (stored.spline != brep::none || stored.wrong) continue;
+    if (!std::holds_alternative<brep::SweptSurface>(stored.form) && !self_crossing(stored))
+      continue;
+    auto made = brep::exact_spline(model, stored.id);
+    if (!made) return std::unexpected(made.error().within(stored.id));
     result.supports[k].spline = static_cast<brep::Index>(result.surfaces.size());
-    result.surfaces.push_back({.id = own.id, .name = {}, .unit = {}, .surface = *std::move(made)});
+    result.surfaces.push_back(
+        {.id = stored.id, .name = {}, .unit = {}, .surface = *std::move(made)});
   }
   return result;
 }
@@ -47,16 +49,17 @@ class PartWriter {
   /// The directory numbers of what a subfigure of it lists. `dependent`: it is part of one.
   Expected<std::vector<int>> write(bool dependent) {
     dependent_ = dependent;
-    if (auto done = add_lists(); !done) return std::unexpected(std::move(done.error()));
+    if (auto status = add_lists(); !status) return std::unexpected(std::move(status.error()));
     for (const detail::WrittenSolid& solid : part_.shells.solids) {
-      if (auto done = add_solid(solid); !done) return std::unexpected(std::move(done.error()));
+      if (auto status = add_solid(solid); !status)
+        return std::unexpected(std::move(status.error()));
     }
     for (const detail::WrittenShell& sheet : part_.shells.sheets) {
       const auto shell = add_shell(sheet, dependent_);
       if (!shell) return std::unexpected(shell.error());
       members_.push_back(*shell);
     }
-    if (auto done = add_surfaces(); !done) return std::unexpected(std::move(done.error()));
+    if (auto status = add_surfaces(); !status) return std::unexpected(std::move(status.error()));
     for (const NamedCurve& c : part_.curves)
       members_.push_back(
           to_.add(126, curve_values(c.curve), {.name = c.name, .dependent = dependent_}));
@@ -86,25 +89,25 @@ class PartWriter {
   Expected<void> add_lists() {
     std::vector<std::array<std::string, 3>> entries;  // curve, start, end
     std::string failed;
-    Expected<void> done;
+    Expected<void> status;
     for_each_face([&](const brep::Face& face) {
       for (const brep::Bound& bound : face.bounds) {
         if (bound.kind == brep::Bound::Kind::vertex) place_of(bound.vertex);
       }
       for (const brep::Index edge : brep::edges_around(face)) {
-        if (!done || !edges_.try_emplace(edge, edges_.size() + 1).second) continue;
+        if (!status || !edges_.try_emplace(edge, edges_.size() + 1).second) continue;
         const auto curve = geometry_.curve(edge);
         if (!curve) {
-          done = std::unexpected(curve.error());
+          status = std::unexpected(curve.error());
           continue;
         }
-        const brep::Edge& own = model_.edges[edge];
+        const brep::Edge& stored = model_.edges[edge];
         const bool back = plan_.edges[edge]->backwards;
-        entries.push_back({std::to_string(*curve), place_of(back ? own.end : own.start),
-                           place_of(back ? own.start : own.end)});
+        entries.push_back({std::to_string(*curve), place_of(back ? stored.end : stored.start),
+                           place_of(back ? stored.start : stored.end)});
       }
     });
-    if (!done || vertices_.empty()) return done;
+    if (!status || vertices_.empty()) return status;
     coordinates_.insert(coordinates_.begin(), std::to_string(vertices_.size()));
     corner_list_ =
         std::to_string(to_.add(502, std::move(coordinates_), {.form = 1, .dependent = true}));

@@ -51,16 +51,16 @@ Expected<std::size_t> end_of(const File& file, int number, const Parameters& par
 }  // namespace
 
 Expected<void> can_move(const File& file, const EdgeSources& sources, const std::string& edge) {
-  const auto own = sources.edges.find(edge);
-  if (own == sources.edges.end()) return input_error("only edges of faces can follow", edge);
-  for (const EdgeCurve& curve : own->second) {
+  const auto found = sources.edges.find(edge);
+  if (found == sources.edges.end()) return input_error("only edges of faces can follow", edge);
+  for (const EdgeCurve& curve : found->second) {
     if (const int surface = surface_made_of(file, curve.number); surface != 0) {
       return input_error(fmt::format("its curve D{} makes the surface {} too, which would move",
                                      curve.number, file.label(surface)),
                          edge, "hold the edge");
     }
     for (const auto& [other, curves] : sources.edges) {
-      if (other == own->first || !std::ranges::any_of(curves, [&](const EdgeCurve& c) {
+      if (other == found->first || !std::ranges::any_of(curves, [&](const EdgeCurve& c) {
             return c.number == curve.number;
           }))
         continue;
@@ -101,9 +101,9 @@ Expected<std::vector<std::string>> curve_values(const File& file,
     for (Eigen::Index k = 0; k < points.rows(); ++k)
       points.row(k) = (back * Point(points.row(k).transpose())).transpose();
   }
-  const auto own = replacement.curve.with_control_points(std::move(points));
-  if (!own) return std::unexpected(own.error());
-  std::vector<std::string> values = curve_values(*own);
+  const auto curve = replacement.curve.with_control_points(std::move(points));
+  if (!curve) return std::unexpected(curve.error());
+  std::vector<std::string> values = curve_values(*curve);
   values.insert(values.begin(), "126");
   for (std::size_t k = *end; k < parameters.values.size(); ++k)
     values.push_back(parameters.values[k]);
@@ -135,9 +135,9 @@ Expected<std::map<int, std::vector<std::string>>> vertex_values(
 }
 
 bool reads_back(const File& after, const CurveReplacement& replacement) {
-  const auto own = transform_of(after, replacement.number);
-  if (!own) return false;
-  const auto curve = read_curve(after, replacement.number, replacement.move * own->inverse());
+  const auto transform = transform_of(after, replacement.number);
+  if (!transform) return false;
+  const auto curve = read_curve(after, replacement.number, replacement.move * transform->inverse());
   if (!curve || curve->knots() != replacement.curve.knots()) return false;
   const Points &p = curve->control_points(), &q = replacement.curve.control_points();
   return p.rows() == q.rows() &&

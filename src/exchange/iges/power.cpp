@@ -76,14 +76,14 @@ Expected<Surface> read_power_surface(const File& file, int number, const Eigen::
     for (std::size_t j = 0; j < n; ++j) {
       const double* patch = &(*all)[per_patch * (i * (n + 1) + j)];
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto own =
+        const auto corner =
             bezier(patch + coefficients * c, (*u)[i + 1] - (*u)[i], (*v)[j + 1] - (*v)[j]);
         for (std::size_t k = 0; k < coefficients; ++k) {
           const auto row = static_cast<Eigen::Index>(3 * i + k % 4) * across +
                            static_cast<Eigen::Index>(3 * j + k / 4);
           double& x = points(row, static_cast<Eigen::Index>(c));
-          if (!std::isnan(x)) apart = std::max(apart, std::abs(x - own[k]));
-          if (std::isnan(x)) x = own[k];
+          if (!std::isnan(x)) apart = std::max(apart, std::abs(x - corner[k]));
+          if (std::isnan(x)) x = corner[k];
         }
       }
     }

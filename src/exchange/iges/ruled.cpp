@@ -42,8 +42,8 @@ Expected<Curve> over_unit(const Curve& whole, const Interval& range) {
   const auto count = last - first + 1;
   std::vector<double> weights;
   if (fine->rational()) {
-    const auto own = fine->weights();
-    weights.assign(own.begin() + first - 1, own.begin() + first - 1 + count);
+    const auto its_weights = fine->weights();
+    weights.assign(its_weights.begin() + first - 1, its_weights.begin() + first - 1 + count);
   }
   return Curve::create({*std::move(vector)}, fine->control_points().middleRows(first - 1, count),
                        std::move(weights));
@@ -57,10 +57,10 @@ Expected<Curve> side(const File& file, int ruled, int number, const Eigen::Affin
   const auto parameters = file.parameters(number);
   if (!parameters) return std::unexpected(parameters.error());
   if (entity->type == 110) {
-    const auto own = transform_of(file, number);
+    const auto transform = transform_of(file, number);
     const auto v = numbers(file, number, *parameters, 1, 6);
-    if (!own || !v) return std::unexpected(!own ? own.error() : v.error());
-    const Eigen::Affine3d move = outer * *own;
+    if (!transform || !v) return std::unexpected(!transform ? transform.error() : v.error());
+    const Eigen::Affine3d move = outer * *transform;
     Points points(2, 3);
     for (Eigen::Index k = 0; k < 2; ++k) {
       const double* p = &(*v)[static_cast<std::size_t>(3 * k)];
@@ -79,8 +79,8 @@ Expected<Curve> side(const File& file, int ruled, int number, const Eigen::Affin
   Interval range = curve->knots(0).domain();
   const auto layout = curve_layout(file, number, *parameters);
   if (const auto ends = numbers(file, number, *parameters, layout->domain, 2)) {
-    const Interval own{std::max((*ends)[0], range.lower), std::min((*ends)[1], range.upper)};
-    if (own.length() > 0) range = own;
+    const Interval span{std::max((*ends)[0], range.lower), std::min((*ends)[1], range.upper)};
+    if (span.length() > 0) range = span;
   }
   return over_unit(*curve, range);
 }
@@ -88,11 +88,11 @@ Expected<Curve> side(const File& file, int ruled, int number, const Eigen::Affin
 /// The knots of `to` that `from` lacks. Those that differ by the rounding of 0 … 1 are one.
 std::vector<double> lacking(const Curve& from, const Curve& to) {
   std::vector<double> result;
-  const auto own = from.knots(0).knots(), other = to.knots(0).knots();
+  const auto knots = from.knots(0).knots(), other = to.knots(0).knots();
   std::size_t k = 0;
   for (const double t : other) {
-    while (k < own.size() && own[k] < t - rounding) ++k;
-    if (k < own.size() && own[k] <= t + rounding) {
+    while (k < knots.size() && knots[k] < t - rounding) ++k;
+    if (k < knots.size() && knots[k] <= t + rounding) {
       ++k;
     } else {
       result.push_back(t);
@@ -125,9 +125,9 @@ Expected<Surface> read_ruled_surface(const File& file, int number, const Eigen::
       *Curve::create({*KnotVector::create(1, {0, 0, 1, 1})}, Points::Zero(2, 3)),
       *Curve::create({*KnotVector::create(1, {0, 0, 1, 1})}, Points::Zero(2, 3))};
   for (std::size_t k = 0; k < 2; ++k) {
-    auto own = side(file, number, static_cast<int>((*head)[k]), move);
-    if (!own) return std::unexpected(own.error());
-    sides[k] = *std::move(own);
+    auto rail = side(file, number, static_cast<int>((*head)[k]), move);
+    if (!rail) return std::unexpected(rail.error());
+    sides[k] = *std::move(rail);
   }
   if ((*head)[2] != 0) sides[1] = brep::turned(sides[1]);
   const bool lines = sides[0].size() == 2 && sides[1].size() == 2;

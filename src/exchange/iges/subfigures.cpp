@@ -50,8 +50,8 @@ class Subfigures {
       graph[k].unit = model_.units.front();
     graph[root].product = true;
     brep::Assembly result;
-    if (auto done = graph.place(model_.length_unit(), result); !done)
-      return std::unexpected(done.error());
+    if (auto status = graph.place(model_.length_unit(), result); !status)
+      return std::unexpected(status.error());
     fill(graph, result);
     return result;
   }
@@ -64,20 +64,20 @@ class Subfigures {
 
   /// Gives a definition the faces and surfaces in it, and notes the instances in it.
   void read_definition(int definition) {
-    Definition& own = definitions_[definition];
+    Definition& stored = definitions_[definition];
     const auto parameters = file_.parameters(definition);
-    if (parameters && parameters->values.size() > 2) own.title = string(parameters->values[2]);
+    if (parameters && parameters->values.size() > 2) stored.title = string(parameters->values[2]);
     if (!parameters || parameters->values.size() < 4) return;
     const int count = integer(parameters->values[3]).value_or(0);
     for (int k = 0; k < count && static_cast<std::size_t>(k) + 4 < parameters->values.size(); ++k) {
       const int member = integer(parameters->values[static_cast<std::size_t>(k) + 4]).value_or(0);
       const Entity* entity = file_.find(member);
       if (entity == nullptr || ++items_seen_ > most_items) continue;
-      own.members.push_back(member);
-      if (entity->type == 186 || entity->type == 514) add_faces(member, own.members);
+      stored.members.push_back(member);
+      if (entity->type == 186 || entity->type == 514) add_faces(member, stored.members);
       if (entity->type != 408) continue;
       inside_.insert(member);
-      own.instances.push_back(member);
+      stored.instances.push_back(member);
     }
   }
 

@@ -119,15 +119,15 @@ class SurfaceReader {
 brep::Support other_surface(const File& file, int number, const Eigen::Affine3d& outer,
                             CurveReader& curves) {
   const Entity* entity = file.find(number);
-  const auto own = transform_of(file, number);
+  const auto transform = transform_of(file, number);
   const auto parameters = file.parameters(number);
   const int type = entity != nullptr ? entity->type : 0;
   brep::Support support;
   support.id = fmt::format("#{}", number);
   support.kind = fmt::format("IGES_SURFACE_{}", type);
-  if (!own || !parameters) return support;
+  if (!transform || !parameters) return support;
   SurfaceReader reader(file, curves);
-  const Eigen::Affine3d move = outer * *own;
+  const Eigen::Affine3d move = outer * *transform;
   const auto fill = [&](const char* kind, auto form) {
     if (!form) return;
     support.kind = kind;

@@ -135,8 +135,8 @@ Expected<std::string> text_of(std::span<const NamedSurface> surfaces, const Save
                                    {.name = s.name, .colour = colour, .dependent = options.faces}));
   }
   if (options.faces && !surfaces.empty()) {
-    if (auto done = add_shells(surfaces, numbers, sections); !done)
-      return std::unexpected(done.error());
+    if (auto status = add_shells(surfaces, numbers, sections); !status)
+      return std::unexpected(status.error());
   }
   for (const NamedCurve& c : options.curves)
     sections.add(126, curve_values(c.curve), {.name = c.name});

@@ -38,10 +38,10 @@ Expected<std::vector<std::string>> values_of(const File& file, const Replacement
                                              const Parameters& parameters) {
   const auto at = surface_layout(file, r.number, parameters);
   const auto outer = outer_transform(file, r.number);
-  const auto own = transform_of(file, r.number);
-  if (!at || !outer || !own)
-    return std::unexpected(!at ? at.error() : !outer ? outer.error() : own.error());
-  const Eigen::Affine3d move = *outer * *own, back = move.inverse();
+  const auto transform = transform_of(file, r.number);
+  if (!at || !outer || !transform)
+    return std::unexpected(!at ? at.error() : !outer ? outer.error() : transform.error());
+  const Eigen::Affine3d move = *outer * *transform, back = move.inverse();
   const auto before = read_surface(file, r.number, *outer);
   if (!before) return std::unexpected(before.error());
   const bool still = move.matrix().isIdentity(0);
@@ -95,9 +95,9 @@ Expected<std::vector<std::string>> values_of(const File& file, const Replacement
 Expected<std::vector<std::string>> spline_values(const File& file, const Replacement& r,
                                                  const Parameters& parameters) {
   const auto outer = outer_transform(file, r.number);
-  const auto own = transform_of(file, r.number);
-  if (!outer || !own) return std::unexpected(!outer ? outer.error() : own.error());
-  const Eigen::Affine3d move = *outer * *own, back = move.inverse();
+  const auto transform = transform_of(file, r.number);
+  if (!outer || !transform) return std::unexpected(!outer ? outer.error() : transform.error());
+  const Eigen::Affine3d move = *outer * *transform, back = move.inverse();
   Points points = r.surface.control_points();
   if (!move.matrix().isIdentity(0)) {
     for (Eigen::Index k = 0; k < points.rows(); ++k)
@@ -272,10 +272,10 @@ class Surgeon {
   void terminate() {
     if (file_.lines('T').empty() || written_ == file_.lines('P').size()) return;
     const Line& line = file_.lines('T').front();
-    const std::string_view own = file_.text(line);
-    const auto at = own.substr(0, letter_column).find('P');
+    const std::string_view record = file_.text(line);
+    const auto at = record.substr(0, letter_column).find('P');
     if (at == std::string_view::npos) return;
-    put(line.begin + at + 1, 7, field(own.substr(at + 1, 7), static_cast<long long>(written_)));
+    put(line.begin + at + 1, 7, field(record.substr(at + 1, 7), static_cast<long long>(written_)));
   }
 
   const File& file_;
@@ -330,8 +330,8 @@ Expected<void> check(const File& before, const std::string& bytes,
     const auto surface =
         outer ? read_surface(*after, number, *outer) : std::unexpected(outer.error());
     if (!surface) return failed(number, surface.error().message());
-    const auto own = transform_of(*after, number);
-    const bool still = (*outer * *own).matrix().isIdentity(0);
+    const auto transform = transform_of(*after, number);
+    const bool still = (*outer * *transform).matrix().isIdentity(0);
     const Points &p = surface->control_points(), &q = r->surface.control_points();
     const bool close = p.rows() == q.rows() &&
                        (p - q).cwiseAbs().maxCoeff() <= 1e-13 * (1 + q.cwiseAbs().maxCoeff());
@@ -369,12 +369,14 @@ Expected<std::string> with_surfaces(const File& file, std::span<const Replacemen
   if (replacements.empty() && moved.curves.empty() && moved.vertices.empty()) return file.bytes();
   Surgeon surgeon(file);
   for (const Replacement& r : replacements) {
-    if (auto done = surgeon.replace(r); !done) return std::unexpected(std::move(done.error()));
+    if (auto status = surgeon.replace(r); !status)
+      return std::unexpected(std::move(status.error()));
   }
-  if (auto done = surgeon.replace(moved); !done) return std::unexpected(std::move(done.error()));
+  if (auto status = surgeon.replace(moved); !status)
+    return std::unexpected(std::move(status.error()));
   std::string bytes = surgeon.bytes();
-  if (auto done = check(file, bytes, replacements, moved); !done)
-    return std::unexpected(std::move(done.error()));
+  if (auto status = check(file, bytes, replacements, moved); !status)
+    return std::unexpected(std::move(status.error()));
   return bytes;
 }
 

@@ -106,7 +106,7 @@ Expected<std::shared_ptr<const Source>> open_g2(std::string bytes, std::string n
   text.print = print_g2;
   WordReader words(text.bytes, text.name, {0, text.bytes.size()});
   std::map<int, int> others;
-  for (int object = 1; !words.done(); ++object) {
+  for (int object = 1; !words.at_end(); ++object) {
     const std::size_t begin = words.place();
     const auto type = read_header(words);
     if (!type) return std::unexpected(type.error().within(fmt::format("object {}", object)));

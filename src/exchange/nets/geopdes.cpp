@@ -140,7 +140,7 @@ Expected<std::shared_ptr<const Source>> open_patches(SurfaceText file) {
         begin, fmt::format("its patches have {} parameters: they are no surfaces", parameters),
         "open a file of surfaces"));
   }
-  for (int k = 1; k <= patches && !words.done(); ++k) {
+  for (int k = 1; k <= patches && !words.at_end(); ++k) {
     std::string label = is_word(words.peek()) ? name_line(words, text) : std::string();
     auto patch = read_patch(words, space);
     const bool whole = patch.has_value() || space != 3;

@@ -91,7 +91,7 @@ TextRange content_of(std::string_view text, const XmlTag& tag) {
 
 std::size_t count_words(WordReader words) {
   std::size_t count = 0;
-  for (; !words.done(); ++count) words.next();
+  for (; !words.at_end(); ++count) words.next();
   return count;
 }
 
@@ -139,7 +139,7 @@ Expected<ListedSurface> read_geometry(std::string_view text, std::string_view fi
       auto kept = std::move(surface.weights);
       if (auto read = read_points(words, surface, 3); !read) return std::unexpected(read.error());
       surface.weights = std::move(kept);
-      if (!words.done())
+      if (!words.at_end())
         return fail(words.place(), "it has more control points than its knots stand for");
       points = true;
     }

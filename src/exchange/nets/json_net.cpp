@@ -28,8 +28,8 @@ struct JsonNetReader {
     skip();
     surface.u_fast = false;
     surface.block = {at, at};
-    const auto done = peek() == '{' ? read_object() : read_net();
-    if (!done) return done;
+    const auto status = peek() == '{' ? read_object() : read_net();
+    if (!status) return status;
     surface.block.end = at;
     skip();
     if (at < text.size()) return wrong("something follows the net");
@@ -62,7 +62,7 @@ struct JsonNetReader {
     std::size_t count = 0;
     if (take(']')) return count;
     do {
-      if (auto done = item(); !done) return std::unexpected(done.error());
+      if (auto status = item(); !status) return std::unexpected(status.error());
       ++count;
     } while (take(','));
     if (!take(']')) return wrong(fmt::format("{} goes on without a comma, or does not end", what));
@@ -86,13 +86,13 @@ struct JsonNetReader {
   }
 
   Expected<void> numbers(std::string_view what, std::vector<double>& values) {
-    const auto done = list(what, [&]() -> Expected<void> {
+    const auto status = list(what, [&]() -> Expected<void> {
       const auto value = number();
       if (!value) return std::unexpected(value.error());
       values.push_back(*value);
       return {};
     });
-    return done ? Expected<void>() : std::unexpected(done.error());
+    return status ? Expected<void>() : std::unexpected(status.error());
   }
 
   Expected<void> point() {
@@ -141,7 +141,7 @@ struct JsonNetReader {
 
   Expected<void> read_degree() {
     std::vector<double> degrees;
-    if (auto done = numbers("the degree", degrees); !done) return done;
+    if (auto status = numbers("the degree", degrees); !status) return status;
     for (const double d : degrees) {
       if (d != std::floor(d) || d < 1 || d > 1000)
         return wrong("a degree is not a whole number from 1 on");
@@ -195,7 +195,7 @@ struct JsonNetReader {
       seen.push_back(name);
       at = end + 1;
       if (!take(':')) return wrong("a colon should follow the name of a field");
-      if (auto done = read_field(name); !done) return done;
+      if (auto status = read_field(name); !status) return status;
     } while (take(','));
     if (!take('}')) return wrong("the net goes on without a comma, or does not end");
     if (std::ranges::find(seen, "net") == seen.end()) return wrong("there is no field \"net\"");

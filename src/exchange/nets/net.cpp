@@ -29,7 +29,7 @@ struct NetReader {
       next = end + 1;
       const TextRange line = {begin, end};
       WordReader words(text, file, line, '#');
-      if (words.done()) {
+      if (words.at_end()) {
         if (rows.back() > 0) rows.push_back(0);
         continue;
       }
@@ -50,7 +50,7 @@ struct NetReader {
       const std::size_t end = std::min(text.find(';', begin), line.end);
       WordReader words(text, file, {begin, end}, '#');
       begin = end + 1;
-      if (words.done()) continue;
+      if (words.at_end()) continue;
       for (int c = 0; c < 3; ++c) {
         const std::size_t place = words.begin();
         const auto value = words.number();
@@ -58,7 +58,7 @@ struct NetReader {
         surface.coordinates.push_back(*value);
         surface.places.push_back({place, words.place()});
       }
-      if (!words.done()) {
+      if (!words.at_end()) {
         return std::unexpected(
             words.error(words.place(), "a point has more than three coordinates",
                         "a plain net has no weights; one point per line, or semicolons between"));
@@ -104,9 +104,9 @@ Expected<std::string> print_net_rows(const Surface& surface) {
   bool plain = !surface.rational();
   for (int d = 0; d < 2; ++d) {
     const KnotVector& knots = surface.knots(d);
-    const auto own = plain_knots(knots.count());
-    plain = plain && own && own->degree() == knots.degree() &&
-            std::ranges::equal(own->knots(), knots.knots());
+    const auto uniform = plain_knots(knots.count());
+    plain = plain && uniform && uniform->degree() == knots.degree() &&
+            std::ranges::equal(uniform->knots(), knots.knots());
   }
   if (!plain) {
     return input_error("a plain net cannot say which knots a refined surface has", {},

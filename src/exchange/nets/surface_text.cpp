@@ -37,9 +37,9 @@ class TextSource final : public Source {
     TextChanges changes;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       if (surfaces[k] == text_.surfaces[k].surface) continue;
-      auto done = add_changes(text_.listed[k], *text_.surfaces[k].surface, *surfaces[k],
-                              text_.print, changes);
-      if (!done) return std::unexpected(std::move(done.error()));
+      auto status = add_changes(text_.listed[k], *text_.surfaces[k].surface, *surfaces[k],
+                                text_.print, changes);
+      if (!status) return std::unexpected(std::move(status.error()));
     }
     return with_changes(text_.bytes, std::move(changes));
   }
@@ -66,7 +66,7 @@ bool is_tiny(std::string_view number) {
   return std::abs(std::strtod(std::string(number).c_str(), nullptr)) < 1;
 }
 
-bool WordReader::done() {
+bool WordReader::at_end() {
   skip();
   return at_ >= end_;
 }
@@ -260,13 +260,13 @@ Expected<void> add_changes(const ListedSurface& listed, const Surface& before, c
     same = same && now.knots(d).degree() == before.knots(d).degree() &&
            std::ranges::equal(now.knots(d).knots(), before.knots(d).knots());
   }
-  const auto own = [&](Eigen::Index p) {
+  const auto stored = [&](Eigen::Index p) {
     const Point point = now.control_points().row(p).transpose();
     return moved ? Point(back * point) : point;
   };
   if (!same) {
     Points points = now.control_points();
-    for (Eigen::Index p = 0; p < points.rows(); ++p) points.row(p) = own(p).transpose();
+    for (Eigen::Index p = 0; p < points.rows(); ++p) points.row(p) = stored(p).transpose();
     const auto surface = now.with_control_points(std::move(points));
     auto block =
         surface ? print(*surface) : Expected<std::string>(std::unexpected(surface.error()));
@@ -278,7 +278,7 @@ Expected<void> add_changes(const ListedSurface& listed, const Surface& before, c
     if (now.control_points().row(p) == before.control_points().row(p)) continue;
     const auto place = static_cast<std::size_t>(p);
     const double weight = listed.homogeneous && now.rational() ? now.weights()[place] : 1;
-    const Point point = own(p);
+    const Point point = stored(p);
     for (Eigen::Index c = 0; c < 3; ++c) {
       if (!moved && now.control_points()(p, c) == before.control_points()(p, c)) continue;
       const TextRange range = listed.places[3 * listed.listed(place) + static_cast<std::size_t>(c)];

@@ -27,7 +27,7 @@ class WordReader {
   WordReader(std::string_view text, std::string_view file, TextRange range, char comment = '\0')
       : text_(text), file_(file), at_(range.begin), end_(range.end), comment_(comment) {}
 
-  [[nodiscard]] bool done();
+  [[nodiscard]] bool at_end();
   [[nodiscard]] std::size_t place() const { return at_; }
   void go_to(std::size_t place) { at_ = place; }
   /// The next word; empty at the end.

@@ -27,13 +27,14 @@ class Parser {
     for (const auto section :
          {&Parser::locations, &Parser::flat_curves, &Parser::curves, &Parser::polygons,
           &Parser::polygons_on_triangles, &Parser::surfaces, &Parser::triangles, &Parser::shapes}) {
-      if (auto done = (this->*section)(); !done) return std::unexpected(std::move(done.error()));
+      if (auto status = (this->*section)(); !status)
+        return std::unexpected(std::move(status.error()));
     }
     return std::move(file_);
   }
 
  private:
-  using Done = Expected<void>;
+  using Status = Expected<void>;
 
   std::unexpected<Error> fail(std::string what) const {
     return std::unexpected(
@@ -52,24 +53,24 @@ class Parser {
     return words_.integer(least, largest, "number that can stand here");
   }
 
-  Done skip(std::size_t count) {
+  Status skip(std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {
-      if (words_.done()) return fail("the file ends too early");
+      if (words_.at_end()) return fail("the file ends too early");
       words_.next();
     }
     return {};
   }
 
   template <class F>
-  Done each(std::string_view name, const F& read) {
+  Status each(std::string_view name, const F& read) {
     const auto count = section(name);
-    Done done = count ? Done() : std::unexpected(count.error());
-    for (int k = 0; done && k < *count; ++k) done = read();
-    return done;
+    Status status = count ? Status() : std::unexpected(count.error());
+    for (int k = 0; status && k < *count; ++k) status = read();
+    return status;
   }
 
   template <class T>
-  static Done keep(Expected<T> read, std::vector<T>& list) {
+  static Status keep(Expected<T> read, std::vector<T>& list) {
     if (!read) return std::unexpected(std::move(read.error()));
     list.push_back(*std::move(read));
     return {};
@@ -85,9 +86,9 @@ class Parser {
     return index ? place(*index) : std::unexpected(index.error());
   }
 
-  Done locations() {
+  Status locations() {
     places_ = {Eigen::Affine3d::Identity()};
-    return each("Locations", [&]() -> Done {
+    return each("Locations", [&]() -> Status {
       const auto type = integer(1, 2);
       if (!type) return std::unexpected(type.error());
       Eigen::Affine3d result = Eigen::Affine3d::Identity();
@@ -103,12 +104,12 @@ class Parser {
           const auto index = integer(0, most);
           if (!index) return std::unexpected(index.error());
           if (*index == 0) break;
-          const auto own = place(*index);
+          const auto base = place(*index);
           const auto power = integer(-1000, 1000);
-          if (!own || !power) return std::unexpected(!own ? own.error() : power.error());
+          if (!base || !power) return std::unexpected(!base ? base.error() : power.error());
           // The list begins with what is applied first (TopLoc_Location): each goes to the left of
           // those before.
-          const Eigen::Affine3d factor = *power > 0 ? *own : own->inverse();
+          const Eigen::Affine3d factor = *power > 0 ? *base : base->inverse();
           for (int k = 0; k < std::abs(*power); ++k) result = factor * result;
         }
       }
@@ -119,26 +120,26 @@ class Parser {
     });
   }
 
-  Done flat_curves() {
+  Status flat_curves() {
     return each("Curve2ds",
-                [&]() -> Done { return keep(read_brep_curve(words_, 2), file_.flat_curves); });
+                [&]() -> Status { return keep(read_brep_curve(words_, 2), file_.flat_curves); });
   }
 
-  Done curves() {
+  Status curves() {
     WordReader head = words_;
     head.next();
     file_.curve_count = head.next();
-    return each("Curves", [&]() -> Done {
+    return each("Curves", [&]() -> Status {
       const std::size_t begin = words_.begin();
-      auto done = keep(read_brep_curve(words_, 3), file_.curves);
+      auto status = keep(read_brep_curve(words_, 3), file_.curves);
       file_.curve_blocks.push_back({begin, words_.place()});
-      return done;
+      return status;
     });
   }
 
   /// Number of nodes, whether they have parameters, deflection, nodes, parameters.
-  Done polygons() {
-    return each("Polygon3D", [&]() -> Done {
+  Status polygons() {
+    return each("Polygon3D", [&]() -> Status {
       const auto nodes = integer(0, most), parameters = nodes ? integer(0, 1) : nodes;
       if (!parameters) return std::unexpected(parameters.error());
       return skip(1 + static_cast<std::size_t>(*nodes) * (*parameters != 0 ? 4 : 3));
@@ -146,11 +147,11 @@ class Parser {
   }
 
   /// Number of nodes, nodes, "p", deflection, whether they have parameters, parameters.
-  Done polygons_on_triangles() {
-    return each("PolygonOnTriangulations", [&]() -> Done {
+  Status polygons_on_triangles() {
+    return each("PolygonOnTriangulations", [&]() -> Status {
       const auto nodes = integer(0, most);
       if (!nodes) return std::unexpected(nodes.error());
-      if (auto done = skip(static_cast<std::size_t>(*nodes) + 2); !done) return done;
+      if (auto status = skip(static_cast<std::size_t>(*nodes) + 2); !status) return status;
       const auto parameters = integer(0, 1);
       if (!parameters) return std::unexpected(parameters.error());
       return skip(*parameters != 0 ? static_cast<std::size_t>(*nodes) : 0);
@@ -159,8 +160,8 @@ class Parser {
 
   /// Numbers of nodes and triangles, whether nodes have parameters and (version 3) normals,
   /// deflection, all of them.
-  Done triangles() {
-    return each("Triangulations", [&]() -> Done {
+  Status triangles() {
+    return each("Triangulations", [&]() -> Status {
       const auto nodes = integer(0, most), count = nodes ? integer(0, most) : nodes,
                  flat = count ? integer(0, 1) : count;
       const auto normals = flat && version_ == 3 ? integer(0, 1) : flat ? Expected<int>(0) : flat;
@@ -171,9 +172,9 @@ class Parser {
     });
   }
 
-  Done surfaces() {
+  Status surfaces() {
     return each("Surfaces",
-                [&]() -> Done { return keep(read_brep_surface(words_), file_.surfaces); });
+                [&]() -> Status { return keep(read_brep_surface(words_), file_.surfaces); });
   }
 
   /// Seven digits: free, modified, checked, orientable, closed, infinite, convex.
@@ -193,7 +194,7 @@ class Parser {
                       after.find('.') == after.npos));
   }
 
-  Done vertex(BrepShape& shape) {
+  Status vertex(BrepShape& shape) {
     std::array<double, 4> numbers = {};  // tolerance, point
     for (std::size_t k = 0; k < 4; ++k) {
       const TextRange word = coming();
@@ -204,7 +205,7 @@ class Parser {
     }
     shape.tolerance = numbers[0];
     shape.point = Point(numbers[1], numbers[2], numbers[3]);
-    while (!words_.done() && !at_flags()) words_.next();  // its places on curves and surfaces
+    while (!words_.at_end() && !at_flags()) words_.next();  // its places on curves and surfaces
     return {};
   }
 
@@ -214,7 +215,7 @@ class Parser {
     return {begin, begin + words_.peek().size()};
   }
 
-  Done edge(BrepShape& shape) {
+  Status edge(BrepShape& shape) {
     shape.tolerance_word = coming();
     const auto tolerance = words_.number();
     if (!tolerance) return std::unexpected(tolerance.error());
@@ -225,36 +226,36 @@ class Parser {
     if (!degenerated) return std::unexpected(degenerated.error());
     shape.same_parameter = *same_parameter != 0;
     shape.degenerated = *degenerated != 0;
-    while (!words_.done() && !at_flags()) {  // what represents it, in any order
+    while (!words_.at_end() && !at_flags()) {  // what represents it, in any order
       const std::size_t begin = words_.begin();
       const auto type = integer(0, 7);
       if (!type) return std::unexpected(type.error());
       if (*type == 0) continue;
       constexpr std::size_t words_of_polygons[] = {2, 3,
                                                    4};  // polygons, a triangulation, a location
-      Done done;
+      Status status;
       if (*type == 1) {
-        done = edge_curve(shape);
+        status = edge_curve(shape);
       } else if (*type <= 3) {
-        done = flat_curve(shape, *type == 3);
+        status = flat_curve(shape, *type == 3);
       } else if (*type == 4) {  // continuity across it, two surfaces with their locations
-        done = skip(5);
+        status = skip(5);
       } else {
-        done = skip(words_of_polygons[*type - 5]);
+        status = skip(words_of_polygons[*type - 5]);
         shape.polygons.push_back({begin, words_.place()});
       }
-      if (!done) return done;
+      if (!status) return status;
     }
     return {};
   }
 
-  Done edge_curve(BrepShape& shape) {
+  Status edge_curve(BrepShape& shape) {
     shape.curve_word = coming();
-    if (auto done = geometry(shape, file_.curves.size()); !done) return done;
+    if (auto status = geometry(shape, file_.curves.size()); !status) return status;
     return range(shape.range);
   }
 
-  Done range(std::array<double, 2>& result) {
+  Status range(std::array<double, 2>& result) {
     const auto ends = words_.numbers(2);
     if (!ends) return std::unexpected(ends.error());
     result = {(*ends)[0], (*ends)[1]};
@@ -263,7 +264,7 @@ class Parser {
 
   /// Curves, of a seam also the continuity across it, surface, its location, range, in version 2
   /// the end points.
-  Done flat_curve(BrepShape& shape, bool seam) {
+  Status flat_curve(BrepShape& shape, bool seam) {
     const auto count = static_cast<int>(file_.flat_curves.size());
     BrepFlatCurve flat;
     const auto curve = integer(1, count);
@@ -274,7 +275,7 @@ class Parser {
       const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), flat.other);
       if (fault != std::errc() || flat.other < 1 || flat.other > count)
         return fail("there is no such curve");
-      if (auto done = skip(end == word.data() + word.size() ? 1 : 0); !done) return done;
+      if (auto status = skip(end == word.data() + word.size() ? 1 : 0); !status) return status;
     }
     const auto surface = integer(0, static_cast<int>(file_.surfaces.size()));
     if (!surface) return std::unexpected(surface.error());
@@ -282,12 +283,12 @@ class Parser {
     if (!at) return std::unexpected(at.error());
     flat.surface = *surface;
     flat.place = *at;
-    if (auto done = range(flat.range); !done) return done;
+    if (auto status = range(flat.range); !status) return status;
     shape.flat.push_back(flat);
     return skip(version_ == 2 ? 4 : 0);
   }
 
-  Done geometry(BrepShape& shape, std::size_t count) {
+  Status geometry(BrepShape& shape, std::size_t count) {
     const auto index = integer(0, static_cast<int>(count));
     if (!index) return std::unexpected(index.error());
     const auto at = place();
@@ -297,12 +298,12 @@ class Parser {
     return {};
   }
 
-  Done face(BrepShape& shape) {
-    if (auto done = skip(2); !done) return done;  // natural bounds, tolerance
-    if (auto done = geometry(shape, file_.surfaces.size()); !done) return done;
+  Status face(BrepShape& shape) {
+    if (auto status = skip(2); !status) return status;  // natural bounds, tolerance
+    if (auto status = geometry(shape, file_.surfaces.size()); !status) return status;
     const std::size_t begin = words_.begin();
     if (words_.peek() != "2") return {};
-    if (auto done = skip(2); !done) return done;
+    if (auto status = skip(2); !status) return status;
     shape.triangulation = {begin, words_.place()};
     return {};
   }
@@ -325,34 +326,34 @@ class Parser {
   /// What DRAW's command `save` writes behind the shape: the end of its list of values.
   bool at_last_zero() {
     const std::size_t here = words_.begin();
-    const bool last = words_.words(words_.next()) == "0" && words_.done();
+    const bool last = words_.words(words_.next()) == "0" && words_.at_end();
     if (!last) words_.go_to(here);
     return last;
   }
 
-  Done shapes() {
+  Status shapes() {
     const auto count = section("TShapes");
     if (!count) return std::unexpected(count.error());
     const auto total = static_cast<std::size_t>(*count);
     for (std::size_t k = 0; k < total; ++k) {
       BrepShape shape;
       const auto kind = words_.words(words_.next());
-      Done done;
+      Status status;
       if (kind == "Ve") {
         shape.kind = Shape::vertex;
-        done = vertex(shape);
+        status = vertex(shape);
       } else if (kind == "Ed") {
         shape.kind = Shape::edge;
-        done = edge(shape);
+        status = edge(shape);
       } else if (kind == "Wi") {
         shape.kind = Shape::wire;
       } else if (kind == "Fa") {
         shape.kind = Shape::face;
-        done = face(shape);
+        status = face(shape);
       } else if (kind != "Sh" && kind != "So" && kind != "CS" && kind != "Co") {
         return fail(fmt::format("\"{}\" is no kind of shape", printable(kind)));
       }
-      if (!done) return done;
+      if (!status) return status;
       if (!are_flags(words_.words(words_.next())))
         return fail("the flags of a shape should stand here");
       while (words_.peek() != "*") {
@@ -363,7 +364,7 @@ class Parser {
       words_.next();
       file_.shapes.push_back(std::move(shape));
     }
-    while (!words_.done()) {
+    while (!words_.at_end()) {
       if (at_last_zero()) break;
       const auto root = use(total, total);
       if (!root) return std::unexpected(root.error());

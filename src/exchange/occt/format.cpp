@@ -79,9 +79,9 @@ class BrepSource final : public Source {
       if (!followed.empty()) changed.push_back({surfaces_[k].id, *surfaces[k]});
       const auto& listed = **file_.surfaces[listed_[k]].spline;
       const std::size_t before = changes.size();
-      auto done =
+      auto status =
           add_changes(listed, *surfaces_[k].surface, *surfaces[k], print_brep, changes, back_[k]);
-      if (!done) return std::unexpected(std::move(done.error()));
+      if (!status) return std::unexpected(std::move(status.error()));
       if (changes.size() == before) continue;
       changed_surfaces.insert(static_cast<int>(listed_[k]) + 1);
       for (const occt::BrepShape& face :

@@ -49,15 +49,15 @@ std::optional<Point> point_of(const BrepCurve& curve, int dimension, double t) {
 }
 
 const Surface* GapMeter::surface(int index) {
-  auto& own = surfaces_[static_cast<std::size_t>(index) - 1];
-  if (!own) {
-    own.emplace();
+  auto& stored = surfaces_[static_cast<std::size_t>(index) - 1];
+  if (!stored) {
+    stored.emplace();
     const auto& listed = file_.surfaces[static_cast<std::size_t>(index) - 1].spline;
     if (listed && *listed) {
-      if (auto made = detail::surface_of(**listed)) *own = *std::move(made);
+      if (auto made = detail::surface_of(**listed)) *stored = *std::move(made);
     }
   }
-  return *own ? &**own : nullptr;
+  return *stored ? &**stored : nullptr;
 }
 
 std::optional<EdgeGap> GapMeter::gap(const BrepShape& edge) {
@@ -77,9 +77,9 @@ std::optional<EdgeGap> GapMeter::gap(const BrepShape& edge) {
   const BrepCurve& curve = file_.curves[static_cast<std::size_t>(edge.geometry) - 1];
   for (int k = 0; k <= intervals; ++k) {
     const double share = static_cast<double>(k) / intervals;
-    const auto own = point_of(curve, 3, std::lerp(edge.range[0], edge.range[1], share));
-    if (!own) return std::nullopt;
-    const Point p = edge.place * *own;
+    const auto point = point_of(curve, 3, std::lerp(edge.range[0], edge.range[1], share));
+    if (!point) return std::nullopt;
+    const Point p = edge.place * *point;
     result.rounding = std::max(result.rounding, rounding_share * p.cwiseAbs().maxCoeff());
     const bool last = k == intervals, ends = k == 0 || last;
     if (ends) end(last, p);

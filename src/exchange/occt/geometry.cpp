@@ -74,12 +74,12 @@ class GeometryReader {
       if (!numbers) return std::unexpected(numbers.error());
       result.numbers = *std::move(numbers);
     } else if (*type <= 7) {
-      auto own = spline(dimension, *type == 6);
-      if (!own) return std::unexpected(own.error());
-      result.spline = *std::move(own);
+      auto curve = spline(dimension, *type == 6);
+      if (!curve) return std::unexpected(curve.error());
+      result.spline = *std::move(curve);
     } else {
-      if (auto done = words_.numbers(*type == 8 ? 2 : dimension == 3 ? 4 : 1); !done)
-        return std::unexpected(done.error());
+      if (auto status = words_.numbers(*type == 8 ? 2 : dimension == 3 ? 4 : 1); !status)
+        return std::unexpected(status.error());
       auto basis = curve(dimension, depth + 1);
       if (!basis) return basis;
       result.basis = std::make_shared<const BrepCurve>(*std::move(basis));
@@ -104,8 +104,8 @@ class GeometryReader {
     s.count = bezier ? std::array{head[2] + 1, head[3] + 1} : std::array{head[6], head[7]};
     if (s.degree[0] > 64 || s.degree[1] > 64) return fail("a degree is out of range");
     const bool rational = head[0] != 0 || head[1] != 0;
-    if (auto done = detail::read_points(words_, s, rational ? 4 : 3); !done)
-      return std::unexpected(done.error());
+    if (auto status = detail::read_points(words_, s, rational ? 4 : 3); !status)
+      return std::unexpected(status.error());
     for (std::size_t d = 0; d < 2; ++d) {
       auto flat = bezier ? bezier_knots(s.degree[d]) : knots(head[8 + d]);
       if (!flat) return std::unexpected(flat.error());
@@ -140,8 +140,8 @@ class GeometryReader {
       if (!spline) return std::unexpected(spline.error());
       result.spline = *std::move(spline);
     } else {
-      if (auto done = words_.numbers(*type == 10 ? 4 : 1); !done)
-        return std::unexpected(done.error());
+      if (auto status = words_.numbers(*type == 10 ? 4 : 1); !status)
+        return std::unexpected(status.error());
       auto basis = surface(depth + 1);
       return *type == 10 || !basis ? basis : Expected<BrepSurface>(std::move(result));
     }

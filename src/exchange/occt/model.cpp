@@ -51,7 +51,7 @@ class ModelReader {
     if (++uses_ > most_uses) return;
     const BrepShape& shape = file_.shapes[use.shape];
     const Eigen::Affine3d move = outer * use.place;
-    const bool own = turned != (use.orientation == '-');
+    const bool is_own = turned != (use.orientation == '-');
     if (shape.kind != Shape::face && shape.kind != Shape::group) return;
     const auto [first, fresh] = first_.try_emplace(use.shape, move);
     if (!fresh && again == 0) {
@@ -59,9 +59,9 @@ class ModelReader {
       again = static_cast<int>(ways_.size());
     }
     if (shape.kind == Shape::group) {
-      for (const Use& part : shape.uses) visit(part, move, own, again);
+      for (const Use& part : shape.uses) visit(part, move, is_own, again);
     } else if (fresh) {
-      add_face(use.shape, move, own);
+      add_face(use.shape, move, is_own);
     } else {
       ways_of_[use.shape].push_back(again);
     }
@@ -91,9 +91,9 @@ class ModelReader {
     if (groups.empty()) return;
     brep::Assembly result;
     result.unit = model.length_unit();
-    for (const auto& [ways, own] : groups) {
+    for (const auto& [ways, members] : groups) {
       brep::Part part{{}, result.unit, {}, {}, {}, {brep::PartPlace{}}};
-      for (const Index f : own) part.add(model, f);
+      for (const Index f : members) part.add(model, f);
       for (const int k : ways) {
         part.places.push_back({{}, ways_[static_cast<std::size_t>(k) - 1]});
         model.instances.emplace_back().id = brep::ModelBuilder::name(builder_.fresh());
@@ -238,17 +238,21 @@ class ModelReader {
     return result;
   }
 
-  static Expected<brep::CurveGeometry> curve(const BrepCurve& own, const Eigen::Affine3d& move) {
-    const auto& v = own.numbers;
-    if (own.type == 8) return curve(*own.basis, move);
-    if (own.type == 1) return brep::line_of(move * at(v, 0), move.linear() * at(v, 1));
-    if (own.type == 2 || own.type == 3) {
-      const double a = v[12] * scale_of(move), b = own.type == 2 ? a : v[13] * scale_of(move);
+  static Expected<brep::CurveGeometry> curve(const BrepCurve& brep_curve,
+                                             const Eigen::Affine3d& move) {
+    const auto& v = brep_curve.numbers;
+    if (brep_curve.type == 8) return curve(*brep_curve.basis, move);
+    if (brep_curve.type == 1) return brep::line_of(move * at(v, 0), move.linear() * at(v, 1));
+    if (brep_curve.type == 2 || brep_curve.type == 3) {
+      const double a = v[12] * scale_of(move),
+                   b = brep_curve.type == 2 ? a : v[13] * scale_of(move);
       return brep::conic_of(brep::Conic::Form::ellipse, frame_of(v, move), a, b);
     }
-    if (!own.spline)
-      return input_error(fmt::format("it lies on a curve of type {}, which is not read", own.type));
-    auto spline = own.spline->with_control_points(moved(own.spline->control_points(), move));
+    if (!brep_curve.spline)
+      return input_error(
+          fmt::format("it lies on a curve of type {}, which is not read", brep_curve.type));
+    auto spline =
+        brep_curve.spline->with_control_points(moved(brep_curve.spline->control_points(), move));
     if (!spline) return std::unexpected(std::move(spline.error()));
     return brep::spline_of(*std::move(spline));
   }
@@ -288,12 +292,12 @@ class ModelReader {
     for (const Use& use : file_.shapes[wire.shape].uses) {
       const BrepShape& shape = file_.shapes[use.shape];
       if (shape.kind != Shape::edge) continue;
-      const Eigen::Affine3d own = move * use.place;
+      const Eigen::Affine3d place = move * use.place;
       if (shape.degenerated) {
-        if (!shape.uses.empty()) bound.vertex = vertex(shape.uses.front(), own);
+        if (!shape.uses.empty()) bound.vertex = vertex(shape.uses.front(), place);
         continue;
       }
-      Turn turn{edge(use.shape, own), (use.orientation == '-') != (wire.orientation == '-')};
+      Turn turn{edge(use.shape, place), (use.orientation == '-') != (wire.orientation == '-')};
       const brep::Edge& made = builder_.model().edges[turn.edge];
       turn.from = turn.back ? made.end : made.start;
       turn.to = turn.back ? made.start : made.end;
@@ -308,11 +312,11 @@ class ModelReader {
   /// What a shape is at a place: the same for places that agree to rounding.
   template <class Make>
   Index placed(std::size_t shape, const Eigen::Affine3d& move, const Make& make) {
-    auto& own = made_[shape];
-    for (const auto& [place, index] : own) {
+    auto& copies = made_[shape];
+    for (const auto& [place, index] : copies) {
       if (place.isApprox(move, 1e-12)) return index;
     }
-    const Index index = make(own.empty());
+    const Index index = make(copies.empty());
     made_[shape].emplace_back(move, index);
     return index;
   }

@@ -24,13 +24,15 @@ const ReadModel::Source* find(const std::map<std::string, ReadModel::Source>& so
 /// knots.
 std::string print(const Curve& curve, const std::array<double, 2>& range,
                   const Eigen::Affine3d& back) {
-  const auto own = curve.knots(0).knots();
+  const auto knot_values = curve.knots(0).knots();
   std::string knots;
   int distinct = 0;
-  for (std::size_t k = 0, next = 0; k < own.size(); k = next) {
-    while (next < own.size() && own[next] == own[k]) ++next;
-    const double share = (own[k] - own.front()) / (own.back() - own.front());
-    const double t = next == own.size() ? range[1] : range[0] + share * (range[1] - range[0]);
+  for (std::size_t k = 0, next = 0; k < knot_values.size(); k = next) {
+    while (next < knot_values.size() && knot_values[next] == knot_values[k]) ++next;
+    const double share =
+        (knot_values[k] - knot_values.front()) / (knot_values.back() - knot_values.front());
+    const double t =
+        next == knot_values.size() ? range[1] : range[0] + share * (range[1] - range[0]);
     knots += fmt::format(" {} {}", digits_17(t), next - k);
     ++distinct;
   }
@@ -47,9 +49,9 @@ std::string print(const Curve& curve, const std::array<double, 2>& range,
 
 Expected<void> can_move(const BrepFile& file, const ReadModel::Sources& sources,
                         const std::string& edge) {
-  const ReadModel::Source* own = find(sources.edges, edge);
-  if (own == nullptr) return input_error("only edges of faces can follow", edge);
-  const BrepShape& shape = file.shapes[own->shape];
+  const ReadModel::Source* edge_source = find(sources.edges, edge);
+  if (edge_source == nullptr) return input_error("only edges of faces can follow", edge);
+  const BrepShape& shape = file.shapes[edge_source->shape];
   if (!shape.same_parameter) {
     return input_error(
         "its curves are at the same points at different parameters, which Open CASCADE would find "
@@ -68,7 +70,7 @@ Expected<void> can_move(const BrepFile& file, const ReadModel::Sources& sources,
                        "hold it");
   }
   const auto uses = std::ranges::count_if(
-      sources.edges, [&](const auto& e) { return e.second.shape == own->shape; });
+      sources.edges, [&](const auto& e) { return e.second.shape == edge_source->shape; });
   if (uses == 1) return {};
   return input_error("the edge stands in several places, and would move in all of them", edge,
                      "hold it");
@@ -146,8 +148,8 @@ TextChanges tolerance_changes(const BrepFile& file, const BrepFile& after,
     for (std::size_t v = 0; v < edge.uses.size(); ++v) {
       want(edge.uses[v].shape, before->at_vertex[v], now->at_vertex[v], now->rounding);
       // A vertex is not known better than its edges.
-      if (const auto own = wanted.find(k); own != wanted.end())
-        want(edge.uses[v].shape, 0, own->second, 0);
+      if (const auto found = wanted.find(k); found != wanted.end())
+        want(edge.uses[v].shape, 0, found->second, 0);
     }
   }
   TextChanges changes;

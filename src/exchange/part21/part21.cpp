@@ -144,8 +144,9 @@ void Part21Parser::sort_parts() {
   for (const auto& [number, instance] : parts_) file_.named_[keywords[number].last++] = instance;
   // Those within a &SCOPE come before the record that they belong to.
   for (const auto& keyword : keywords) {
-    const std::span own(file_.named_.begin() + keyword.first, file_.named_.begin() + keyword.last);
-    if (!std::ranges::is_sorted(own)) std::ranges::sort(own);
+    const std::span named(file_.named_.begin() + keyword.first,
+                          file_.named_.begin() + keyword.last);
+    if (!std::ranges::is_sorted(named)) std::ranges::sort(named);
   }
   std::ranges::sort(keywords, KeywordOrder(),
                     [this](const auto& keyword) { return file_.text(keyword.bytes); });

@@ -59,9 +59,9 @@ class Builder {
   Expected<brep::Assembly> build(const Structure& structure) {
     join(structure);
     connect(structure);
-    if (auto done = graph_->place(model_.length_unit(), result_); !done)
-      return std::unexpected(done.error());
-    if (auto done = fill(); !done) return std::unexpected(done.error());
+    if (auto status = graph_->place(model_.length_unit(), result_); !status)
+      return std::unexpected(status.error());
+    if (auto status = fill(); !status) return std::unexpected(status.error());
     std::vector<Index> in_order;
     for (Index k = 0; k < graph_->size(); ++k) {
       if ((*graph_)[k].product) in_order.push_back(k);
@@ -108,8 +108,8 @@ class Builder {
         if (!c.product) c.name = product->second;
         c.product = true;
       }
-      const auto own = reader_.attributes(representation, "REPRESENTATION", 0, 3);
-      const auto context = own.empty() ? std::nullopt : reader_.reference(own[2]);
+      const auto attributes = reader_.attributes(representation, "REPRESENTATION", 0, 3);
+      const auto context = attributes.empty() ? std::nullopt : reader_.reference(attributes[2]);
       const auto unit = context ? units.find(name_of(reader_, *context)) : units.end();
       if (c.unit.name.empty() && unit != units.end()) c.unit = *unit->second;
     }
@@ -167,8 +167,9 @@ class Builder {
     for (Index k = 0; k < groups_.size(); ++k) {
       const Index group = groups_.find(k);
       Content& c = contents_[group];
-      const auto own = reader_.attributes(groups_.representations()[k], "REPRESENTATION", 0, 3);
-      if (!(*graph_)[group].product || own.empty()) continue;
+      const auto attributes =
+          reader_.attributes(groups_.representations()[k], "REPRESENTATION", 0, 3);
+      if (!(*graph_)[group].product || attributes.empty()) continue;
       const auto visit = [&](Index target) {
         if (kind[target] == 3 || mark[target] == group) return;
         mark[target] = group;
@@ -182,7 +183,7 @@ class Builder {
         stack.push_back(target);
         ++visits;
       };
-      for (const Index item : reader_.references(own[1])) visit(item);
+      for (const Index item : reader_.references(attributes[1])) visit(item);
       while (!stack.empty() && visits <= visits_per_record * records) {
         const auto& record = reader_.file().instance(stack.back());
         stack.pop_back();

@@ -23,8 +23,8 @@ std::optional<Colour> named_colour(std::string_view name) {
   constexpr std::pair<std::string_view, Colour> known[] = {
       {"red", {1, 0, 0}},     {"green", {0, 1, 0}}, {"blue", {0, 0, 1}},  {"yellow", {1, 1, 0}},
       {"magenta", {1, 0, 1}}, {"cyan", {0, 1, 1}},  {"black", {0, 0, 0}}, {"white", {1, 1, 1}}};
-  for (const auto& [own, colour] : known) {
-    if (own == name) return colour;
+  for (const auto& [known_name, colour] : known) {
+    if (known_name == name) return colour;
   }
   return std::nullopt;
 }
@@ -51,14 +51,14 @@ class Styles {
   /// Name, styles, item; of one that overrides, the item overridden.
   void add(Instance styled) {
     const bool over = reader_.is(styled, "OVER_RIDING_STYLED_ITEM");
-    const auto own = reader_.attributes(
+    const auto attributes = reader_.attributes(
         styled,
         over && !reader_.is(styled, "STYLED_ITEM") ? "OVER_RIDING_STYLED_ITEM" : "STYLED_ITEM", 1,
         2);
-    if (own.empty() || !reader_.is_list(own[0])) return;
-    const auto item = reader_.reference(own[1]);
+    if (attributes.empty() || !reader_.is_list(attributes[0])) return;
+    const auto item = reader_.reference(attributes[1]);
     std::optional<Colour> colour;
-    for (const Instance style : reader_.references(own[0])) {
+    for (const Instance style : reader_.references(attributes[0])) {
       if (!colour) colour = colour_below(style, 0);
     }
     if (item && colour) paint(*item, *colour, 2 * rank_of(*item) + (over ? 1 : 0), 0);
@@ -81,16 +81,17 @@ class Styles {
                               "SURFACE_STYLE_SEGMENTATION_CURVE", "SURFACE_STYLE_SILHOUETTE"}) {
       if (reader_.is(style, other)) return std::nullopt;
     }
-    if (const auto own = reader_.attributes(style, "COLOUR_RGB", 1, 3);
-        reader_.is(style, "COLOUR_RGB") && !own.empty()) {
+    if (const auto attributes = reader_.attributes(style, "COLOUR_RGB", 1, 3);
+        reader_.is(style, "COLOUR_RGB") && !attributes.empty()) {
       Colour colour{};
       for (std::size_t c = 0; c < 3; ++c)
-        colour[c] = std::clamp(reader_.real(own[c]).value_or(0), 0.0, 1.0);
+        colour[c] = std::clamp(reader_.real(attributes[c]).value_or(0), 0.0, 1.0);
       return colour;
     }
     for (const char* kind : {"DRAUGHTING_PRE_DEFINED_COLOUR", "PRE_DEFINED_COLOUR"}) {
-      const auto own = reader_.attributes(style, kind, 0, 1);
-      if (reader_.is(style, kind) && !own.empty()) return named_colour(reader_.string(own[0]));
+      const auto attributes = reader_.attributes(style, kind, 0, 1);
+      if (reader_.is(style, kind) && !attributes.empty())
+        return named_colour(reader_.string(attributes[0]));
     }
     for (const Instance next : below(style)) {
       if (const auto colour = colour_below(next, depth + 1)) return colour;

@@ -116,13 +116,13 @@ Expected<File> with_splines(const File& file, std::span<const std::string> surfa
     if (!surface) return std::unexpected(surface.error());
     std::set<std::uint32_t> bounded;
     for (const brep::Face* face : *faces) {
-      const std::uint32_t own = instance_of(records, face->id);
-      bounded.insert(own);
-      surgeon.lie_on(own, instance);
-      if (reader.is(own, "RECTANGULAR_TRIMMED_SURFACE")) {
+      const std::uint32_t record = instance_of(records, face->id);
+      bounded.insert(record);
+      surgeon.lie_on(record, instance);
+      if (reader.is(record, "RECTANGULAR_TRIMMED_SURFACE")) {
         const auto limits = rectangle_of(model, *face, *surface);
         if (!limits) return std::unexpected(limits.error());
-        surgeon.limit(own, *limits);
+        surgeon.limit(record, *limits);
       }
       for (const brep::Index k : brep::edges_around(*face)) {
         const brep::Edge& edge = model.edges[k];

@@ -45,11 +45,11 @@ Expected<Curve> read_b_spline_curve(const Reader& reader, std::uint32_t instance
   if (reader.is(instance, "UNIFORM_CURVE")) form = ImpliedKnots::uniform;
   const bool listed = reader.is(instance, "B_SPLINE_CURVE_WITH_KNOTS");
   if (!form && !listed) return reader.error(instance, "it is not a B-spline curve with knots");
-  const auto own = reader.attributes(instance, "B_SPLINE_CURVE", 1, 2);
-  const auto degree = own.empty() ? std::nullopt : reader.integer(own[0]);
+  const auto attributes = reader.attributes(instance, "B_SPLINE_CURVE", 1, 2);
+  const auto degree = attributes.empty() ? std::nullopt : reader.integer(attributes[0]);
   if (!degree || *degree < 1 || *degree > max_degree)
     return reader.error(instance, "its degree is not 1 to " + std::to_string(max_degree));
-  const auto targets = reader.references(own[1]);
+  const auto targets = reader.references(attributes[1]);
   Points points(static_cast<Eigen::Index>(targets.size()), 3);
   for (std::size_t k = 0; k < targets.size(); ++k) {
     const auto point = reader.point(targets[k]);

@@ -80,8 +80,8 @@ std::string_view Reader::enumeration(std::uint32_t value) const {
 }
 
 std::string Reader::item_name(std::uint32_t instance) const {
-  const auto own = attributes(instance, "REPRESENTATION_ITEM", 0, 1);
-  return own.empty() ? std::string() : string(own[0]);
+  const auto values = attributes(instance, "REPRESENTATION_ITEM", 0, 1);
+  return values.empty() ? std::string() : string(values[0]);
 }
 
 Expected<std::array<std::uint32_t, 3>> Reader::coordinate_values(std::uint32_t instance) const {
@@ -91,10 +91,10 @@ Expected<std::array<std::uint32_t, 3>> Reader::coordinate_values(std::uint32_t i
       record.complex ? part(instance, "CARTESIAN_POINT") : std::optional(record.first);
   const std::size_t inherited = record.complex ? 0 : 1;
   std::size_t count = 0;
-  const auto own = file_->first_children<2>(*found, count);
-  if (count <= inherited || !is_list(own[inherited]))
+  const auto lists = file_->first_children<2>(*found, count);
+  if (count <= inherited || !is_list(lists[inherited]))
     return error(instance, "it has no list of coordinates");
-  const auto coordinates = file_->first_children<3>(own[inherited], count);
+  const auto coordinates = file_->first_children<3>(lists[inherited], count);
   if (count != 3) {
     return error(instance, "it has " + std::to_string(count) + " coordinates",
                  "a control point of a surface has 3");
@@ -111,8 +111,8 @@ Expected<double> Reader::angle_unit(std::uint32_t instance) const {
       for (const std::uint32_t unit : references(context[0])) {
         if (!is(unit, "PLANE_ANGLE_UNIT")) continue;
         double radians = 1;
-        if (const auto own = attributes(unit, "CONVERSION_BASED_UNIT", 1, 2); !own.empty()) {
-          const auto measure = reference(own[1]);
+        if (const auto values = attributes(unit, "CONVERSION_BASED_UNIT", 1, 2); !values.empty()) {
+          const auto measure = reference(values[1]);
           const auto value = measure ? attributes(*measure, "MEASURE_WITH_UNIT", 0, 2)
                                      : std::vector<std::uint32_t>();
           if (value.empty() || file_->kind(value[0]) != Part21Kind::typed) continue;
@@ -144,12 +144,12 @@ Expected<double> Reader::coordinate(std::uint32_t instance, std::uint32_t value,
 
 Expected<Point> Reader::curved_point(std::uint32_t instance) const {
   const bool cylindrical = is(instance, "CYLINDRICAL_POINT");
-  const auto own =
+  const auto values =
       attributes(instance, cylindrical ? "CYLINDRICAL_POINT" : "SPHERICAL_POINT", 2, 3);
-  if (own.empty()) return error(instance, "it has no three coordinates");
+  if (values.empty()) return error(instance, "it has no three coordinates");
   std::array<double, 3> v{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto value = coordinate(instance, own[k], k);
+    const auto value = coordinate(instance, values[k], k);
     if (!value) return std::unexpected(value.error());
     v[k] = *value;
   }
@@ -163,13 +163,13 @@ Expected<Point> Reader::curved_point(std::uint32_t instance) const {
 }
 
 Expected<Point> Reader::point_in_parameters(std::uint32_t instance) const {
-  const auto own = attributes(instance, "CARTESIAN_POINT", 1, 1);
-  if (!is(instance, "CARTESIAN_POINT") || own.empty() || !is_list(own[0]) ||
-      file_->children(own[0]).size() != 2)
+  const auto values = attributes(instance, "CARTESIAN_POINT", 1, 1);
+  if (!is(instance, "CARTESIAN_POINT") || values.empty() || !is_list(values[0]) ||
+      file_->children(values[0]).size() != 2)
     return error(instance, "a CARTESIAN_POINT with 2 coordinates is needed here");
   Point result = Point::Zero();
   for (std::size_t k = 0; k < 2; ++k) {
-    const auto value = coordinate(instance, file_->children(own[0])[k], k);
+    const auto value = coordinate(instance, file_->children(values[0])[k], k);
     if (!value) return std::unexpected(value.error());
     result[static_cast<Eigen::Index>(k)] = *value;
   }
@@ -196,9 +196,9 @@ Expected<Point> Reader::point(std::uint32_t instance) const {
 }
 
 std::optional<Point> Reader::direction(std::uint32_t instance) const {
-  const auto own = attributes(instance, "DIRECTION", 1, 1);
-  if (!is(instance, "DIRECTION") || own.empty() || !is_list(own[0])) return std::nullopt;
-  const auto ratios = file_->children(own[0]);
+  const auto values = attributes(instance, "DIRECTION", 1, 1);
+  if (!is(instance, "DIRECTION") || values.empty() || !is_list(values[0])) return std::nullopt;
+  const auto ratios = file_->children(values[0]);
   if (ratios.size() != coordinates_) return std::nullopt;
   Point result = Point::Zero();
   for (std::size_t k = 0; k < coordinates_; ++k) {

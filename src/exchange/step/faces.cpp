@@ -21,24 +21,24 @@ std::unordered_set<std::uint32_t> turned_faces(const Reader& reader) {
   std::unordered_map<std::uint32_t, bool> turned;  // shells
   for (const auto k : reader.file().named(turned_shell_kinds)) {
     for (const auto kind : turned_shell_kinds) {
-      const auto own = reader.attributes(k, kind, 2, 2);
-      const auto shell = own.empty() ? std::nullopt : reader.reference(own[0]);
+      const auto attributes = reader.attributes(k, kind, 2, 2);
+      const auto shell = attributes.empty() ? std::nullopt : reader.reference(attributes[0]);
       if (shell)
-        turned.try_emplace(*shell, true).first->second &= reader.enumeration(own[1]) == "F";
+        turned.try_emplace(*shell, true).first->second &= reader.enumeration(attributes[1]) == "F";
     }
   }
   std::unordered_set<std::uint32_t> result;
   if (turned.empty()) return result;
   for (const auto k : reader.file().named(solid_kinds)) {
-    const auto own = reader.attributes(k, "MANIFOLD_SOLID_BREP", 1, 1);
-    const auto shell = own.empty() ? std::nullopt : reader.reference(own[0]);
+    const auto attributes = reader.attributes(k, "MANIFOLD_SOLID_BREP", 1, 1);
+    const auto shell = attributes.empty() ? std::nullopt : reader.reference(attributes[0]);
     if (shell) turned.erase(*shell);
   }
   for (const auto& [shell, is_turned] : turned) {
-    const auto own = is_turned ? reader.attributes(shell, "CONNECTED_FACE_SET", 1, 1)
-                               : std::vector<std::uint32_t>();
-    if (own.empty()) continue;
-    for (const auto face : reader.references(own[0])) result.insert(face);
+    const auto list = is_turned ? reader.attributes(shell, "CONNECTED_FACE_SET", 1, 1)
+                                : std::vector<std::uint32_t>();
+    if (list.empty()) continue;
+    for (const auto face : reader.references(list[0])) result.insert(face);
   }
   return result;
 }
@@ -58,17 +58,19 @@ void add_bounded_surfaces(const Reader& reader, std::vector<FaceRecord>& faces) 
   if (bounded.empty()) return;
   std::unordered_map<std::uint32_t, std::uint32_t> curves;  // on each surface
   for (const auto k : reader.file().named({"PCURVE", "BOUNDED_PCURVE", "DEGENERATE_PCURVE"})) {
-    const auto own = reader.attributes(
+    const auto attributes = reader.attributes(
         k, reader.is(k, "DEGENERATE_PCURVE") ? "DEGENERATE_PCURVE" : "PCURVE", 1, 1);
-    if (const auto on = own.empty() ? std::nullopt : reader.reference(own[0])) ++curves[*on];
+    if (const auto on = attributes.empty() ? std::nullopt : reader.reference(attributes[0]))
+      ++curves[*on];
   }
   std::unordered_set<std::uint32_t> below;
   for (const auto k : bounded) {
     if (const auto basis = basis_of(reader, k)) below.insert(*basis);
   }
   for (const auto k : reader.file().named({"ADVANCED_FACE", "FACE_SURFACE"})) {
-    const auto own = reader.attributes(k, "FACE_SURFACE", 2, 1);
-    if (const auto on = own.empty() ? std::nullopt : reader.reference(own[0])) below.insert(*on);
+    const auto attributes = reader.attributes(k, "FACE_SURFACE", 2, 1);
+    if (const auto on = attributes.empty() ? std::nullopt : reader.reference(attributes[0]))
+      below.insert(*on);
   }
   for (const auto k : bounded) {
     const auto uses = reader.file().instance(k).uses;
@@ -88,9 +90,9 @@ bool is_bounded_surface(const Reader& reader, std::uint32_t surface) {
 std::optional<std::uint32_t> basis_value(const Reader& reader, std::uint32_t surface) {
   const auto kind = std::ranges::find_if(bounded_kinds,
                                          [&](std::string_view k) { return reader.is(surface, k); });
-  const auto own = kind == bounded_kinds.end() ? std::vector<std::uint32_t>()
-                                               : reader.attributes(surface, *kind, 1, 1);
-  return own.empty() ? std::nullopt : std::optional(own[0]);
+  const auto basis = kind == bounded_kinds.end() ? std::vector<std::uint32_t>()
+                                                 : reader.attributes(surface, *kind, 1, 1);
+  return basis.empty() ? std::nullopt : std::optional(basis[0]);
 }
 
 std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::uint32_t> surface) {
@@ -110,11 +112,12 @@ std::vector<FaceRecord> read_faces(const Reader& reader) {
     if (bounds.empty()) continue;
     FaceRecord face{.instance = k, .bounds = bounds[0], .turned = turned.contains(k)};
     if (has_surface) {
-      const auto own = reader.attributes(k, "FACE_SURFACE", 2, 2);
-      const auto target = untrimmed(reader, own.empty() ? std::nullopt : reader.reference(own[0]));
+      const auto attributes = reader.attributes(k, "FACE_SURFACE", 2, 2);
+      const auto target =
+          untrimmed(reader, attributes.empty() ? std::nullopt : reader.reference(attributes[0]));
       if (!target) continue;
       face.surface = *target;
-      face.same_sense = reader.enumeration(own[1]) != "F";
+      face.same_sense = reader.enumeration(attributes[1]) != "F";
     }
     result.push_back(face);
   }
@@ -133,11 +136,11 @@ Expected<void> check_loop_uses(const Reader& reader) {
     for (const auto bound : reader.references(bounds[0])) {
       const auto [known, fresh] = edges_of.try_emplace(bound, 1);
       if (fresh) {
-        const auto own = reader.attributes(bound, "FACE_BOUND", 1, 2);
-        const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
+        const auto attributes = reader.attributes(bound, "FACE_BOUND", 1, 2);
+        const auto loop = attributes.empty() ? std::nullopt : reader.reference(attributes[0]);
         const bool of_points = loop && reader.is(*loop, "POLY_LOOP");
         const auto path =
-            !loop ? own : reader.attributes(*loop, of_points ? "POLY_LOOP" : "PATH", 1, 1);
+            !loop ? attributes : reader.attributes(*loop, of_points ? "POLY_LOOP" : "PATH", 1, 1);
         if (loop && !path.empty()) known->second += reader.references(path[0]).size();
       }
       uses += known->second;

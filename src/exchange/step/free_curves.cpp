@@ -54,8 +54,8 @@ std::vector<ReadCurve> free_curves(const Reader& reader, std::vector<UnreadableC
   for (const std::uint32_t k : curves) {
     if (held[k] != file.instance(k).uses) continue;
     auto curve = read_b_spline_curve(reader, k);
-    const auto own = reader.attributes(k, "B_SPLINE_CURVE", 1, 2);
-    auto points = curve ? file.children(own[1]) : std::vector<std::uint32_t>();
+    const auto attributes = reader.attributes(k, "B_SPLINE_CURVE", 1, 2);
+    auto points = curve ? file.children(attributes[1]) : std::vector<std::uint32_t>();
     if (curve && std::ssize(points) != curve->size())
       curve = reader.error(k, "a basis function is zero everywhere");
     if (curve)

@@ -24,8 +24,8 @@ constexpr int max_curve_nesting = 8;  // nested curves; more is a loop
 std::optional<std::uint32_t> reference_at(const Reader& reader, std::uint32_t instance,
                                           const char* entity, std::size_t inherited,
                                           std::size_t k) {
-  const auto own = reader.attributes(instance, entity, inherited, k + 1);
-  return own.empty() ? std::nullopt : reader.reference(own[k]);
+  const auto attributes = reader.attributes(instance, entity, inherited, k + 1);
+  return attributes.empty() ? std::nullopt : reader.reference(attributes[k]);
 }
 
 /// What a form says, at the record that it is read from.
@@ -36,9 +36,10 @@ Expected<T> at_record(const Reader& reader, std::uint32_t instance, Expected<T> 
 }
 
 Expected<CurveGeometry> read_polyline(const Reader& reader, std::uint32_t instance) {
-  const auto own = reader.attributes(instance, "POLYLINE", 1, 1);
+  const auto attributes = reader.attributes(instance, "POLYLINE", 1, 1);
   std::vector<Point> corners;
-  for (const auto k : own.empty() ? std::vector<std::uint32_t>() : reader.references(own[0])) {
+  for (const auto k :
+       attributes.empty() ? std::vector<std::uint32_t>() : reader.references(attributes[0])) {
     const auto point = reader.point(k);
     if (!point) return std::unexpected(point.error());
     corners.push_back(*point);
@@ -53,9 +54,9 @@ Expected<CurveGeometry> read_conic(const Reader& reader, std::uint32_t instance,
       reference_at(reader, instance, "CONIC", reader.file().instance(instance).complex ? 0 : 1, 0);
   const auto placement = position ? read_placement(reader, *position) : std::nullopt;
   const bool one = reader.is(instance, "CIRCLE") || form == Conic::Form::parabola;
-  const auto own = reader.attributes(instance, entity, 2, one ? 1 : 2);
-  const double a = own.empty() ? 0 : reader.length(own[0]).value_or(0);
-  const double b = one || own.empty() ? a : reader.length(own[1]).value_or(0);
+  const auto attributes = reader.attributes(instance, entity, 2, one ? 1 : 2);
+  const double a = attributes.empty() ? 0 : reader.length(attributes[0]).value_or(0);
+  const double b = one || attributes.empty() ? a : reader.length(attributes[1]).value_or(0);
   return at_record(reader, instance,
                    brep::conic_of(form, placement ? frame_of(*placement) : std::nullopt, a, b));
 }
@@ -69,8 +70,8 @@ Expected<CurveGeometry> read_line(const Reader& reader, std::uint32_t instance) 
       from ? reader.point(*from) : Expected<Point>(reader.error(instance, "it has no point"));
   const auto direction = orientation ? reader.direction(*orientation) : std::nullopt;
   if (!point || !direction) return reader.error(instance, "it has no point or direction");
-  const auto own = reader.attributes(*vector, "VECTOR", 1, 2);
-  const double magnitude = own.empty() ? 1 : reader.length(own[1]).value_or(1);
+  const auto attributes = reader.attributes(*vector, "VECTOR", 1, 2);
+  const double magnitude = attributes.empty() ? 1 : reader.length(attributes[1]).value_or(1);
   return at_record(reader, instance, brep::line_of(*point, *direction, magnitude));
 }
 
@@ -89,11 +90,11 @@ Expected<CurveGeometry> read_nested(const Reader& reader, std::uint32_t instance
     return read_nested(reader, *inner, depth + 1);
   }
   if (reader.is(instance, "TRIMMED_CURVE")) {
-    const auto own = reader.attributes(instance, "TRIMMED_CURVE", 1, 4);
-    const auto basis = own.empty() ? std::nullopt : reader.reference(own[0]);
+    const auto attributes = reader.attributes(instance, "TRIMMED_CURVE", 1, 4);
+    const auto basis = attributes.empty() ? std::nullopt : reader.reference(attributes[0]);
     if (!basis) return reader.error(instance, "it has no basis curve");
     auto curve = read_nested(reader, *basis, depth + 1);
-    if (curve && reader.enumeration(own[3]) == "F") curve->turned = !curve->turned;
+    if (curve && reader.enumeration(attributes[3]) == "F") curve->turned = !curve->turned;
     return curve;
   }
   if (reader.is(instance, "POLYLINE")) return read_polyline(reader, instance);
@@ -104,17 +105,17 @@ Expected<CurveGeometry> read_nested(const Reader& reader, std::uint32_t instance
 
 std::optional<brep::Frame> position_of(const Reader& reader, std::uint32_t instance) {
   const bool complex = reader.file().instance(instance).complex;
-  const auto own = reader.attributes(instance, "ELEMENTARY_SURFACE", complex ? 0 : 1, 1);
-  const auto position = own.empty() ? std::nullopt : reader.reference(own[0]);
+  const auto attributes = reader.attributes(instance, "ELEMENTARY_SURFACE", complex ? 0 : 1, 1);
+  const auto position = attributes.empty() ? std::nullopt : reader.reference(attributes[0]);
   const auto placement = position ? read_placement(reader, *position) : std::nullopt;
   return placement ? frame_of(*placement) : std::nullopt;
 }
 
 /// Of an AXIS1_PLACEMENT(location, axis).
 Expected<brep::Frame> axis_of(const Reader& reader, std::uint32_t instance) {
-  const auto own = reader.attributes(instance, "AXIS1_PLACEMENT", 1, 2);
-  const auto location = own.empty() ? std::nullopt : reader.reference(own[0]);
-  const auto axis = own.empty() ? std::nullopt : reader.reference(own[1]);
+  const auto attributes = reader.attributes(instance, "AXIS1_PLACEMENT", 1, 2);
+  const auto location = attributes.empty() ? std::nullopt : reader.reference(attributes[0]);
+  const auto axis = attributes.empty() ? std::nullopt : reader.reference(attributes[1]);
   const auto origin = location ? reader.point(*location)
                                : Expected<Point>(reader.error(instance, "it has no location"));
   const Point z = (axis ? reader.direction(*axis) : std::nullopt).value_or(Point::UnitZ());
@@ -125,8 +126,8 @@ Expected<brep::Frame> axis_of(const Reader& reader, std::uint32_t instance) {
 
 /// Of a VECTOR(orientation, magnitude), at the origin.
 Expected<brep::Frame> direction_of(const Reader& reader, std::uint32_t instance) {
-  const auto own = reader.attributes(instance, "VECTOR", 1, 2);
-  const auto orientation = own.empty() ? std::nullopt : reader.reference(own[0]);
+  const auto attributes = reader.attributes(instance, "VECTOR", 1, 2);
+  const auto orientation = attributes.empty() ? std::nullopt : reader.reference(attributes[0]);
   const auto direction = orientation ? reader.direction(*orientation) : std::nullopt;
   if (!direction || !(direction->norm() > 0)) return reader.error(instance, "it has no direction");
   return brep::frame_about(Point::Zero(), *direction);
@@ -140,16 +141,16 @@ struct ElementaryForm {
 
 Expected<brep::ElementarySurface> read_elementary(const Reader& reader, std::uint32_t instance,
                                                   const ElementaryForm& form) {
-  const auto own = reader.attributes(instance, form.entity, 2, form.lengths);
+  const auto attributes = reader.attributes(instance, form.entity, 2, form.lengths);
   const auto length = [&](std::size_t k) {
-    return k < own.size() ? reader.length(own[k]).value_or(0) : 0.0;
+    return k < attributes.size() ? reader.length(attributes[k]).value_or(0) : 0.0;
   };
   auto surface = at_record(
       reader, instance,
       brep::elementary_of(form.kind, position_of(reader, instance), length(0), length(1)));
   if (!surface) return surface;
-  surface->inner =
-      form.lengths == 3 && reader.enumeration(own[2]) == "F" && surface->second > surface->radius;
+  surface->inner = form.lengths == 3 && reader.enumeration(attributes[2]) == "F" &&
+                   surface->second > surface->radius;
   return surface;
 }
 
@@ -222,9 +223,10 @@ std::vector<double> plane_angle_units(const Reader& reader) {
   for (const auto k : reader.file().named({"PLANE_ANGLE_UNIT"})) {
     if (reader.is(k, "SI_UNIT")) {
       add(1);
-    } else if (const auto own = reader.attributes(k, "CONVERSION_BASED_UNIT", 1, 2); !own.empty()) {
+    } else if (const auto attributes = reader.attributes(k, "CONVERSION_BASED_UNIT", 1, 2);
+               !attributes.empty()) {
       // PLANE_ANGLE_MEASURE_WITH_UNIT(PLANE_ANGLE_MEASURE(0.0174…), radian)
-      const auto measure = reader.reference(own[1]);
+      const auto measure = reader.reference(attributes[1]);
       const auto value = measure ? reader.attributes(*measure, "MEASURE_WITH_UNIT", 0, 2)
                                  : std::vector<std::uint32_t>();
       if (value.empty() || reader.file().value(value[0]).kind != Part21Kind::typed) continue;

@@ -15,8 +15,8 @@ using Index = std::uint32_t;
 std::optional<Index> attribute(const Reader& reader, Index instance, std::string_view entity,
                                std::size_t inherited, std::size_t k) {
   if (!reader.is(instance, entity)) return std::nullopt;
-  const auto own = reader.attributes(instance, entity, inherited, k + 1);
-  return own.empty() ? std::nullopt : reader.reference(own[k]);
+  const auto attributes = reader.attributes(instance, entity, inherited, k + 1);
+  return attributes.empty() ? std::nullopt : reader.reference(attributes[k]);
 }
 
 /// Orthonormal axes as columns, from directions that need not be (ISO 10303-42, base_axis);
@@ -44,16 +44,16 @@ std::optional<Eigen::Affine3d> read_operator(const Reader& reader, Index instanc
   }
   const auto all = reader.parameters(instance, "CARTESIAN_TRANSFORMATION_OPERATOR_3D");
   if (all.size() < 6) return std::nullopt;
-  const auto own = std::span(all).last(5);  // axis1, axis2, local_origin, scale, axis3
+  const auto values = std::span(all).last(5);  // axis1, axis2, local_origin, scale, axis3
   const auto direction = [&](std::size_t k) {
-    const auto target = reader.reference(own[k]);
+    const auto target = reader.reference(values[k]);
     return target ? reader.direction(*target) : std::nullopt;
   };
-  const auto location = reader.reference(own[2]);
+  const auto location = reader.reference(values[2]);
   const auto origin =
       location ? reader.point(*location) : Expected<Point>(input_error("no location"));
   if (!origin) return std::nullopt;
-  const double scale = reader.real(own[3]).value_or(1);
+  const double scale = reader.real(values[3]).value_or(1);
   if (!(scale > 0 && scale <= largest_number)) return std::nullopt;
   const Point z = direction(4).value_or(Point::UnitZ());
   const bool upright = z.tail<2>().norm() > 1e-12 * z.norm();
@@ -104,15 +104,15 @@ class Assemblies {
 
   std::optional<Component> usage(Index k) const {
     // ASSEMBLY_COMPONENT_USAGE: id, name, description, relating and related PRODUCT_DEFINITION.
-    const auto own = reader_.attributes(k, "PRODUCT_DEFINITION_RELATIONSHIP", 0, 5);
-    if (own.empty()) return std::nullopt;
+    const auto attributes = reader_.attributes(k, "PRODUCT_DEFINITION_RELATIONSHIP", 0, 5);
+    if (attributes.empty()) return std::nullopt;
     Component result;
     brep::Instance& instance = result.instance;
     instance.id = "#" + std::to_string(reader_.file().instance(k).id);
-    instance.name = reader_.string(own[1]);
-    if (instance.name.empty()) instance.name = reader_.string(own[0]);
-    const auto parent = reader_.reference(own[3]);
-    const auto child = reader_.reference(own[4]);
+    instance.name = reader_.string(attributes[1]);
+    if (instance.name.empty()) instance.name = reader_.string(attributes[0]);
+    const auto parent = reader_.reference(attributes[3]);
+    const auto child = reader_.reference(attributes[4]);
     if (parent) instance.parent = product(*parent);
     if (child) instance.child = product(*child);
     const auto relation = relation_of_.find(k);
@@ -185,10 +185,10 @@ class Assemblies {
  private:
   void link(Index k) {
     if (reader_.is(k, "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION")) return;
-    const auto own = reader_.attributes(k, "REPRESENTATION_RELATIONSHIP", 0, 4);
-    if (own.empty()) return;
-    const auto first = reader_.reference(own[2]);
-    const auto second = reader_.reference(own[3]);
+    const auto attributes = reader_.attributes(k, "REPRESENTATION_RELATIONSHIP", 0, 4);
+    if (attributes.empty()) return;
+    const auto first = reader_.reference(attributes[2]);
+    const auto second = reader_.reference(attributes[3]);
     if (!first || !second) return;
     linked_.try_emplace(*first, *second);
     linked_.try_emplace(*second, *first);
@@ -205,28 +205,28 @@ class Assemblies {
   std::string product(Index definition) const {
     const auto step = [this](Index from, std::string_view entity,
                              std::size_t k) -> std::optional<Index> {
-      const auto own = reader_.attributes(from, entity, 0, k + 1);
-      return own.empty() ? std::nullopt : reader_.reference(own[k]);
+      const auto attributes = reader_.attributes(from, entity, 0, k + 1);
+      return attributes.empty() ? std::nullopt : reader_.reference(attributes[k]);
     };
     const auto formation = step(definition, "PRODUCT_DEFINITION", 2);
     const auto made =
         formation ? step(*formation, "PRODUCT_DEFINITION_FORMATION", 2) : std::nullopt;
     if (!made || !reader_.is(*made, "PRODUCT")) return {};
-    const auto own = reader_.attributes(*made, "PRODUCT", 0, 2);
-    if (own.empty()) return {};
-    const auto name = reader_.string(own[1]);
-    return name.empty() ? reader_.string(own[0]) : name;
+    const auto attributes = reader_.attributes(*made, "PRODUCT", 0, 2);
+    if (attributes.empty()) return {};
+    const auto name = reader_.string(attributes[1]);
+    return name.empty() ? reader_.string(attributes[0]) : name;
   }
 
   void transform(Index relation, std::optional<Index> parent, std::optional<Index> child,
                  Component& result) const {
     const auto transformation =
         attribute(reader_, relation, "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION", 4, 0);
-    const auto own = reader_.attributes(relation, "REPRESENTATION_RELATIONSHIP", 0, 4);
-    if (!transformation || own.empty()) return;
+    const auto attributes = reader_.attributes(relation, "REPRESENTATION_RELATIONSHIP", 0, 4);
+    if (!transformation || attributes.empty()) return;
     // rep_1 is the component by convention (CAx-IF recommended practice); some writers reverse it.
-    const auto rep_1 = reader_.reference(own[2]);
-    const auto rep_2 = reader_.reference(own[3]);
+    const auto rep_1 = reader_.reference(attributes[2]);
+    const auto rep_2 = reader_.reference(attributes[3]);
     const auto has = [this](std::optional<Index> definition, std::optional<Index> representation) {
       if (!definition || !representation) return false;
       const auto found = representation_of_.find(*definition);
@@ -274,9 +274,10 @@ std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector
       // items, context).
       if (found == result.end() || found->second != no_instance) continue;
       if (!representation) {
-        const auto own = reader.attributes(k, "REPRESENTATION", 0, 3);
-        const auto context =
-            own.size() >= 3 && reader.is_list(own[1]) ? reader.reference(own[2]) : std::nullopt;
+        const auto attributes = reader.attributes(k, "REPRESENTATION", 0, 3);
+        const auto context = attributes.size() >= 3 && reader.is_list(attributes[1])
+                                 ? reader.reference(attributes[2])
+                                 : std::nullopt;
         representation = context && !result.contains(*context);
       }
       if (*representation) found->second = k;

@@ -74,10 +74,10 @@ class Unread {
       if (!set && !holds_shape(kind)) continue;
       for (const Index k : file.named({kind})) {
         if (elsewhere.contains(k)) continue;
-        const auto own = set ? reader_.attributes(k, "GEOMETRIC_SET", 1, 1)
-                             : reader_.attributes(k, "REPRESENTATION", 0, 2);
-        if (own.empty()) continue;
-        for (const Index item : reader_.references(own[set ? 0 : 1])) {
+        const auto attributes = set ? reader_.attributes(k, "GEOMETRIC_SET", 1, 1)
+                                    : reader_.attributes(k, "REPRESENTATION", 0, 2);
+        if (attributes.empty()) continue;
+        for (const Index item : reader_.references(attributes[set ? 0 : 1])) {
           if (seen.insert(item).second) add_item(item);
         }
       }

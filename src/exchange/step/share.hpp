@@ -21,9 +21,9 @@ void share(const Reader& reader, std::size_t count, const Body& body) {
       work_per_byte * bytes / static_cast<double>(std::max<std::ptrdiff_t>(items, 1));
   detail::parallel_for(items, detail::block_size(items, work),
                        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-                         const Reader own(reader.file());
+                         const Reader worker(reader.file());
                          for (std::ptrdiff_t k = begin; k < end; ++k)
-                           body(own, static_cast<std::size_t>(k));
+                           body(worker, static_cast<std::size_t>(k));
                        });
 }
 

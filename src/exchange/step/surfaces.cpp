@@ -78,10 +78,10 @@ Expected<std::vector<double>> surface_weights(const Reader& reader, std::uint32_
                                               const Net& points) {
   std::vector<double> weights;
   if (!reader.is(instance, "RATIONAL_B_SPLINE_SURFACE")) return weights;
-  const auto own =
+  const auto attributes =
       reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_b_spline_surface, 1);
-  if (own.empty()) return reader.error(instance, "it is rational and has no weights");
-  const auto net = read_net(reader, instance, own[0], "weights");
+  if (attributes.empty()) return reader.error(instance, "it is rational and has no weights");
+  const auto net = read_net(reader, instance, attributes[0], "weights");
   if (!net) return std::unexpected(net.error());
   if (net->rows != points.rows || net->columns != points.columns) {
     return reader.error(instance, std::to_string(net->rows) + " x " + std::to_string(net->columns) +
@@ -140,17 +140,17 @@ std::vector<std::uint32_t> b_spline_surfaces(const Reader& reader) {
 }
 
 Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t instance) {
-  const auto own = reader.attributes(instance, "B_SPLINE_SURFACE", 1, 3);
-  if (own.empty()) return reader.error(instance, "it lacks degrees and control points");
-  const auto p = reader.integer(own[0]);
-  const auto q = reader.integer(own[1]);
+  const auto attributes = reader.attributes(instance, "B_SPLINE_SURFACE", 1, 3);
+  if (attributes.empty()) return reader.error(instance, "it lacks degrees and control points");
+  const auto p = reader.integer(attributes[0]);
+  const auto q = reader.integer(attributes[1]);
   if (!p || !q) return reader.error(instance, "its degrees are not integers");
   if (*p < 1 || *p > max_degree || *q < 1 || *q > max_degree) {
     return reader.error(instance,
                         "its degrees are " + std::to_string(*p) + " x " + std::to_string(*q),
                         "degrees 1 to " + std::to_string(max_degree) + " can be read");
   }
-  const auto net = read_net(reader, instance, own[2], "control points");
+  const auto net = read_net(reader, instance, attributes[2], "control points");
   if (!net) return std::unexpected(net.error());
   auto knots = surface_knots(reader, instance, {*p, *q}, {net->rows, net->columns});
   if (!knots) return std::unexpected(std::move(knots.error()));
@@ -176,8 +176,8 @@ Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t 
 std::vector<Expected<ReadSurface>> read_b_spline_surfaces(
     const Reader& reader, std::span<const std::uint32_t> instances) {
   std::vector<Expected<ReadSurface>> result(instances.size(), std::unexpected(Error{}));
-  share(reader, instances.size(), [&](const Reader& own, std::size_t k) {
-    result[k] = read_b_spline_surface(own, instances[k]);
+  share(reader, instances.size(), [&](const Reader& worker, std::size_t k) {
+    result[k] = read_b_spline_surface(worker, instances[k]);
   });
   return result;
 }

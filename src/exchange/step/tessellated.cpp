@@ -27,15 +27,15 @@ std::optional<ItemLayout> layout_of(const Reader& reader, Index item) {
   const auto read = [&](std::string_view kind, std::string_view super, std::size_t inherited,
                         bool complex) -> std::optional<ItemLayout> {
     const auto above = reader.attributes(item, super, 1, 3);
-    const auto own = reader.attributes(item, kind, inherited, complex ? 3 : 2);
+    const auto attributes = reader.attributes(item, kind, inherited, complex ? 3 : 2);
     const auto list = above.empty() ? std::nullopt : reader.reference(above[0]);
-    if (own.empty() || !list) return std::nullopt;
-    ItemLayout layout{*list, above[2], own[0], {}, {}, {}};
+    if (attributes.empty() || !list) return std::nullopt;
+    ItemLayout layout{*list, above[2], attributes[0], {}, {}, {}};
     if (complex) {
-      layout.strips = own[1];
-      layout.fans = own[2];
+      layout.strips = attributes[1];
+      layout.fans = attributes[2];
     } else {
-      layout.triangles = own[1];
+      layout.triangles = attributes[1];
     }
     return layout;
   };
@@ -56,9 +56,9 @@ class MeshBuilder {
       : reader_(reader), item_(item), layout_(layout), coordinates_(coordinates) {}
 
   Expected<FaceMesh> build() {
-    if (auto done = read_indices(); !done) return std::unexpected(done.error());
-    if (auto done = read_normals(); !done) return std::unexpected(done.error());
-    if (auto done = read_triangles(); !done) return std::unexpected(done.error());
+    if (auto status = read_indices(); !status) return std::unexpected(status.error());
+    if (auto status = read_normals(); !status) return std::unexpected(status.error());
+    if (auto status = read_triangles(); !status) return std::unexpected(status.error());
     if (triangles_.empty()) return reader_.error(item_, "it has no triangles");
     FaceMesh mesh{name_of(reader_, item_), {}, {}, {}, {}};
     mesh.tessellated = true;
@@ -194,7 +194,7 @@ class MeshBuilder {
     double seen = 0;  // area from the tips of the normals, less that from behind
     for (const auto& t : triangles_) {
       seen += across(t).dot(normal(t[0]) + normal(t[1]) + normal(t[2]));
-      std::array<Index, 3> own{};
+      std::array<Index, 3> corners{};
       for (std::size_t k = 0; k < 3; ++k) {
         Index& place = places[t[k]];
         if (place == no_instance) {
@@ -202,9 +202,9 @@ class MeshBuilder {
           mesh.points.push_back(point(t[k]));
           mesh.normals.push_back(normal(t[k]));
         }
-        own[k] = place;
+        corners[k] = place;
       }
-      mesh.triangles.push_back(own);
+      mesh.triangles.push_back(corners);
     }
     if (seen >= 0) return;
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -242,10 +242,11 @@ Expected<const std::vector<Point>*> TessellatedReader::coordinates(std::uint32_t
     if (found->second.empty()) return reader_.error(list, "it has no coordinates that can be read");
     return &found->second;
   }
-  const auto own = reader_.attributes(list, "COORDINATES_LIST", 1, 2);
+  const auto attributes = reader_.attributes(list, "COORDINATES_LIST", 1, 2);
   std::vector<Point> points;
-  if (reader_.is(list, "COORDINATES_LIST") && !own.empty() && reader_.is_list(own[1])) {
-    for (const Index row : reader_.file().children(own[1])) {
+  if (reader_.is(list, "COORDINATES_LIST") && !attributes.empty() &&
+      reader_.is_list(attributes[1])) {
+    for (const Index row : reader_.file().children(attributes[1])) {
       const auto parts = reader_.is_list(row) ? reader_.file().children(row) : std::vector<Index>();
       Point p;
       for (std::size_t k = 0; k < 3; ++k) {

@@ -30,8 +30,9 @@ class Sets {
     for (const Index k : items_) item_places_.emplace(k, Item());
     for (const std::string_view kind : set_kinds) {
       for (const Index k : reader_.file().named({kind})) {
-        const auto own = reader_.attributes(k, kind, 1, 1);
-        sets_.emplace(k, own.empty() ? std::vector<Index>() : reader_.references(own[0]));
+        const auto attributes = reader_.attributes(k, kind, 1, 1);
+        sets_.emplace(
+            k, attributes.empty() ? std::vector<Index>() : reader_.references(attributes[0]));
       }
     }
     note_annotations();
@@ -110,16 +111,16 @@ class Sets {
     }
     const auto set = sets_.find(k);
     if (set == sets_.end()) return;
-    const Eigen::Affine3d own = outer * place_of(k);
-    for (const Index member : set->second) visit(member, own, named, linked, depth + 1);
+    const Eigen::Affine3d place = outer * place_of(k);
+    for (const Index member : set->second) visit(member, place, named, linked, depth + 1);
   }
 
   /// Where a REPOSITIONED_TESSELLATED_ITEM puts its content.
   [[nodiscard]] Eigen::Affine3d place_of(Index k) const {
     Eigen::Affine3d result = Eigen::Affine3d::Identity();
     if (!reader_.is(k, "REPOSITIONED_TESSELLATED_ITEM")) return result;
-    const auto own = reader_.attributes(k, "REPOSITIONED_TESSELLATED_ITEM", 1, 1);
-    const auto target = own.empty() ? std::nullopt : reader_.reference(own[0]);
+    const auto attributes = reader_.attributes(k, "REPOSITIONED_TESSELLATED_ITEM", 1, 1);
+    const auto target = attributes.empty() ? std::nullopt : reader_.reference(attributes[0]);
     const auto placement = target ? read_placement(reader_, *target) : std::nullopt;
     const auto frame = placement ? frame_of(*placement) : std::nullopt;
     if (!frame) return result;
@@ -130,15 +131,17 @@ class Sets {
 
   /// Whether an item or set has a link to exact geometry that the file has faces of.
   [[nodiscard]] bool is_linked(Index k) const {
-    std::vector<Index> own;
+    std::vector<Index> links;
     std::size_t at = 1;
-    if (reader_.is(k, "TESSELLATED_SOLID")) own = reader_.attributes(k, "TESSELLATED_SOLID", 1, 2);
-    if (reader_.is(k, "TESSELLATED_SHELL")) own = reader_.attributes(k, "TESSELLATED_SHELL", 1, 2);
+    if (reader_.is(k, "TESSELLATED_SOLID"))
+      links = reader_.attributes(k, "TESSELLATED_SOLID", 1, 2);
+    if (reader_.is(k, "TESSELLATED_SHELL"))
+      links = reader_.attributes(k, "TESSELLATED_SHELL", 1, 2);
     if (reader_.is(k, "TRIANGULATED_FACE") || reader_.is(k, "COMPLEX_TRIANGULATED_FACE")) {
-      own = reader_.attributes(k, "TESSELLATED_FACE", 1, 4);
+      links = reader_.attributes(k, "TESSELLATED_FACE", 1, 4);
       at = 3;
     }
-    const auto target = own.empty() ? std::nullopt : reader_.reference(own[at]);
+    const auto target = links.empty() ? std::nullopt : reader_.reference(links[at]);
     return target && has_faces(*target);
   }
 

@@ -47,8 +47,8 @@ class TopologyReader {
       brep::Edge& edge = model_.edges[k];
       edge.id = name_of(reader_, instance);
       const auto ends = reader_.attributes(instance, "EDGE", 1, 2);
-      const auto own = reader_.attributes(instance, "EDGE_CURVE", 3, 2);
-      const auto geometry = own.empty() ? std::nullopt : reader_.reference(own[0]);
+      const auto attributes = reader_.attributes(instance, "EDGE_CURVE", 3, 2);
+      const auto geometry = attributes.empty() ? std::nullopt : reader_.reference(attributes[0]);
       const auto start = ends.empty() ? std::nullopt : reader_.reference(ends[0]);
       const auto end = ends.empty() ? std::nullopt : reader_.reference(ends[1]);
       if (!geometry || !start || !end) {
@@ -58,7 +58,7 @@ class TopologyReader {
       }
       edge.start = vertex(*start);
       edge.end = vertex(*end);
-      edge.same_sense = reader_.enumeration(own[1]) != "F";
+      edge.same_sense = reader_.enumeration(attributes[1]) != "F";
       curves[k] = *geometry;
     }
     share(reader_, curves.size(), [&](const Reader& reader, std::size_t k) {
@@ -77,8 +77,8 @@ class TopologyReader {
     if (!fresh) return at->second;
     brep::Vertex& made = model_.vertices.emplace_back(name_of(reader_, instance));
     made.of_one_use = reader_.file().instance(instance).uses == 1;
-    const auto own = reader_.attributes(instance, "VERTEX_POINT", 1, 1);
-    const auto geometry = own.empty() ? std::nullopt : reader_.reference(own[0]);
+    const auto attributes = reader_.attributes(instance, "VERTEX_POINT", 1, 1);
+    const auto geometry = attributes.empty() ? std::nullopt : reader_.reference(attributes[0]);
     const auto place =
         geometry ? reader_.point(*geometry)
                  : Expected<Point>(reader_.error(instance, "a VERTEX_POINT is needed here"));
@@ -110,13 +110,13 @@ class TopologyReader {
 
   brep::Bound read_bound(std::uint32_t instance) {
     brep::Bound bound;
-    const auto own = reader_.attributes(instance, "FACE_BOUND", 1, 2);
-    const auto loop = own.empty() ? std::nullopt : reader_.reference(own[0]);
+    const auto attributes = reader_.attributes(instance, "FACE_BOUND", 1, 2);
+    const auto loop = attributes.empty() ? std::nullopt : reader_.reference(attributes[0]);
     if (!loop) {
       bound.wrong = brep::fault(reader_.error(instance, "a FACE_BOUND is needed here").error());
       return bound;
     }
-    bound.forward = reader_.enumeration(own[1]) != "F";
+    bound.forward = reader_.enumeration(attributes[1]) != "F";
     if (reader_.is(*loop, "VERTEX_LOOP")) {
       bound.kind = brep::Bound::Kind::vertex;
       const auto at = reader_.attributes(*loop, "VERTEX_LOOP", 1, 1);
@@ -132,8 +132,9 @@ class TopologyReader {
 
   void read_polygon(std::uint32_t loop, brep::Bound& bound) const {
     bound.kind = brep::Bound::Kind::polygon;
-    const auto own = reader_.attributes(loop, "POLY_LOOP", 1, 1);
-    for (const auto k : own.empty() ? std::vector<std::uint32_t>() : reader_.references(own[0])) {
+    const auto attributes = reader_.attributes(loop, "POLY_LOOP", 1, 1);
+    for (const auto k :
+         attributes.empty() ? std::vector<std::uint32_t>() : reader_.references(attributes[0])) {
       const auto point = reader_.point(k);
       if (point) {
         bound.polygon.push_back(*point);
@@ -152,11 +153,11 @@ class TopologyReader {
     }
     bound.kind = brep::Bound::Kind::edges;
     for (const auto oriented : reader_.references(path[0])) {
-      const auto own = reader_.attributes(oriented, "ORIENTED_EDGE", 3, 2);
-      const auto element = own.empty() ? std::nullopt : reader_.reference(own[0]);
+      const auto attributes = reader_.attributes(oriented, "ORIENTED_EDGE", 3, 2);
+      const auto element = attributes.empty() ? std::nullopt : reader_.reference(attributes[0]);
       const auto edge = element ? edges_.find(*element) : edges_.end();
       if (edge != edges_.end()) {
-        bound.edges.push_back({edge->second, reader_.enumeration(own[1]) != "F"});
+        bound.edges.push_back({edge->second, reader_.enumeration(attributes[1]) != "F"});
       } else if (!bound.wrong) {
         bound.wrong = brep::fault(
             element
@@ -184,10 +185,10 @@ class TopologyReader {
 
   void read_shells() {
     for (const auto k : reader_.file().named({"CLOSED_SHELL", "OPEN_SHELL"})) {
-      const auto own = reader_.attributes(k, "CONNECTED_FACE_SET", 1, 1);
-      if (own.empty()) continue;
+      const auto attributes = reader_.attributes(k, "CONNECTED_FACE_SET", 1, 1);
+      if (attributes.empty()) continue;
       brep::Shell& shell = model_.shells.emplace_back(name_of(reader_, k));
-      for (const auto face : reader_.references(own[0])) {
+      for (const auto face : reader_.references(attributes[0])) {
         if (const auto found = faces_.find(face); found != faces_.end())
           shell.faces.push_back(found->second);
       }

@@ -41,9 +41,10 @@ constexpr int max_conversions = 8;  // inch of cm of m; more is a loop
 
 std::optional<brep::LengthUnit> si_unit(const Reader& reader, std::uint32_t unit) {
   // SI_UNIT(prefix, name); in a simple record NAMED_UNIT's derived dimensions come first.
-  const auto own = reader.attributes(unit, "SI_UNIT", 1, 2);
-  if (own.empty() || !same_keyword(reader.enumeration(own[1]), "METRE")) return std::nullopt;
-  const auto prefix = reader.enumeration(own[0]);
+  const auto attributes = reader.attributes(unit, "SI_UNIT", 1, 2);
+  if (attributes.empty() || !same_keyword(reader.enumeration(attributes[1]), "METRE"))
+    return std::nullopt;
+  const auto prefix = reader.enumeration(attributes[0]);
   if (prefix.empty()) return brep::LengthUnit{{}, "m", 1};
   for (const auto& known : prefixes) {
     if (same_keyword(prefix, known.name))
@@ -79,12 +80,12 @@ std::optional<brep::LengthUnit> length_unit(const Reader& reader, std::uint32_t 
   if (reader.is(unit, "SI_UNIT")) return si_unit(reader, unit);
   if (!reader.is(unit, "CONVERSION_BASED_UNIT") || !reader.is(unit, "LENGTH_UNIT"))
     return std::nullopt;
-  const auto own = reader.attributes(unit, "CONVERSION_BASED_UNIT", 1, 1);
-  if (own.empty()) return std::nullopt;
-  brep::LengthUnit result{{}, reader.string(own[0]), 0};
+  const auto attributes = reader.attributes(unit, "CONVERSION_BASED_UNIT", 1, 1);
+  if (attributes.empty()) return std::nullopt;
+  brep::LengthUnit result{{}, reader.string(attributes[0]), 0};
   std::transform(result.name.begin(), result.name.end(), result.name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto factor = own.size() > 1 ? reader.reference(own[1]) : std::nullopt;
+  const auto factor = attributes.size() > 1 ? reader.reference(attributes[1]) : std::nullopt;
   const auto conversion = factor ? measure_with_unit(reader, *factor) : std::nullopt;
   if (conversion && depth < max_conversions) {
     if (const auto base = length_unit(reader, conversion->unit, depth + 1)) {
@@ -99,9 +100,9 @@ std::optional<brep::LengthUnit> length_unit(const Reader& reader, std::uint32_t 
 
 double uncertainty(const Reader& reader, std::uint32_t context, const brep::LengthUnit& unit) {
   double largest = 0;
-  const auto own = reader.attributes(context, "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT", 0, 1);
-  if (!reader.is(context, "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT") || own.empty()) return 0;
-  for (const auto instance : reader.references(own[0])) {
+  const auto attributes = reader.attributes(context, "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT", 0, 1);
+  if (!reader.is(context, "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT") || attributes.empty()) return 0;
+  for (const auto instance : reader.references(attributes[0])) {
     const auto given =
         measure(reader, reader.attributes(instance, "UNCERTAINTY_MEASURE_WITH_UNIT", 0, 2));
     const auto own_unit = given ? length_unit(reader, given->unit) : std::nullopt;
@@ -191,9 +192,9 @@ void leave_contexts_of_shapes(const Reader& reader, std::vector<UnitContext>& co
 std::vector<UnitContext> read_unit_contexts(const Reader& reader) {
   std::vector<UnitContext> result;
   for (const auto k : reader.file().named({"GLOBAL_UNIT_ASSIGNED_CONTEXT"})) {
-    const auto own = reader.attributes(k, "GLOBAL_UNIT_ASSIGNED_CONTEXT", 0, 1);
-    if (own.empty()) continue;
-    for (const auto unit : reader.references(own[0])) {
+    const auto attributes = reader.attributes(k, "GLOBAL_UNIT_ASSIGNED_CONTEXT", 0, 1);
+    if (attributes.empty()) continue;
+    for (const auto unit : reader.references(attributes[0])) {
       auto length = length_unit(reader, unit);
       if (!length) continue;
       length->context = "#" + std::to_string(reader.file().instance(k).id);

@@ -160,13 +160,13 @@ std::optional<double> ModelFacets::thickness(int surface, const Point& from,
   boxes_.along(ray, to, [&](std::uint32_t k) {
     const Part& part = k < parts_.size() ? parts_[k] : others_[k - parts_.size()];
     if (part.part != parts_[static_cast<std::size_t>(surface)].part) return;
-    const bool own = k == static_cast<std::uint32_t>(surface);
+    const bool is_own = k == static_cast<std::uint32_t>(surface);
     (void)part.tree.nearest(ray, to, [&](const TriangleTree::Hit& hit) {
       const Point facet = part.tree.facet(hit.triangle);
       const double cosine = (part.shown.sense < 0 ? -1 : 1) * facet.dot(inward) / facet.norm();
       if (!(std::abs(cosine) > grazing)) return false;
-      const bool leaves = cosine > 0 && (own || part.shown.sense != 0);
-      if (!leaves && (own || hit.distance <= near)) return false;
+      const bool leaves = cosine > 0 && (is_own || part.shown.sense != 0);
+      if (!leaves && (is_own || hit.distance <= near)) return false;
       if (part.fractions.empty()) return true;
       Eigen::Vector2d at = Eigen::Vector2d::Zero();
       const auto& corners = part.tree.triangles()[hit.triangle];

@@ -29,8 +29,8 @@ Point start(const DisplayInput& input, Eigen::Index k) {
 Expected<std::vector<double>> thicknesses(const DisplayInput& input) {
   auto& facets = input.memory.facets;
   if (!facets) facets = std::make_shared<ModelFacets>();
-  if (auto done = facets->refresh(input.scene, input.opened, input.around); !done) {
-    return std::unexpected(done.error());
+  if (auto status = facets->refresh(input.scene, input.opened, input.around); !status) {
+    return std::unexpected(status.error());
   }
   const double inwards = -facets->outward(input.surface);
   std::vector<double> result;

@@ -97,9 +97,9 @@ struct Asked {
         at[static_cast<std::size_t>(direction)] = *line;
         const auto u = parameters_at(rest, at, direction == 0 ? "u" : "v");
         if (!u) return std::unexpected(u.error());
-        auto done =
+        auto status =
             hold_isoline(rest, direction, (*u)[static_cast<std::size_t>(direction)], 0, list);
-        if (!done) return done;
+        if (!status) return status;
       }
       if (c.curve.empty()) return {};
       Parameters<2> polyline(static_cast<Eigen::Index>(c.curve.size()), 2);
@@ -130,7 +130,7 @@ struct Asked {
   Expected<void> by_components(const Components& components, const F& f) const {
     if (components == all_components) return f(list);
     ConstraintList all(reference.size());
-    if (auto done = f(all); !done) return done;
+    if (auto status = f(all); !status) return status;
     append_components(all, components, list);
     return {};
   }
@@ -139,7 +139,7 @@ struct Asked {
   template <class F>
   Expected<void> holding(const F& f) const {
     const std::size_t first = list.constraints.size();
-    if (auto done = f(); !done) return done;
+    if (auto status = f(); !status) return status;
     keep_present(list, where.control_points() - rest.control_points(), first);
     return {};
   }
@@ -178,9 +178,9 @@ Expected<void> symmetry_constraints(const Surface& reference, const EdgeSymmetry
                                     ConstraintList& list) {
   const double size = bounding_box(reference).diagonal();
   for (SurfaceEdge edge : edges_of(symmetry.which)) {
-    auto done = hold_symmetry_plane(reference, edge, symmetry.plane, 1, symmetry_tolerance * size,
-                                    symmetry_angle, list);
-    if (!done) return done;
+    auto status = hold_symmetry_plane(reference, edge, symmetry.plane, 1, symmetry_tolerance * size,
+                                      symmetry_angle, list);
+    if (!status) return status;
   }
   return {};
 }
@@ -249,8 +249,8 @@ Expected<ConstraintList> constraints_of(const ShapeInput<D>& s, std::vector<std:
   }
   const Spline<D>& rest = s.rest ? *s.rest : *s.reference;
   for (const auto& [constraint, where] : s.constraints) {
-    if (auto done = std::visit(Asked<D>{*s.reference, rest, *where, list}, constraint); !done) {
-      return std::unexpected(done.error());
+    if (auto status = std::visit(Asked<D>{*s.reference, rest, *where, list}, constraint); !status) {
+      return std::unexpected(status.error());
     }
   }
   if (s.mode == RestMode::none)
@@ -291,8 +291,8 @@ Expected<std::vector<std::uint8_t>> held_points(const HeldInput& input) {
       continue;
     }
     // Which control points are held depends only on the basis, which all shapes share.
-    if (auto done = std::visit(Asked<2>{*where, *where, *where, list}, constraint); !done) {
-      return std::unexpected(done.error());
+    if (auto status = std::visit(Asked<2>{*where, *where, *where, list}, constraint); !status) {
+      return std::unexpected(status.error());
     }
   }
   std::vector<std::uint8_t> held(list.held.size(), 0);

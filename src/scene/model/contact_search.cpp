@@ -103,23 +103,23 @@ std::optional<FaceContact> ContactSearch::earliest(std::span<const Candidate> so
 }
 
 void ContactSearch::look(std::size_t surface) {
-  const WallMotion& own = motions_[surface];
-  SpanGrid* const grid = walls_.grid_of(own);
+  const WallMotion& stored = motions_[surface];
+  SpanGrid* const grid = walls_.grid_of(stored);
   if (grid == nullptr) return;
   const Point wider = Point::Constant(tolerance_);
   const Eigen::AlignedBox3d all(grid->box().min() - wider, grid->box().max() + wider);
   std::vector<std::pair<std::size_t, SpanGrid*>> met;
   for (std::size_t k = 0; k < motions_.size(); ++k) {
-    if (k == surface || motions_[k].part != own.part) continue;
+    if (k == surface || motions_[k].part != stored.part) continue;
     SpanGrid* const other = walls_.grid_of(motions_[k]);
     if (other != nullptr && other->box().intersects(all)) met.emplace_back(k, other);
   }
-  const auto around = walls_.parts_.find(own.part);
+  const auto around = walls_.parts_.find(stored.part);
   const bool some_around =
       around != walls_.parts_.end() && around->second.tree.box().intersects(all);
   if (grid->may_meet_itself()) met.emplace_back(surface, grid);
   if (met.empty() && !some_around) return;
-  const std::vector<char>& shown = walls_.shown_spans(own);
+  const std::vector<char>& shown = walls_.shown_spans(stored);
   for (std::size_t span = 0; span < grid->boxes().size(); ++span) {
     if (!grid->moves(span) || (!shown.empty() && shown[span] == 0)) continue;
     const Eigen::AlignedBox3d box(grid->boxes()[span].min() - wider,
@@ -194,15 +194,15 @@ void ContactSearch::look_at(std::size_t surface, SpanGrid& grid, std::size_t spa
 }
 
 /// The corners of each of two patches with the triangles of the other, of the wall only these.
-void ContactSearch::compare(const Patch& own, const Patch& wall,
+void ContactSearch::compare(const Patch& patch, const Patch& wall,
                             std::span<const std::uint32_t> triangles, Candidate like) {
-  like.margin += own.sag;
-  const double exact = like.met ? 0 : like.margin - own.sag;
+  like.margin += patch.sag;
+  const double exact = like.met ? 0 : like.margin - patch.sag;
   // Beside a point its own face has no side that triangles could tell.
   const bool own_face = like.met == like.surface;
   const double nearest = tolerance_ + (own_face ? like.margin : exact), along = like.margin;
-  const Reach reach{nearest, along, tolerance_ + like.margin - own.sag},
-      back{nearest, along, tolerance_ + own.sag};
+  const Reach reach{nearest, along, tolerance_ + like.margin - patch.sag},
+      back{nearest, along, tolerance_ + patch.sag};
   const SpanGrid* const self = own_face ? walls_.grid_of(motions_[like.surface]) : nullptr;
   const auto keep = [&](const PlaneMeeting& found) {
     like.time = found.time - tolerance_ / found.closing;
@@ -212,33 +212,33 @@ void ContactSearch::compare(const Patch& own, const Patch& wall,
   };
   const auto first = static_cast<std::ptrdiff_t>(candidates_.size());
   // The other side of a face looks the other way.
-  const std::vector<Point> normals = own_face ? normals_of(own) : std::vector<Point>(),
+  const std::vector<Point> normals = own_face ? normals_of(patch) : std::vector<Point>(),
                            facing = own_face ? normals_of(wall) : std::vector<Point>();
-  const Eigen::AlignedBox3d whole = box_round(own.from, own.to, back.aside);
+  const Eigen::AlignedBox3d whole = box_round(patch.from, patch.to, back.aside);
   for (const std::uint32_t k : triangles) {
     const auto& corners = wall.triangles[k];
     Eigen::AlignedBox3d box;
     for (const auto corner : corners) box.extend(wall.from[corner]).extend(wall.to[corner]);
     const Point wider = Point::Constant(reach.aside + like.margin);
     box = {box.min() - wider, box.max() + wider};
-    for (std::size_t i = 0; i < own.from.size(); ++i) {
-      if (!box.intersects(Eigen::AlignedBox3d(own.from[i]).extend(own.to[i]))) continue;
+    for (std::size_t i = 0; i < patch.from.size(); ++i) {
+      if (!box.intersects(Eigen::AlignedBox3d(patch.from[i]).extend(patch.to[i]))) continue;
       if (own_face && !faces_away(wall, corners, normals[i])) continue;
-      const auto found = meeting(own.from[i], own.to[i], wall, corners, tolerance_, reach);
+      const auto found = meeting(patch.from[i], patch.to[i], wall, corners, tolerance_, reach);
       if (!found) continue;
-      like.at = own.at[i];
+      like.at = patch.at[i];
       if (like.met) like.there = place_in(wall, corners, found->weights);
       keep(*found);
     }
     for (const auto corner : corners) {
       if (!whole.intersects(Eigen::AlignedBox3d(wall.from[corner]).extend(wall.to[corner])))
         continue;
-      for (const auto& triangle : own.triangles) {
-        if (own_face && !faces_away(own, triangle, facing[corner])) continue;
+      for (const auto& triangle : patch.triangles) {
+        if (own_face && !faces_away(patch, triangle, facing[corner])) continue;
         const auto found =
-            meeting(wall.from[corner], wall.to[corner], own, triangle, tolerance_, back);
+            meeting(wall.from[corner], wall.to[corner], patch, triangle, tolerance_, back);
         if (!found) continue;
-        like.at = place_in(own, triangle, found->weights);
+        like.at = place_in(patch, triangle, found->weights);
         if (like.met) like.there = wall.at[corner];
         keep(*found);
       }
@@ -252,11 +252,11 @@ void ContactSearch::compare(const Patch& own, const Patch& wall,
 
 /// Whether a point is visible, and goes farther from the surface as opened.
 bool ContactSearch::counts(const Candidate& c, const std::array<double, 2>& at) const {
-  const WallMotion& own = motions_[c.surface];
-  if (!is_visible(own, at)) return false;
-  const Point home = point_of(*own.opened, at);
-  return (point_of(*own.motion.to, at) - home).norm() >
-         (point_of(*own.motion.from, at) - home).norm();
+  const WallMotion& stored = motions_[c.surface];
+  if (!is_visible(stored, at)) return false;
+  const Point home = point_of(*stored.opened, at);
+  return (point_of(*stored.motion.to, at) - home).norm() >
+         (point_of(*stored.motion.from, at) - home).norm();
 }
 
 std::optional<ContactSearch::Passage> ContactSearch::passage(

@@ -46,7 +46,7 @@ class ContactSearch {
                    const Eigen::AlignedBox3d& box);
   void look_at(std::size_t surface, SpanGrid& grid, std::size_t span,
                const Eigen::AlignedBox3d& box, std::size_t wall, SpanGrid& met);
-  void compare(const Patch& own, const Patch& wall, std::span<const std::uint32_t> triangles,
+  void compare(const Patch& patch, const Patch& wall, std::span<const std::uint32_t> triangles,
                Candidate like);
   [[nodiscard]] bool separated(const SpanGrid& grid, std::size_t span, const Patch& wall,
                                std::uint32_t triangle) const;

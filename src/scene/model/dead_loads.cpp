@@ -92,11 +92,11 @@ Expected<Points> dead_forces(const SceneSurface& surface, const SceneForce& forc
   if (line != nullptr) {
     edges = edges_of(line->edge);
     for (SurfaceEdge edge : edges) {
-      if (auto done = add_line_force(rest, edge, vector / length, forces); !done)
-        return std::unexpected(done.error());
+      if (auto status = add_line_force(rest, edge, vector / length, forces); !status)
+        return std::unexpected(status.error());
     }
-  } else if (auto done = add_point_force(rest, dead->at, vector, forces); !done) {
-    return std::unexpected(done.error());
+  } else if (auto status = add_point_force(rest, dead->at, vector, forces); !status) {
+    return std::unexpected(status.error());
   }
   for (const KeptConstraint& kept : surface.constraints) {
     const auto* symmetry = std::get_if<MirrorSymmetry>(&kept.constraint);
@@ -107,16 +107,16 @@ Expected<Points> dead_forces(const SceneSurface& surface, const SceneForce& forc
     for (SurfaceEdge edge : edges) {
       const SurfaceEdge other = image_of(edge, symmetry->direction);
       if (std::ranges::find(edges, other) != edges.end()) continue;
-      if (auto done = add_line_force(rest, other, image / length, forces); !done)
-        return std::unexpected(done.error());
+      if (auto status = add_line_force(rest, other, image / length, forces); !status)
+        return std::unexpected(status.error());
     }
     if (dead == nullptr) continue;
     std::vector<double> at = dead->at;
     double& along = at[static_cast<std::size_t>(symmetry->direction)];
     if (along == 0.5) continue;
     along = 1 - along;
-    if (auto done = add_point_force(rest, at, image, forces); !done)
-      return std::unexpected(done.error());
+    if (auto status = add_point_force(rest, at, image, forces); !status)
+      return std::unexpected(status.error());
   }
   return forces;
 }

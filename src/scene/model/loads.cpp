@@ -168,7 +168,8 @@ Expected<std::vector<PointForce>> active_point_forces(const Scene& scene) {
         if constexpr (PullsAPoint<F>) return append_point_force(s, force, first, points);
         return {};
       };
-      if (auto done = std::visit(append, f.force); !done) return std::unexpected(done.error());
+      if (auto status = std::visit(append, f.force); !status)
+        return std::unexpected(status.error());
       break;
     }
   }
@@ -241,7 +242,7 @@ Expected<void> append_forces(const Scene& scene, const Spline<D>& shape, ActiveL
       }
       return {};
     };
-    if (auto done = std::visit(append, f.force); !done) return done;
+    if (auto status = std::visit(append, f.force); !status) return status;
   }
   return {};
 }

@@ -146,8 +146,8 @@ Expected<void> keep_varying_load(SceneModel& scene) {
 double detail_of(const std::vector<Tool>& tools) {
   double detail = 0;
   for (const Tool& t : tools) {
-    const double own = t.detail();
-    if (std::isfinite(own) && (detail == 0 || own < detail)) detail = own;
+    const double tool_detail = t.detail();
+    if (std::isfinite(tool_detail) && (detail == 0 || tool_detail < detail)) detail = tool_detail;
   }
   return detail;
 }

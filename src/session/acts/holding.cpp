@@ -118,8 +118,8 @@ Expected<void> check_constraints_on(Act& act, std::span<const int> changed) {
 void hold_likewise(Act& act) {
   std::optional<int> order;
   for (const int k : act.state.selection()) {
-    const auto own = order_of_all(std::as_const(act.state.surfaces)[static_cast<std::size_t>(k)]);
-    if (!order && own.value_or(-1) >= 0) order = own;
+    const auto rows = order_of_all(std::as_const(act.state.surfaces)[static_cast<std::size_t>(k)]);
+    if (!order && rows.value_or(-1) >= 0) order = rows;
   }
   if (!order) return;
   for (const int k : act.state.selection()) {

@@ -228,9 +228,9 @@ Expected<void> check_placed(Act& act, const Scene& before, std::string_view comm
     const SceneSurface* const was = find_surface(before, s.id, k);
     if (was == nullptr || was->current == s.current) continue;
     const Placed placed{s, *was->current, command};
-    if (auto done = placed.check(); !done) return done;
+    if (auto status = placed.check(); !status) return status;
     if (!act.state.limit) continue;
-    if (auto done = placed.check_limit(*act.state.limit); !done) return done;
+    if (auto status = placed.check_limit(*act.state.limit); !status) return status;
   }
   if (auto closed = check_seams(act.state, before, command); !closed) return closed;
   return check_held_edges(act, before);

@@ -87,7 +87,7 @@ Expected<void> change_basis(Act& act, SceneSurface& surface, const SurfaceChange
         R"(end it first: {"do":"limit"})", {ErrorCode::limit_keeps_basis});
   }
   // `opened` is unchanged: deviations are measured from it.
-  if (auto done = knead::change_basis(surface, change); !done) return done;
+  if (auto status = knead::change_basis(surface, change); !status) return status;
   surface.velocity.resize(0, 3);  // it is a spline on the old basis
   return surface.constraints.empty() ? Expected<void>() : check_constraints(act);
 }
@@ -102,7 +102,7 @@ Expected<void> change_net(Act& act, SceneSurface& s, const SurfaceChange& change
     }
     return changed;
   };
-  if (auto done = knead::change_net(s, limited); !done) return done;
+  if (auto status = knead::change_net(s, limited); !status) return status;
   act.state.notes.push_back(net_note(s));
   return {};
 }
@@ -117,7 +117,7 @@ Expected<bool> refine_under(Act& act, const Tool& tool, bool limited) {
     const int limit = in_file == act.document.surfaces().end()
                           ? least_limit
                           : std::max(least_limit, grown * in_file->surface->size());
-    auto done = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {
+    auto status = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {
       auto finer = refine_region<2>(shape, *reach);
       if (!limited || !finer || finer->size() <= limit) return finer;
       const auto [m, n] = finer->net();
@@ -132,7 +132,7 @@ Expected<bool> refine_under(Act& act, const Tool& tool, bool limited) {
           R"(or go on with a coarse net: {"do":"refine","permission":"never"})",
           {ErrorCode::net_too_large, {{"tool", tool.name}, {"surface", s.id}}});
     });
-    if (!done) return std::unexpected(done.error());
+    if (!status) return std::unexpected(status.error());
   }
   return any;
 }
@@ -144,7 +144,7 @@ Expected<void> refine_as(Act& act, const std::vector<SeamRefinement>& refinement
   for (const SeamRefinement& r : refinements) {
     SceneSurface& s =
         act.state.surfaces[static_cast<std::size_t>(selection[static_cast<std::size_t>(r.patch)])];
-    auto done = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {
+    auto status = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {
       Expected<Surface> result = shape;
       if (r.elevate > 0) result = elevate_degree<2>(shape, r.direction, r.elevate);
       if (!result || r.insert.empty()) return result;
@@ -152,7 +152,7 @@ Expected<void> refine_as(Act& act, const std::vector<SeamRefinement>& refinement
       knots[static_cast<std::size_t>(r.direction)] = r.insert;
       return insert_knots<2>(*result, knots);
     });
-    if (!done) return done;
+    if (!status) return status;
   }
   return {};
 }
@@ -259,7 +259,7 @@ Expected<void> refine_followed(Act& act, const SceneSurface& touched, const Trim
                         s.visible->distance(near->point, held)};
       there.distance = std::min(there.distance, contact.distance);
       if (!(there.distance > 0)) continue;
-      if (auto done = refine_round(act, s, there, size); !done) return done;
+      if (auto status = refine_round(act, s, there, size); !status) return status;
     }
   }
   return {};
@@ -275,8 +275,9 @@ Expected<void> refine_trims(Act& act) {
       const auto contact = trim_contact(s, tool);
       if (!contact) return std::unexpected(contact.error());
       if (!*contact) continue;
-      if (auto done = refine_round(act, s, **contact, tool.shape.size()); !done) return done;
-      if (auto done = refine_followed(act, s, **contact, tool.shape.size()); !done) return done;
+      if (auto status = refine_round(act, s, **contact, tool.shape.size()); !status) return status;
+      if (auto status = refine_followed(act, s, **contact, tool.shape.size()); !status)
+        return status;
     }
   }
   return {};
@@ -292,7 +293,7 @@ Expected<void> refine_at_trims(Act& act, SceneSurface& surface, const Fractions&
   for (const int order : trim_orders(surface.constraints, *surface.visible))
     held.push_back(order >= 0);
   contact.distance = surface.visible->distance(*place, held);
-  if (auto done = refine_round(act, surface, contact, size); !done) return done;
+  if (auto status = refine_round(act, surface, contact, size); !status) return status;
   return refine_followed(act, surface, contact, size);
 }
 

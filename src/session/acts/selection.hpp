@@ -28,7 +28,7 @@ template <class F>
 Expected<void> each_selected(Act& act, const F& f) {
   if (act.state.body) return std::visit(f, *body(act));
   for (const int k : act.state.selection()) {
-    if (auto done = f(act.state.surfaces[static_cast<std::size_t>(k)]); !done) return done;
+    if (auto status = f(act.state.surfaces[static_cast<std::size_t>(k)]); !status) return status;
   }
   return {};
 }

@@ -51,10 +51,10 @@ std::string note_of(const ActiveStep& step) {
       step.coarseness, halvings == 1 ? "once" : fmt::format("{} times", halvings));
 }
 
-Expected<void> tell_progress(const Act& act, int done, int of) {
+Expected<void> tell_progress(const Act& act, int steps, int of) {
   if (Interruption::asked_for()) return interrupted_error();
-  if (!act.progress || act.progress(done, of) || done >= of) return {};
-  return input_error(fmt::format("it was stopped after {} of {} steps", done, of));
+  if (!act.progress || act.progress(steps, of) || steps >= of) return {};
+  return input_error(fmt::format("it was stopped after {} of {} steps", steps, of));
 }
 
 namespace {

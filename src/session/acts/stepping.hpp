@@ -40,7 +40,7 @@ struct StepsMade {
 /// command that was stopped.
 [[nodiscard]] Expected<StepsMade> run(Act& act, const Steps& asked);
 /// Tells how many steps are done. Error: it was stopped, or interrupted.
-[[nodiscard]] Expected<void> tell_progress(const Act& act, int done, int of);
+[[nodiscard]] Expected<void> tell_progress(const Act& act, int steps, int of);
 /// Share `plasticity` of the displacement becomes rest shape.
 [[nodiscard]] Expected<void> yield(Act& act, double plasticity);
 

@@ -348,7 +348,8 @@ Expected<void> execute(const BrushCommand& c, Act& act) {
   }
   if (act.state.brush) act.state.brush->brush = *brush;
   const bool open = c.open.value_or(false);
-  if (auto done = make(BrushStroke(act), {*brush, *images, rope}, *path, open); !done) return done;
+  if (auto status = make(BrushStroke(act), {*brush, *images, rope}, *path, open); !status)
+    return status;
   act.cache.brush->shape = c.shape.value_or("");
   if (act.cache.brush->stuck &&
       !open) {  // not of a stroke that may still come to where something is free

@@ -21,13 +21,13 @@ void describe(CoarsenCommand& c, Fields& fields) {
 Expected<void> execute(const CoarsenCommand& c, Act& act) {
   if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   for (SceneSurface& s : selected_surfaces(act.state)) {
-    const auto done = coarsen(s, c.tolerance);
-    if (!done) return std::unexpected(done.error());
+    const auto result = coarsen(s, c.tolerance);
+    if (!result) return std::unexpected(result.error());
     act.state.notes.push_back(
         fmt::format("{}: {} knots removed, the shape moved by less than {:.3g}", s.id,
-                    done->removed, done->bound));
-    if (done->removed > 0) act.state.notes.push_back(net_note(s));
-    if (done->stopped)
+                    result->removed, result->bound));
+    if (result->removed > 0) act.state.notes.push_back(net_note(s));
+    if (result->stopped)
       act.state.notes.push_back(
           fmt::format("{}: at rest, as its velocity does not fit the coarser net", s.id));
   }

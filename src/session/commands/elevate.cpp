@@ -17,7 +17,7 @@ Expected<void> execute(const ElevateCommand& c, Act& act) {
   if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   for (int index : act.state.selection()) {
     auto& s = act.state.surfaces[static_cast<std::size_t>(index)];
-    auto done = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {
+    auto status = change_net(act, s, [&](const Surface& shape) -> Expected<Surface> {
       Expected<Surface> result = shape;
       for (int d = 0; d < 2; ++d) {
         const int degree = shape.knots(d).degree(), times = c.by[static_cast<std::size_t>(d)];
@@ -34,7 +34,7 @@ Expected<void> execute(const ElevateCommand& c, Act& act) {
       }
       return result;
     });
-    if (!done) return done;
+    if (!status) return status;
   }
   return {};
 }

@@ -63,13 +63,13 @@ Expected<void> execute(const HoldCommand& c, Act& act) {
     return {};
   };
   if (!all) {
-    if (auto done = each_selected(act, hold); !done) return done;
+    if (auto status = each_selected(act, hold); !status) return status;
     return act.state.body      ? check_constraints(act)
            : holds_trims(mode) ? know_trims(act)
                                : Expected<void>();
   }
   for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
-    if (auto done = hold(act.state.surfaces[k]); !done) return done;
+    if (auto status = hold(act.state.surfaces[k]); !status) return status;
   }
   return {};
 }

@@ -130,7 +130,7 @@ Expected<void> execute(const LatticeCommand& c, Act& act) {
     if (!moved) return std::unexpected(moved.error());
     SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])];
     auto current = std::make_shared<const Surface>(std::move(*moved));
-    if (auto done = put<2>(s, current); !done) return done;
+    if (auto status = put<2>(s, current); !status) return status;
     s.rest = std::move(current);  // the block carries the energy, not they
     s.velocity.resize(0, 3);
     pulled.after.push_back(s.current);

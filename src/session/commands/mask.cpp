@@ -44,8 +44,8 @@ Expected<void> execute(const MaskCommand& c, Act& act) {
       c.radius ? *c.radius * (c.relative ? *length : 1) : default_mask_radius * *length;
   if (auto possible = check_radius(radius); !possible) return possible;
   for (int k : act.state.selection()) {
-    auto done = change_mask(act.state.surfaces[static_cast<std::size_t>(k)], c.change, radius);
-    if (!done) return done;
+    auto status = change_mask(act.state.surfaces[static_cast<std::size_t>(k)], c.change, radius);
+    if (!status) return status;
   }
   return {};
 }

@@ -68,9 +68,9 @@ Expected<void> pin(Act& act, SceneShape<D>& s, const PinCommand& c) {
   s.constraints.push_back({std::move(place), s.current});
   // Points belong to one surface.
   const std::vector<int> others = std::exchange(act.state.together, {});
-  auto done = check_constraints(act);
+  auto status = check_constraints(act);
   act.state.together = others;
-  return done;
+  return status;
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ Expected<void> halve(Act& act, const RefineCommand& c) {
     return input_error(fmt::format("the net could get more than {} control points", max_net_size),
                        id, "work on a smaller net");
   }
-  if (auto done = halve_spans(chosen); !done) return done;
+  if (auto status = halve_spans(chosen); !status) return status;
   act.state.notes.push_back(
       fmt::format("{}: the net is now {}", id, fmt::join(net_of(chosen), " by ")));
   return {};
@@ -89,12 +89,12 @@ Expected<void> execute(const RefineCommand& c, Act& act) {
     return {};
   }
   for (SceneSurface& s : selected_surfaces(act.state)) {
-    Expected<void> done;
+    Expected<void> status;
     if (c.region) {
       const auto region = region_at(*s.current, *c.region);
       if (!region) return std::unexpected(region.error());
-      done = change_net(act, s,
-                        [&](const Surface& shape) { return refine_region<2>(shape, *region); });
+      status = change_net(act, s,
+                          [&](const Surface& shape) { return refine_region<2>(shape, *region); });
     } else {
       const auto [m, n] = s.current->net();
       const auto finer = [](int count, const std::vector<double>& added) {
@@ -102,11 +102,11 @@ Expected<void> execute(const RefineCommand& c, Act& act) {
       };
       if (auto fits = check_net_size({finer(m, c.knots_u), finer(n, c.knots_v)}); !fits)
         return fits;
-      done = change_net(act, s, [&](const Surface& shape) {
+      status = change_net(act, s, [&](const Surface& shape) {
         return insert_knots<2>(shape, {c.knots_u, c.knots_v});
       });
     }
-    if (!done) return done;
+    if (!status) return status;
   }
   return {};
 }

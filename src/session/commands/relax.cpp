@@ -54,11 +54,11 @@ void add_mirror_images(const SceneSurface& surface, std::vector<bool>& free) {
   for (const KeptConstraint& kept : surface.constraints) {
     const auto* symmetry = std::get_if<MirrorSymmetry>(&kept.constraint);
     if (!symmetry) continue;
-    const std::vector<bool> own = free;
+    const std::vector<bool> inside = free;
     for (int i = 0; i < m; ++i) {
       for (int j = 0; j < n; ++j) {
         const auto [k, l] = mirror_image(*symmetry, {m, n}, {i, j});
-        if (own[static_cast<std::size_t>(i * n + j)])
+        if (inside[static_cast<std::size_t>(i * n + j)])
           free[static_cast<std::size_t>(k * n + l)] = true;
       }
     }
@@ -134,11 +134,11 @@ Expected<void> execute(const RelaxCommand& c, Act& act) {
   EvolutionPolicy plate;
   const double share = std::min(c.strength, 0.999);  // 1 would be the static solution
   plate.lambda = resistance / (unit_radius * unit_radius) * (1 - share) / share;
-  Act own{act.document, trial, act.cache, act.progress};
+  Act trial_act{act.document, trial, act.cache, act.progress};
   Models of_steps = std::exchange(act.cache.models, {});  // they stay
-  const auto done = run(own, {.evolution = plate});
+  const auto status = run(trial_act, {.evolution = plate});
   act.cache.models = std::move(of_steps);
-  if (!done) return std::unexpected(done.error());
+  if (!status) return std::unexpected(status.error());
 
   for (int index : act.state.selection()) {
     SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(index)];

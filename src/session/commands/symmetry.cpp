@@ -44,7 +44,7 @@ Expected<void> execute(const SymmetryCommand& c, Act& act) {
     if (!report->insert.empty()) {
       RefineCommand refine;
       (direction == 0 ? refine.knots_u : refine.knots_v) = report->insert;
-      if (auto done = execute(refine, act); !done) return done;
+      if (auto status = execute(refine, act); !status) return status;
     }
   }
   std::optional<MirrorPlane> plane;

@@ -77,9 +77,9 @@ Expected<double> refine_under_brush(Act& act, SceneSurface& s, const Fractions& 
         most_control_points) {
       break;
     }
-    auto done =
+    auto status =
         change_net(act, s, [&](const Surface& shape) { return insert_knots<2>(shape, *middles); });
-    if (!done) return std::unexpected(done.error());
+    if (!status) return std::unexpected(status.error());
   }
   return longest;
 }

@@ -112,8 +112,8 @@ Expected<void> start_brush_run(Act& act) {
   Eigen::Index rows = 0;
   for (std::size_t k = 0; k < open.before.size(); ++k) {
     const Surface& shape = *open.before[k].current;
-    if (auto done = run.samples.append(shape, act.cache.stroke->values[k], run.sides[k]); !done)
-      return done;
+    if (auto status = run.samples.append(shape, act.cache.stroke->values[k], run.sides[k]); !status)
+      return status;
     rows += shape.size();
   }
   if (open.brush.kind == BrushKind::smooth) {

@@ -306,7 +306,7 @@ Expected<void> Stroke::press_along(const std::vector<Point>& places) {
   SessionState& state = act_.state;
   const auto start = std::chrono::steady_clock::now();
   ActiveStep last;
-  int done = 0, iterations = 0;
+  int pressed = 0, iterations = 0;
   std::string note;
   bool converged = true;
   const std::vector<int> selection = state.selection();
@@ -332,7 +332,7 @@ Expected<void> Stroke::press_along(const std::vector<Point>& places) {
     converged = converged && step->converged;
     if (note.empty()) note = note_of(*step);
     last = std::move(*step);
-    if (auto told = tell_progress(act_, ++done, static_cast<int>(places.size())); !told)
+    if (auto told = tell_progress(act_, ++pressed, static_cast<int>(places.size())); !told)
       return told;
   }
   note_loose(state, act_.law);

@@ -11,9 +11,9 @@ struct PanelKernels {
   /// \param own those of the
   ///          panel
   using Down = void (*)(const double* l, const int* rows, std::ptrdiff_t count, double* x,
-                        double* own);
+                        double* local);
   using Up = void (*)(const double* l, const int* rows, std::ptrdiff_t count, const double* x,
-                      double* own);
+                      double* local);
 
   /// Takes the product of one panel with some of its own rows from the rows below a later panel.
   /// \param l the rows of the earlier panel, `count` \param rows which they are \param place where

@@ -62,15 +62,16 @@ Expected<Range> range_of(const Reader& reader, std::uint32_t instance) {
     range.to = domain->upper;
   }
   if (!reader.is(instance, "TRIMMED_CURVE")) return range;
-  const auto own = reader.attributes(instance, "TRIMMED_CURVE", 1, 5);
-  const bool forward = own.empty() || reader.enumeration(own[3]) != "F";
+  const auto attributes = reader.attributes(instance, "TRIMMED_CURVE", 1, 5);
+  const bool forward = attributes.empty() || reader.enumeration(attributes[3]) != "F";
   const bool conic = std::holds_alternative<brep::Conic>(range.geometry.form);
   const auto unit = conic ? reader.angle_unit(instance) : Expected<double>(1);
-  if (own.empty() || !unit)
-    return own.empty() ? reader.error(instance, "it has no limits") : std::unexpected(unit.error());
-  const bool by_parameter = reader.enumeration(own[4]) == "PARAMETER";
-  range.from = limit_of(reader, own[1], range, by_parameter, *unit);
-  range.to = limit_of(reader, own[2], range, by_parameter, *unit);
+  if (attributes.empty() || !unit)
+    return attributes.empty() ? reader.error(instance, "it has no limits")
+                              : std::unexpected(unit.error());
+  const bool by_parameter = reader.enumeration(attributes[4]) == "PARAMETER";
+  range.from = limit_of(reader, attributes[1], range, by_parameter, *unit);
+  range.to = limit_of(reader, attributes[2], range, by_parameter, *unit);
   if (!range.from || !range.to || !range.curve->closed()) return range;
   const double period = range.curve->domain()->length(), near = 1e-9 * period;
   if (forward && *range.to <= *range.from + near) *range.to += period;
@@ -95,16 +96,16 @@ Expected<SurfacePiece> with_ends(const Reader& reader, std::uint32_t instance, c
 Expected<std::array<double, 2>> parameter_scale(const Reader& reader, std::uint32_t surface,
                                                 const brep::Support& support) {
   std::array<double, 2> scale = {1, 1};
-  const auto angle = [&](double& own) -> Expected<void> {
+  const auto angle = [&](double& factor) -> Expected<void> {
     const auto unit = reader.angle_unit(surface);
     if (!unit) return std::unexpected(unit.error());
-    own = *unit;
+    factor = *unit;
     return {};
   };
-  const auto profile = [&](const brep::CurveGeometry& curve, double& own) -> Expected<void> {
-    if (const auto* line = std::get_if<brep::Line>(&curve.form)) own = line->magnitude;
+  const auto profile = [&](const brep::CurveGeometry& curve, double& factor) -> Expected<void> {
+    if (const auto* line = std::get_if<brep::Line>(&curve.form)) factor = line->magnitude;
     const auto* conic = std::get_if<brep::Conic>(&curve.form);
-    return conic != nullptr && conic->form == brep::Conic::Form::ellipse ? angle(own)
+    return conic != nullptr && conic->form == brep::Conic::Form::ellipse ? angle(factor)
                                                                          : Expected<void>();
   };
   Expected<void> found;
@@ -118,8 +119,8 @@ Expected<std::array<double, 2>> parameter_scale(const Reader& reader, std::uint3
     if (swept->revolution) found = angle(scale[0]);
     if (found) found = profile(*swept->curve, scale[swept->revolution ? 1 : 0]);
     if (!swept->revolution) {
-      const auto own = reader.attributes(surface, "SURFACE_OF_LINEAR_EXTRUSION", 2, 1);
-      const auto vector = own.empty() ? std::nullopt : reader.reference(own[0]);
+      const auto attributes = reader.attributes(surface, "SURFACE_OF_LINEAR_EXTRUSION", 2, 1);
+      const auto vector = attributes.empty() ? std::nullopt : reader.reference(attributes[0]);
       const auto magnitude =
           vector ? reader.attributes(*vector, "VECTOR", 1, 2) : std::vector<std::uint32_t>();
       if (!magnitude.empty()) scale[1] = reader.length(magnitude[1]).value_or(1);
@@ -175,12 +176,13 @@ Expected<void> PieceReader::add_composite(std::uint32_t curve, bool forward, con
                                           int depth, std::vector<SurfacePiece>& pieces) {
   if (depth > most_nested) return reader_.error(curve, "it is made of itself");
   if (!is_composite(reader_, curve)) return reader_.error(curve, "a boundary of an unknown kind");
-  const auto own = reader_.attributes(curve, "COMPOSITE_CURVE", 1, 1);
-  auto segments = own.empty() ? std::vector<std::uint32_t>() : reader_.references(own[0]);
+  const auto attributes = reader_.attributes(curve, "COMPOSITE_CURVE", 1, 1);
+  auto segments =
+      attributes.empty() ? std::vector<std::uint32_t>() : reader_.references(attributes[0]);
   if (segments.empty()) return reader_.error(curve, "it has no segments");
   if (!forward) std::ranges::reverse(segments);
   for (const std::uint32_t segment : segments) {
-    if (auto done = add_segment(segment, forward, on, depth, pieces); !done) return done;
+    if (auto status = add_segment(segment, forward, on, depth, pieces); !status) return status;
   }
   return {};
 }
@@ -191,19 +193,19 @@ Expected<void> PieceReader::add_segment(std::uint32_t segment, bool forward, con
   if (++pieces_ > free_edge_uses + edge_uses_per_record * reader_.file().instances().size())
     return reader_.error(segment, "boundaries are repeated too often",
                          "give every surface boundaries of its own");
-  const auto own = reader_.attributes(segment, "COMPOSITE_CURVE_SEGMENT", 0, 3);
-  const auto parent = own.empty() ? std::nullopt : reader_.reference(own[2]);
+  const auto attributes = reader_.attributes(segment, "COMPOSITE_CURVE_SEGMENT", 0, 3);
+  const auto parent = attributes.empty() ? std::nullopt : reader_.reference(attributes[2]);
   if (!parent)
     return reader_.error(segment, "a COMPOSITE_CURVE_SEGMENT with a curve is needed here");
-  const bool along = (reader_.enumeration(own[1]) != "F") == forward;
+  const bool along = (reader_.enumeration(attributes[1]) != "F") == forward;
   if (is_composite(reader_, *parent)) return add_composite(*parent, along, on, depth + 1, pieces);
   auto made = piece(*parent, on);
   if (!made) return std::unexpected(std::move(made.error()));
   made->name = name_of(reader_, *parent);
   made->reversed = !along;
   made->source.segment = segment;
-  made->source.parent = own[2];
-  if (made->source.carrier == no_instance) made->source.value = own[2];
+  made->source.parent = attributes[2];
+  if (made->source.carrier == no_instance) made->source.value = attributes[2];
   if (made->from() == made->to() && made->at(0.5) == made->from() && made->at(0.25) == made->from())
     return {};  // a pole
   pieces.push_back(*std::move(made));
@@ -218,9 +220,10 @@ Expected<SurfacePiece> PieceReader::piece(std::uint32_t curve, const Surface& on
   auto result = with_ends(reader_, curve, *range);
   if (!result) return result;
   // A limited SURFACE_CURVE gives its limits in the parameters of the curve that it has.
-  const auto own = reader_.attributes(curve, "TRIMMED_CURVE", 1, 1);
-  const auto basis =
-      reader_.is(curve, "TRIMMED_CURVE") && !own.empty() ? reader_.reference(own[0]) : std::nullopt;
+  const auto attributes = reader_.attributes(curve, "TRIMMED_CURVE", 1, 1);
+  const auto basis = reader_.is(curve, "TRIMMED_CURVE") && !attributes.empty()
+                         ? reader_.reference(attributes[0])
+                         : std::nullopt;
   result->fixed = basis && is_surface_curve(reader_, *basis);
   result->in_space = !result->fixed;
   return result;
@@ -228,12 +231,12 @@ Expected<SurfacePiece> PieceReader::piece(std::uint32_t curve, const Surface& on
 
 /// SURFACE_CURVE(curve in space, what it lies on, which of them is the master).
 Expected<SurfacePiece> PieceReader::on_surface(std::uint32_t curve, const Surface& on) const {
-  const auto own = reader_.attributes(curve, "SURFACE_CURVE", 1, 2);
-  const auto inner = own.empty() ? std::nullopt : reader_.reference(own[0]);
+  const auto attributes = reader_.attributes(curve, "SURFACE_CURVE", 1, 2);
+  const auto inner = attributes.empty() ? std::nullopt : reader_.reference(attributes[0]);
   if (!inner) return reader_.error(curve, "it has no curve in space");
   auto range = range_of(reader_, *inner);
   if (!range) return std::unexpected(std::move(range.error()));
-  for (const std::uint32_t other : reader_.references(own[1])) {
+  for (const std::uint32_t other : reader_.references(attributes[1])) {
     if (range->from && range->to) break;
     if (!is_parameter_curve(reader_, other)) continue;
     const auto flat = lifted(other, on);
@@ -245,19 +248,19 @@ Expected<SurfacePiece> PieceReader::on_surface(std::uint32_t curve, const Surfac
   if (!result) return result;
   result->in_space = true;
   result->source.carrier = curve;
-  result->source.value = own[0];
+  result->source.value = attributes[0];
   return result;
 }
 
 /// PCURVE(basis surface, DEFINITIONAL_REPRESENTATION of one curve in its parameters).
 Expected<SurfacePiece> PieceReader::lifted(std::uint32_t pcurve, const Surface& on) const {
-  const auto own = reader_.attributes(pcurve, "PCURVE", 1, 2);
-  const auto representation = own.empty() ? std::nullopt : reader_.reference(own[1]);
+  const auto attributes = reader_.attributes(pcurve, "PCURVE", 1, 2);
+  const auto representation = attributes.empty() ? std::nullopt : reader_.reference(attributes[1]);
   const auto items = representation ? reader_.attributes(*representation, "REPRESENTATION", 0, 2)
                                     : std::vector<std::uint32_t>();
   const auto curves = items.empty() ? std::vector<std::uint32_t>() : reader_.references(items[1]);
   if (curves.empty()) return reader_.error(pcurve, "it has no curve in parameters");
-  if (untrimmed(reader_, reader_.reference(own[0])) != on.basis)
+  if (untrimmed(reader_, reader_.reference(attributes[0])) != on.basis)
     return reader_.error(pcurve, "it lies on another surface than the one that it bounds");
   if (on.support->spline == brep::none && !on.form)
     return reader_.error(pcurve,

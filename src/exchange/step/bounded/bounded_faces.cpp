@@ -16,9 +16,9 @@ std::unordered_map<std::uint32_t, std::uint32_t> representations(const Reader& r
   for (const std::string_view kind : reader.file().keywords()) {
     if (!holds_shape(kind)) continue;
     for (const auto k : reader.file().named({kind})) {
-      const auto own = reader.attributes(k, "REPRESENTATION", 0, 2);
+      const auto attributes = reader.attributes(k, "REPRESENTATION", 0, 2);
       for (const auto item :
-           own.empty() ? std::vector<std::uint32_t>() : reader.references(own[1])) {
+           attributes.empty() ? std::vector<std::uint32_t>() : reader.references(attributes[1])) {
         result.try_emplace(item, k);
         const auto set = reader.is(item, "GEOMETRIC_SET")
                              ? reader.attributes(item, "GEOMETRIC_SET", 1, 1)
@@ -59,18 +59,20 @@ class SurfaceBounds {
   /// a closed direction there are two ways: u goes up from u1 to u2 where it runs as on the basis
   /// surface, else down.
   void add_rectangle(const FaceRecord& record, const brep::Support& support, brep::Face& face) {
-    const auto own = reader_.attributes(record.instance, "RECTANGULAR_TRIMMED_SURFACE", 1, 7);
-    const auto scale = own.empty() ? Expected<std::array<double, 2>>(reader_.error(
-                                         record.instance, "its limits are not complete"))
-                                   : parameter_scale(reader_, record.surface, support);
+    const auto attributes =
+        reader_.attributes(record.instance, "RECTANGULAR_TRIMMED_SURFACE", 1, 7);
+    const auto scale = attributes.empty() ? Expected<std::array<double, 2>>(reader_.error(
+                                                record.instance, "its limits are not complete"))
+                                          : parameter_scale(reader_, record.surface, support);
     if (!scale) return unknown(face, scale.error());
     std::array<Interval, 2> range;
     std::array<bool, 2> along = {true, true};
     for (std::size_t d = 0; d < 2; ++d) {
-      const auto first = reader_.length(own[2 * d + 1]), last = reader_.length(own[2 * d + 2]);
+      const auto first = reader_.length(attributes[2 * d + 1]),
+                 last = reader_.length(attributes[2 * d + 2]);
       if (!first || !last)
         return unknown(face, reader_.error(record.instance, "its limits are no numbers").error());
-      along[d] = reader_.enumeration(own[5 + d]) != "F";
+      along[d] = reader_.enumeration(attributes[5 + d]) != "F";
       range[d] = {(*scale)[d] * *first, (*scale)[d] * *last};
       if (!along[d] && range[d].lower > range[d].upper) std::swap(range[d].lower, range[d].upper);
       if (range[d].lower >= range[d].upper) range[d].upper += period(support, d);
@@ -93,19 +95,19 @@ class SurfaceBounds {
   [[nodiscard]] static double period(const brep::Support& support, std::size_t d) {
     constexpr double turn = 2 * std::numbers::pi;
     using Kind = brep::ElementarySurface::Kind;
-    if (const auto* own = std::get_if<brep::ElementarySurface>(&support.form))
-      return (d == 0 ? own->kind != Kind::plane : own->kind == Kind::torus) ? turn : 0;
+    if (const auto* form = std::get_if<brep::ElementarySurface>(&support.form))
+      return (d == 0 ? form->kind != Kind::plane : form->kind == Kind::torus) ? turn : 0;
     const auto* swept = std::get_if<brep::SweptSurface>(&support.form);
     return swept != nullptr && swept->revolution && d == 0 ? turn : 0;
   }
 
   /// Basis surface, boundaries, whether its own is one of them.
   void add_boundaries(const FaceRecord& record, const brep::Support& support, brep::Face& face) {
-    const auto own = reader_.attributes(record.instance, "CURVE_BOUNDED_SURFACE", 1, 3);
-    if (own.empty() || !reader_.is_list(own[1]))
+    const auto attributes = reader_.attributes(record.instance, "CURVE_BOUNDED_SURFACE", 1, 3);
+    if (attributes.empty() || !reader_.is_list(attributes[1]))
       return unknown(face, reader_.error(record.instance, "it has no list of boundaries").error());
-    const auto boundaries = reader_.references(own[1]);
-    const bool implicit = reader_.enumeration(own[2]) == "T";
+    const auto boundaries = reader_.references(attributes[1]);
+    const bool implicit = reader_.enumeration(attributes[2]) == "T";
     if (boundaries.empty() && !implicit)
       return unknown(face, reader_.error(record.instance, "it has no boundaries").error());
     if (implicit) {

@@ -74,21 +74,21 @@ std::string ModelGeometry::spline(const Curve& curve, const std::string& name) {
 
 /// \param turned against its form, which lines and conics can be
 std::string ModelGeometry::form(const brep::CurveGeometry& curve, bool turned) {
-  if (const auto* own = std::get_if<brep::Line>(&curve.form)) return line(*own, turned);
-  if (const auto* own = std::get_if<brep::Conic>(&curve.form)) return conic(*own, turned);
-  const Curve& own = *std::get<std::shared_ptr<const Curve>>(curve.form);
-  if (!curve.polyline) return spline(own, {});
+  if (const auto* typed = std::get_if<brep::Line>(&curve.form)) return line(*typed, turned);
+  if (const auto* typed = std::get_if<brep::Conic>(&curve.form)) return conic(*typed, turned);
+  const Curve& curve_spline = *std::get<std::shared_ptr<const Curve>>(curve.form);
+  if (!curve.polyline) return spline(curve_spline, {});
   std::string corners;
-  for (Eigen::Index k = 0; k < own.size(); ++k)
-    corners += (k == 0 ? "" : ",") + file_.add_point(own.control_points().row(k).data());
+  for (Eigen::Index k = 0; k < curve_spline.size(); ++k)
+    corners += (k == 0 ? "" : ",") + file_.add_point(curve_spline.control_points().row(k).data());
   return file_.add("POLYLINE('',(" + corners + "))");
 }
 
 /// As the model has it: a spline that runs against its form is trimmed to all of it, the other way.
 std::string ModelGeometry::swept_curve(const brep::CurveGeometry& curve) {
-  const auto* own = std::get_if<std::shared_ptr<const Curve>>(&curve.form);
-  if (!curve.turned || own == nullptr) return form(curve, curve.turned);
-  const Interval domain = (*own)->knots(0).domain();
+  const auto* typed = std::get_if<std::shared_ptr<const Curve>>(&curve.form);
+  if (!curve.turned || typed == nullptr) return form(curve, curve.turned);
+  const Interval domain = (*typed)->knots(0).domain();
   return file_.add(fmt::format(
       "TRIMMED_CURVE('',{},(PARAMETER_VALUE({})),(PARAMETER_VALUE({})),.F.,.PARAMETER.)",
       form(curve, false), format_real(domain.upper), format_real(domain.lower)));
@@ -130,14 +130,14 @@ std::string ModelGeometry::swept(const brep::SweptSurface& surface) {
 std::string ModelGeometry::surface(brep::Index support) {
   const auto [at, fresh] = surfaces_.try_emplace(support);
   if (!fresh) return at->second;
-  const brep::Support& own = model_.supports[support];
-  if (own.spline != brep::none) {
-    const brep::SplineSurface& s = model_.surfaces[own.spline];
+  const brep::Support& stored = model_.supports[support];
+  if (stored.spline != brep::none) {
+    const brep::SplineSurface& s = model_.surfaces[stored.spline];
     return at->second = spline(s.surface, s.name);
   }
-  if (const auto* form = std::get_if<brep::ElementarySurface>(&own.form))
+  if (const auto* form = std::get_if<brep::ElementarySurface>(&stored.form))
     return at->second = elementary(*form);
-  return at->second = swept(std::get<brep::SweptSurface>(own.form));
+  return at->second = swept(std::get<brep::SweptSurface>(stored.form));
 }
 
 std::string ModelGeometry::vertex(brep::Index vertex) {
@@ -151,12 +151,12 @@ std::string ModelGeometry::vertex(brep::Index vertex) {
 std::string ModelGeometry::edge(brep::Index edge) {
   const auto [at, fresh] = edges_.try_emplace(edge);
   if (!fresh) return at->second;
-  const brep::Edge& own = model_.edges[edge];
-  const auto [curve, first] = curves_.try_emplace(own.curve.get());
-  if (first) curve->second = form(*own.curve, false);
-  return at->second =
-             file_.add(fmt::format("EDGE_CURVE('',{},{},{},{})", vertex(own.start), vertex(own.end),
-                                   curve->second, plan_.edges[edge]->backwards ? ".F." : ".T."));
+  const brep::Edge& stored = model_.edges[edge];
+  const auto [curve, first] = curves_.try_emplace(stored.curve.get());
+  if (first) curve->second = form(*stored.curve, false);
+  return at->second = file_.add(fmt::format("EDGE_CURVE('',{},{},{},{})", vertex(stored.start),
+                                            vertex(stored.end), curve->second,
+                                            plan_.edges[edge]->backwards ? ".F." : ".T."));
 }
 
 }  // namespace knead::step

@@ -38,8 +38,8 @@ class PartWriter {
     std::string open;
     for (const detail::WrittenShell& shell : part_.shells.sheets) list(open, add_shell(shell));
     if (!open.empty()) list(sheets, file_.add("SHELL_BASED_SURFACE_MODEL('',(" + open + "))"));
-    if (auto done = add_natural_faces(sheets); !done)
-      return std::unexpected(std::move(done.error()));
+    if (auto status = add_natural_faces(sheets); !status)
+      return std::unexpected(std::move(status.error()));
     if (!sheets.empty()) represent("MANIFOLD_SURFACE_SHAPE_REPRESENTATION", sheets);
     std::string curves;
     for (const NamedCurve& curve : part_.curves)
@@ -151,9 +151,9 @@ class AssemblyWriter {
     std::vector<std::vector<std::string>> frames;
     std::string all = file_.add_origin();
     for (const detail::WrittenPart& part : plan_.parts) {
-      auto& own = frames.emplace_back();
+      auto& stored = frames.emplace_back();
       for (const brep::PartPlace& place : part.places)
-        list(all, own.emplace_back(frame(place.to_model)));
+        list(all, stored.emplace_back(frame(place.to_model)));
     }
     const auto representation = file_.add(
         fmt::format("SHAPE_REPRESENTATION({},({}),{})", encode_string(name), all, context));

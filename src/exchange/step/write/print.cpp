@@ -52,19 +52,20 @@ std::string print_surface(const Surface& surface, std::string_view label,
     knots[d] = print_knots(surface.knots()[d], format_shortest_real);
   const auto closed = brep::closed_directions(surface);
   const std::string name(label);
-  const auto own = std::to_string(surface.knots(0).degree()) + "," +
-                   std::to_string(surface.knots(1).degree()) + "," +
-                   print_net(net[0], net[1], point, line_break) + ",.UNSPECIFIED.," +
-                   (closed[0] ? ".T." : ".F.") + "," + (closed[1] ? ".T." : ".F.") + ",.U.";
+  const auto degrees_and_points =
+      std::to_string(surface.knots(0).degree()) + "," + std::to_string(surface.knots(1).degree()) +
+      "," + print_net(net[0], net[1], point, line_break) + ",.UNSPECIFIED.," +
+      (closed[0] ? ".T." : ".F.") + "," + (closed[1] ? ".T." : ".F.") + ",.U.";
   const auto listed = knots[0].multiplicities + "," + knots[1].multiplicities + "," +
                       knots[0].values + "," + knots[1].values + ",.UNSPECIFIED.";
   if (!surface.rational())
-    return "B_SPLINE_SURFACE_WITH_KNOTS(" + name + "," + own + "," + listed + ")";
+    return "B_SPLINE_SURFACE_WITH_KNOTS(" + name + "," + degrees_and_points + "," + listed + ")";
   const auto weights = print_net(
       net[0], net[1],
       [&](int k) { return format_shortest_real(surface.weights()[static_cast<std::size_t>(k)]); },
       line_break);
-  return "(BOUNDED_SURFACE()B_SPLINE_SURFACE(" + own + ")B_SPLINE_SURFACE_WITH_KNOTS(" + listed +
+  return "(BOUNDED_SURFACE()B_SPLINE_SURFACE(" + degrees_and_points +
+         ")B_SPLINE_SURFACE_WITH_KNOTS(" + listed +
          ")GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(" + weights +
          ")REPRESENTATION_ITEM(" + name + ")SURFACE())";
 }
@@ -80,15 +81,15 @@ std::string print_curve(const Curve& curve, std::string_view label,
   const std::string name(label);
   const Points& points = curve.control_points();
   const bool closed = curve.knots(0).clamped() && points.row(0) == points.row(points.rows() - 1);
-  const auto own = std::to_string(curve.knots(0).degree()) + "," + row(point) + ",.UNSPECIFIED.," +
-                   (closed ? ".T." : ".F.") + ",.U.";
+  const auto degrees_and_points = std::to_string(curve.knots(0).degree()) + "," + row(point) +
+                                  ",.UNSPECIFIED.," + (closed ? ".T." : ".F.") + ",.U.";
   const auto listed = knots.multiplicities + "," + knots.values + ",.UNSPECIFIED.";
   if (!curve.rational())
-    return "B_SPLINE_CURVE_WITH_KNOTS(" + name + "," + own + "," + listed + ")";
+    return "B_SPLINE_CURVE_WITH_KNOTS(" + name + "," + degrees_and_points + "," + listed + ")";
   const auto weights = row(
       [&](int k) { return format_shortest_real(curve.weights()[static_cast<std::size_t>(k)]); });
-  return "(BOUNDED_CURVE()B_SPLINE_CURVE(" + own + ")B_SPLINE_CURVE_WITH_KNOTS(" + listed +
-         ")CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE(" + weights +
+  return "(BOUNDED_CURVE()B_SPLINE_CURVE(" + degrees_and_points + ")B_SPLINE_CURVE_WITH_KNOTS(" +
+         listed + ")CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE(" + weights +
          ")REPRESENTATION_ITEM(" + name + "))";
 }
 

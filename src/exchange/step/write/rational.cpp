@@ -37,7 +37,7 @@ Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& b
       ")";
   const auto& record = file_.instance(instance);
   if (record.complex) {
-    if (auto done = write_knots(instance, before, after); !done) return done;
+    if (auto status = write_knots(instance, before, after); !status) return status;
     const auto item = reader_.part(instance, "REPRESENTATION_ITEM");
     insert(item ? file_.range(*item).begin : record.record.end - 1, weights);
     return {};
@@ -59,9 +59,9 @@ Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& b
   const std::string name(file_.text(values[0]));
   const std::string keyword = form ? implied_keyword(*form) : "";
   // From the keyword to the comma after the name: comments there are lost.
-  const auto own = comma_between(file_.bytes(), file_.range(values[0]).end) + 1;
+  const auto second = comma_between(file_.bytes(), file_.range(values[0]).end) + 1;
   const std::string first = implied && *form == ImpliedKnots::bezier ? keyword + "()" : "";
-  changes_.push_back({{bytes.begin, own}, "(" + first + "BOUNDED_SURFACE()B_SPLINE_SURFACE("});
+  changes_.push_back({{bytes.begin, second}, "(" + first + "BOUNDED_SURFACE()B_SPLINE_SURFACE("});
   std::string rest = ")";
   if (form && !implied) {
     std::array<PrintedKnots, 2> printed;
@@ -74,7 +74,7 @@ Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& b
     const auto comma =
         comma_between(file_.bytes(), file_.range(values[attributes_of_b_spline_surface - 1]).end);
     changes_.push_back({{comma, comma + 1}, ")B_SPLINE_SURFACE_WITH_KNOTS("});
-    if (auto done = write_knots(instance, before, after); !done) return done;
+    if (auto status = write_knots(instance, before, after); !status) return status;
   }
   rest += "GEOMETRIC_REPRESENTATION_ITEM()";
   if (implied && *form == ImpliedKnots::quasi_uniform) rest += keyword + "()";

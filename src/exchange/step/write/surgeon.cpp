@@ -57,8 +57,9 @@ Expected<void> Surgeon::move_points(std::uint32_t instance, const std::vector<st
   }
   std::string inserted;
   for (const auto point : order) {
-    if (auto done = move(point, occurrences[point], refs, old_points, new_points, inserted); !done)
-      return done;
+    if (auto status = move(point, occurrences[point], refs, old_points, new_points, inserted);
+        !status)
+      return status;
   }
   if (!inserted.empty()) {
     // Right after the surface: there they are in its scope and its DATA section, whatever the scope
@@ -113,9 +114,10 @@ Expected<void> Surgeon::move(std::uint32_t point, const std::vector<Eigen::Index
   const bool used_elsewhere = !coordinates || file_.instance(point).uses > rows.size();
   std::size_t first_new = 0;
   if (!used_elsewhere && !some_stay) {
-    auto own = rewritten(*coordinates, old_points, rows.front(), new_points, moved.front().front());
-    changes_.insert(changes_.end(), std::make_move_iterator(own.begin()),
-                    std::make_move_iterator(own.end()));
+    auto rewritings =
+        rewritten(*coordinates, old_points, rows.front(), new_points, moved.front().front());
+    changes_.insert(changes_.end(), std::make_move_iterator(rewritings.begin()),
+                    std::make_move_iterator(rewritings.end()));
     first_new = 1;
   }
   for (std::size_t g = first_new; g < moved.size(); ++g) {
@@ -170,17 +172,18 @@ Expected<void> Surgeon::replace_surface(std::uint32_t instance,
                                         const std::vector<std::uint32_t>& refs,
                                         const Surface& before, const Surface& after) {
   const auto net = after.net();
-  const auto own = reader_.attributes(instance, "B_SPLINE_SURFACE", 1, 3);
+  const auto attributes = reader_.attributes(instance, "B_SPLINE_SURFACE", 1, 3);
   for (std::size_t d = 0; d < 2; ++d) {
     const int degree = after.knots()[d].degree();
-    if (degree != before.knots()[d].degree()) change(own[d], std::to_string(degree));
+    if (degree != before.knots()[d].degree()) change(attributes[d], std::to_string(degree));
   }
   std::string inserted;
   const auto names = point_names(refs, before.control_points(), after.control_points(), inserted);
   if (!names) return std::unexpected(names.error());
-  change(own[2], print_net(
-                     net[0], net[1], [&](int k) { return (*names)[static_cast<std::size_t>(k)]; },
-                     line_break()));
+  change(attributes[2],
+         print_net(
+             net[0], net[1], [&](int k) { return (*names)[static_cast<std::size_t>(k)]; },
+             line_break()));
   if (!inserted.empty()) insert(file_.instance(instance).bytes.end, std::move(inserted));
 
   if (after.rational() && !before.rational()) return become_rational(instance, before, after);
@@ -239,10 +242,10 @@ Expected<std::vector<std::string>> Surgeon::point_names(const std::vector<std::u
         const auto record = file_.value(refs[at]).target;
         const auto coordinates = reader_.coordinate_values(record);
         if (!coordinates) return std::unexpected(coordinates.error());
-        auto own =
+        auto rewritings =
             rewritten(*coordinates, old_points, static_cast<Eigen::Index>(at), new_points, row);
-        changes_.insert(changes_.end(), std::make_move_iterator(own.begin()),
-                        std::make_move_iterator(own.end()));
+        changes_.insert(changes_.end(), std::make_move_iterator(rewritings.begin()),
+                        std::make_move_iterator(rewritings.end()));
         needed.insert(record);
         name = name_of(record);
       } else {

@@ -67,23 +67,23 @@ void Surgeon::become_spline(std::uint32_t instance, const Surface& surface,
 }
 
 void Surgeon::lie_on(std::uint32_t face, std::uint32_t surface) {
-  const auto own = reader_.attributes(face, "FACE_SURFACE", 2, 1);
+  const auto attributes = reader_.attributes(face, "FACE_SURFACE", 2, 1);
   const auto value = is_bounded_surface(reader_, face) ? basis_value(reader_, face)
-                     : own.empty()                     ? std::nullopt
-                                                       : std::optional(own[0]);
+                     : attributes.empty()              ? std::nullopt
+                                                       : std::optional(attributes[0]);
   if (value && reader_.reference(*value) != surface) change(*value, name_of(reader_, surface));
 }
 
 void Surgeon::limit(std::uint32_t bounded, const std::array<Interval, 2>& limits) {
-  const auto own = reader_.attributes(bounded, "RECTANGULAR_TRIMMED_SURFACE", 1, 7);
-  for (std::size_t d = 0; d < 2 && !own.empty(); ++d) {
+  const auto attributes = reader_.attributes(bounded, "RECTANGULAR_TRIMMED_SURFACE", 1, 7);
+  for (std::size_t d = 0; d < 2 && !attributes.empty(); ++d) {
     // Down only where the parameters run so: over the end of a closed direction they went up from
     // the larger one.
-    const bool ascending =
-        reader_.enumeration(own[5 + d]) != "F" ||
-        reader_.real(own[1 + 2 * d]).value_or(0) < reader_.real(own[2 + 2 * d]).value_or(0);
-    change(own[1 + 2 * d], format_real(ascending ? limits[d].lower : limits[d].upper));
-    change(own[2 + 2 * d], format_real(ascending ? limits[d].upper : limits[d].lower));
+    const bool ascending = reader_.enumeration(attributes[5 + d]) != "F" ||
+                           reader_.real(attributes[1 + 2 * d]).value_or(0) <
+                               reader_.real(attributes[2 + 2 * d]).value_or(0);
+    change(attributes[1 + 2 * d], format_real(ascending ? limits[d].lower : limits[d].upper));
+    change(attributes[2 + 2 * d], format_real(ascending ? limits[d].upper : limits[d].lower));
   }
 }
 
@@ -130,8 +130,8 @@ void Surgeon::lie_along(const BoundaryEdge& edge, std::uint32_t surface, const C
 }
 
 void Surgeon::drop_parameter_curves(std::uint32_t edge, const std::set<std::uint32_t>& surfaces) {
-  const auto own = reader_.attributes(edge, "EDGE_CURVE", 3, 1);
-  const auto curve = own.empty() ? std::nullopt : reader_.reference(own[0]);
+  const auto attributes = reader_.attributes(edge, "EDGE_CURVE", 3, 1);
+  const auto curve = attributes.empty() ? std::nullopt : reader_.reference(attributes[0]);
   // SURFACE_CURVE(curve in space, what it lies on, which of them is the master)
   const auto parts =
       curve ? reader_.attributes(*curve, "SURFACE_CURVE", 1, 3) : std::vector<std::uint32_t>();
@@ -154,7 +154,7 @@ void Surgeon::drop_parameter_curves(std::uint32_t edge, const std::set<std::uint
   const Part21Instance& record = file_.instance(*curve);
   // Another edge on the same curve would change it twice.
   if (kept.empty() || seam || record.complex || record.uses > 1) {
-    change(own[0], std::string(file_.text(parts[0])));
+    change(attributes[0], std::string(file_.text(parts[0])));
     return;
   }
   lie_on_these(*curve, parts, kept);

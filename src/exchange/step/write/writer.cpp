@@ -72,14 +72,14 @@ Expected<void> write_edges(const File::Data& data, const brep::MovedEdges& moved
     }
     const auto instance = instance_of(edge.id);
     if (!instance) return std::unexpected(instance.error());
-    if (auto done = surgeon.replace_curve(*instance, edge.curve); !done) return done;
+    if (auto status = surgeon.replace_curve(*instance, edge.curve); !status) return status;
   }
   for (const brep::MovedVertex& vertex : moved.vertices) {
     if (parse_instance_name(vertex.id).value_or(0) > data.records.largest_id())
       continue;  // where boundaries meet
     const auto instance = instance_of(vertex.id);
     if (!instance) return std::unexpected(instance.error());
-    if (auto done = surgeon.move_vertex(*instance, vertex.place); !done) return done;
+    if (auto status = surgeon.move_vertex(*instance, vertex.place); !status) return status;
   }
   return {};
 }
@@ -112,10 +112,10 @@ Expected<WantedCurves> write_curves(const File::Data& data,
     const auto& refs = data.of.curve_point_refs[k];
     const bool same_net =
         before.knots() == after.knots() && same_bits(before.weights(), after.weights());
-    auto done = same_net ? surgeon.move_points(instance, refs, before.control_points(),
-                                               after.control_points())
-                         : surgeon.replace_net(instance, refs, before, after);
-    if (!done) return std::unexpected(std::move(done.error()));
+    auto status = same_net ? surgeon.move_points(instance, refs, before.control_points(),
+                                                 after.control_points())
+                           : surgeon.replace_net(instance, refs, before, after);
+    if (!status) return std::unexpected(std::move(status.error()));
   }
   return wanted;
 }
@@ -148,17 +148,17 @@ Expected<std::string> File::with_surfaces(std::span<const brep::Replacement> rep
     const auto refs = control_point_values(Reader(data.records), instance);
     const bool same_net =
         before.knots() == after.knots() && same_bits(before.weights(), after.weights());
-    auto done = same_net ? surgeon.move_points(instance, refs, before.control_points(),
-                                               after.control_points())
-                         : surgeon.replace_surface(instance, refs, before, after);
-    if (!done) return std::unexpected(std::move(done.error()));
+    auto status = same_net ? surgeon.move_points(instance, refs, before.control_points(),
+                                                 after.control_points())
+                           : surgeon.replace_surface(instance, refs, before, after);
+    if (!status) return std::unexpected(std::move(status.error()));
   }
   const auto wanted_curves = write_curves(data, curves, surgeon);
   if (!wanted_curves) return std::unexpected(wanted_curves.error());
   if (!changed && wanted_curves->empty() && moved.edges.empty() && moved.vertices.empty())
     return bytes();
-  if (auto done = write_edges(data, moved, surgeon); !done)
-    return std::unexpected(std::move(done.error()));
+  if (auto status = write_edges(data, moved, surgeon); !status)
+    return std::unexpected(std::move(status.error()));
   return checked(surgeon.result(), data, wanted, *wanted_curves);
 }
 
