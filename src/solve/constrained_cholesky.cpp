@@ -11,6 +11,10 @@ namespace {
 /// Solves for a known smooth displacement of ones, which an ill-conditioned matrix reproduces
 /// worst, since the energy hardly resists it. This also detects a singular matrix that passed the
 /// factorisation by rounding.
+/// With x of ones the solution's relative error is about the condition of the matrix times 1e-16:
+/// 1e-3 is left where that is 1e13. A condition estimate would cost several solves; this is one, on
+/// the vector that matters. Forces are made from the reduced matrix itself, so that constraints and
+/// the assembly of A cannot disagree with the check.
 template <class Values>
 Expected<void> check_digits(const SparseCholesky& cholesky, const Values& forces) {
   constexpr double tolerance = 1e-3;
@@ -71,6 +75,8 @@ Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a,
   return factor(SparseMatrix(a), std::move(space));
 }
 
+// Points that depend on others bring the unknowns of their definitions. These are numbered anew, 0
+// … `count` − 1 in order of appearance, so that a solve within the part handles short arrays only.
 ConstrainedCholesky::Part ConstrainedCholesky::part(std::vector<int> points) const {
   Part part{std::move(points), {}, 0, {}};
   if (!cholesky_) return part;

@@ -11,9 +11,15 @@
 namespace knead::detail {
 namespace {
 
+// Rounding of an elimination is some 1e-16 times the growth of the coefficients, at most by 1/0.3
+// for each definition that a row meets: 1e-11 leaves room for five digits of it. Right sides carry
+// the rounding of the positions that they were made from besides, hence the larger bound for
+// contradictions.
 constexpr double dependent_below = 1e-11;
 constexpr double contradictory_above = 1e-9;
 // Of the largest coefficient: room to choose an unknown that few others use.
+// Markowitz's choice of pivots (1957) with a threshold: the largest coefficient would be the most
+// stable pivot, but one that many definitions contain is substituted in all of them.
 constexpr double pivot_threshold = 0.3;
 
 std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
@@ -44,6 +50,8 @@ ConstraintElimination::ConstraintElimination(int size, const std::vector<bool>& 
   }
 }
 
+// Without a normal a constraint on points is one equation with three right sides; over coordinates
+// it is three equations with one. One along a normal is a single equation between coordinates.
 Expected<void> ConstraintElimination::add(const LinearConstraint& c) {
   const auto [it, added] = numbers_.try_emplace(c.name, static_cast<int>(numbers_.size()));
   if (added) names_.push_back(c.name);
@@ -75,6 +83,8 @@ void ConstraintElimination::accumulate(int unknown, double c) {
   sums_[at(unknown)] += c;
 }
 
+// `row.size` follows the largest number that goes into the right side: a contradiction is judged in
+// units of it, or cancellation of large positions would count as one.
 void ConstraintElimination::add_term(Row& row, int unknown, double c) {
   const Definition& d = definitions_[at(unknown)];
   if (!d.dependent) return accumulate(unknown, c);
@@ -116,6 +126,9 @@ std::string ConstraintElimination::names_of(const std::vector<int>& sources, int
   return text.empty() ? "itself" : text;
 }
 
+// A row that leaves less than `dependent_below` of its largest coefficient follows from those
+// before, or contradicts them. One in held unknowns alone is neither: whether it is met depends on
+// where they are, which is not known here (`constraint_space` looks).
 Expected<void> ConstraintElimination::eliminate(const Terms& terms, const double* value, int name) {
   const Row row = row_of(terms, value, name);
   double largest = 0, largest_held = 0;
@@ -144,6 +157,9 @@ Expected<void> ConstraintElimination::eliminate(const Terms& terms, const double
   return {};
 }
 
+// Gauss–Jordan: the new definition replaces the pivot in all that contain it, so that every
+// definition is in independent and held unknowns at any time and no substitution is left for the
+// end. `users_` finds those that contain it, which makes a constraint cost what it touches.
 void ConstraintElimination::define(int pivot, const Row& row) {
   Definition& d = definitions_[at(pivot)];
   const double c =

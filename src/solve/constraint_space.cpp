@@ -63,6 +63,10 @@ Expected<ConstraintSpace> ConstraintSpace::create(int size,
   return space;
 }
 
+// T in three parts: independent unknowns are themselves (`free_`), dependent ones combine them
+// (`rows_`), and d, the inhomogeneous part, combines right sides and held unknowns (`values_`,
+// `held_rows_`). The identity part is not stored, so that unknowns without a condition cost nothing
+// in any product.
 void ConstraintSpace::number_free(const std::vector<Definition>& definitions, bool coupled) {
   coupled_ = coupled;
   free_.clear();
@@ -133,6 +137,7 @@ Points ConstraintSpace::expand_points(const Points& y) const {
   return x;
 }
 
+// Cost: O(N) for the table of places, whatever the number of points: ask for many at once.
 std::vector<ConstraintSpace::Term> ConstraintSpace::terms(std::span<const int> points) const {
   std::vector<int> place(position_.size(), -1);  // in dependent_
   for (std::size_t k = 0; k < dependent_.size(); ++k)
@@ -174,6 +179,9 @@ Points ConstraintSpace::expand(const Eigen::MatrixXd& y) const {
   return x;
 }
 
+// yᵀTᵀb is the work on every admissible y, and Tᵀ(lumped b) sees independent rows alone, where T is
+// the identity: so both are equal. Two forces that differ in what constraints bear have one lumped
+// form, hence one decrement.
 Points ConstraintSpace::lumped(const Points& b) const {
   Points result = Points::Zero(size_, 3);
   if (!coupled_) {
@@ -211,6 +219,9 @@ SparseMatrix selected(const SparseMatrix& a, const std::vector<int>& unknowns) {
 
 }  // namespace
 
+// Three ways: A itself where nothing is constrained, rows and columns left out where points are
+// only held, and the product otherwise. A ⊗ I is formed only where coordinates are coupled:
+// otherwise the three coordinates share one matrix and one factor.
 SparseMatrix ConstraintSpace::restrict(const SparseMatrix& a) const {
   assert(a.rows() == size_ && a.cols() == size_);
   const int copies = coupled_ ? 3 : 1;
@@ -246,6 +257,8 @@ SparseMatrix ConstraintSpace::restrict(const SparseMatrix& a) const {
   return SparseMatrix(t.transpose()) * right;
 }
 
+// Dependent rows are recomputed from x's independent and held ones. Where a row already agrees to
+// rounding it keeps its bits, so that a shape at rest is not moved by the last digit of a sum.
 Points ConstraintSpace::feasible(const Points& x) const {
   Points result = x;
   const auto dependents = static_cast<Eigen::Index>(dependent_.size());
@@ -270,6 +283,7 @@ Points ConstraintSpace::feasible(const Points& x) const {
   return result;
 }
 
+// Measured on the constraints as given, not on T: rounding of the elimination shows here.
 std::pair<int, double> ConstraintSpace::worst(const Points& x) const {
   std::pair<int, double> result{-1, 0};
   for (std::size_t k = 0; k < constraints_.size(); ++k) {

@@ -9,6 +9,9 @@
 
 namespace knead {
 
+// Indices of control points, not parameters or lengths: what a separator costs is the number of its
+// unknowns. Two patches are `widest` apart in direction 0, and an extent within a net is at most
+// `widest` − 1, so that patches are cut apart before any of them is cut.
 template <int D>
 GridPlaces grid_places(std::span<const Spline<D>> patches) {
   GridPlaces result{1 + D, {}};
@@ -39,6 +42,18 @@ constexpr std::size_t leaf = 64;  // so few unknowns are not divided
 // small.
 constexpr double share_before = 0.38;
 
+// The recursion behind `dissect`. `split` sorts a part along its longest direction, cuts it, and
+// makes the separator of all unknowns behind the cut that have an entry of A with one before it.
+// What remains behind has then no entry with what is before, whatever the places say: A alone makes
+// the order right, and the places only make it good.
+//
+// The order is: before, behind, separator, each of the first two again so. L_ij is nonzero only
+// where a path from j to i exists through unknowns eliminated before both (Rose, Tarjan and Lueker,
+// "Algorithmic aspects of vertex elimination on graphs", 1976), and no path from before to behind
+// avoids the separator. So fill stays inside the two parts and between each of them and the
+// separators behind it. On an n × n net of degree p the first separator has p n unknowns; L has O(N
+// log N) entries and takes O(N^1.5) operations for N = n² (George 1973), against O(N^1.5) and O(N²)
+// of a band. On volumes they are O(N^(4/3)) and O(N²).
 class Dissector {
  public:
   Dissector(const SparseMatrix& a, const GridPlaces& places, int node_size)
@@ -59,8 +74,13 @@ class Dissector {
  private:
   enum class Side : char { none, before, behind };
 
-  /// Gives places to the unknowns of a part, and returns its last node. \param own it is or has
-  /// nodes of its own.
+  /// Gives places to the unknowns of a part, and returns its last node.
+  /// \param is_own it is or has nodes of its own.
+  ///
+  /// A part of at most `node_size_` unknowns is divided further for the sake of its order, but it
+  /// is one node: its children get `is_own` = false and add no nodes. Numbers are given out in
+  /// postorder, so that a node's unknowns are adjacent, nodes follow one another, and parents come
+  /// last.
   int divide(std::span<int> part, bool is_own) {
     const bool one_node = is_own && part.size() <= node_size_;
     const int begin = next_;
@@ -100,7 +120,8 @@ class Dissector {
   }
 
   /// Reorders a part into what is before a cut, what is behind it and the separator: how many are
-  /// before and behind; none where no cut divides it.
+  /// before and behind; none where no cut divides it. Cost: O(size log size) and one pass over the
+  /// entries of A in the part's columns.
   std::pair<std::size_t, std::size_t> split(std::span<int> part, int direction) {
     std::ranges::sort(part, [&](int i, int j) {
       const int a = places_.at(i, direction), b = places_.at(j, direction);
@@ -131,6 +152,7 @@ class Dissector {
       std::ranges::sort(part);
       return {0, 0};
     }
+    // Back to the order of the unknowns, which on a net is a band: leaves keep it.
     std::ranges::sort(part.first(first));
     std::ranges::sort(part.subspan(first, second));
     order_separator(part.subspan(first + second), direction);
@@ -139,6 +161,9 @@ class Dissector {
 
   /// How many unknowns of a sorted part are before the place of number `at`; those before the place
   /// behind it if none.
+  ///
+  /// A cut never divides unknowns of one place: they depend on the same others, and would all be in
+  /// the separator anyway.
   [[nodiscard]] std::size_t cut_near(std::span<const int> part, std::size_t at,
                                      int direction) const {
     const int place = places_.at(part[at], direction);
@@ -150,6 +175,10 @@ class Dissector {
 
   /// Marks the sides of the first `cut` unknowns and of the others, and leaves out those of the
   /// others that depend on the first, whose number is returned.
+  ///
+  /// The separator comes from the side behind only. That suffices to part the two, and is half of
+  /// what the unknowns on both sides of the cut would be. Unknowns of other parts are `none` here:
+  /// they belong to separators behind this part, or to parts that no entry joins to it.
   std::size_t mark(std::span<const int> part, std::size_t cut) {
     for (std::size_t k = 0; k < part.size(); ++k)
       side_[static_cast<std::size_t>(part[k])] = k < cut ? Side::before : Side::behind;
@@ -169,6 +198,9 @@ class Dissector {
   }
 
   /// Along its longest direction, as a band.
+  ///
+  /// A separator's own block of L is nearly full, so that its order changes the number of entries
+  /// little. Along it neighbours have mostly the same rows, which makes wide panels (`Panels`).
   void order_separator(std::span<int> part, int across) const {
     int along = across, most = -1;
     for (int d = 0; d < places_.directions && !part.empty(); ++d) {

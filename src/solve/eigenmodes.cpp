@@ -47,6 +47,16 @@ struct RitzPairs {
 };
 
 /// Block Lanczos for the operator A⁻¹ C, symmetric in the inner product of P.
+/// The invariant subspace is grown block by block: V_{k+1} R = A⁻¹C V_k − V (Vᵀ P A⁻¹ C V_k), V
+/// P-orthonormal, T = Vᵀ P A⁻¹ C V. With the eigenpair (θ, s) of T, x = V s has the residual |A⁻¹C
+/// x − θ x|_P = |R s_last|, s_last the rows of the last block: known without computing x (Grimes,
+/// Lewis and Simon, "A shifted block Lanczos algorithm for solving sparse symmetric generalized
+/// eigenproblems", 1994).
+///
+/// A block of 8 starting vectors or more finds eigenvalues of multiplicity up to 8; a single vector
+/// finds one copy of each. Every block is orthogonalised against all before, twice: then no copies
+/// of converged pairs appear, which a three-term recurrence would produce by rounding. The price is
+/// N × 400 numbers and O(N m²) operations for m vectors.
 class Lanczos {
  public:
   Lanczos(const detail::SparseLdlt& a, const SparseMatrix& c, const SparseMatrix& p)
@@ -92,6 +102,8 @@ class Lanczos {
 
   /// Replaces columns by orthonormal ones of the same span and returns R of the product; columns
   /// that depend on others are left out.
+  /// Gram–Schmidt, twice, with P as inner product. A column that loses all but 1e-12 of the
+  /// largest length lies in the span of those before; the space is then invariant in its direction.
   Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& block) {
     Eigen::MatrixXd r = Eigen::MatrixXd::Zero(block.cols(), block.cols());
     Eigen::Index kept = 0;
@@ -122,6 +134,8 @@ class Lanczos {
     return std::sqrt(std::max(0.0, x.dot(p_ * x)));
   }
 
+  // The Rayleigh–Ritz pairs of T that have converged, in order from the best, up to the first that
+  // has not: a pair behind one that is still moving may itself move up.
   [[nodiscard]] Expected<RitzPairs> converged(Eigen::Index count, Wanted wanted,
                                               const Eigen::MatrixXd& r, Eigen::Index first,
                                               Eigen::Index width) const {
@@ -229,6 +243,12 @@ SparseMatrix on_coordinates(const SparseMatrix& scalar) {
   return result;
 }
 
+// K φ = ω² M φ. The lowest ω² are the largest θ = 1/(ω² + σ) of (K + σM)⁻¹M, which is symmetric in
+// the inner product of M, and which Lanczos finds first (shift and invert: Ericsson and Ruhe, "The
+// spectral transformation Lanczos method", 1980). K is singular where rigid motions are left; a σ
+// of 1e-9 of the mean ω², tr K / tr M, keeps it regular, and ω² = 0 comes out as a θ like any
+// other. Values are Rayleigh quotients of the unshifted matrices, whose error is the square of the
+// vector's.
 Expected<std::vector<Eigenmode>> mapped_vibration_modes(const SparseMatrix& stiffness,
                                                         const SparseMatrix& mass,
                                                         const SparseMatrix& map, int count) {
@@ -260,6 +280,10 @@ Expected<std::vector<Eigenmode>> mapped_vibration_modes(const SparseMatrix& stif
   return modes;
 }
 
+// (K + λ K_G) φ = 0 with the geometric stiffness K_G of the given load. With G = −K_G, θ = 1/λ are
+// the eigenvalues of K⁻¹G, symmetric in the inner product of K, which must be positive definite;
+// that of G would be none, as G is indefinite. The smallest λ > 0 are the largest θ > 0; loads in
+// the opposite direction have θ < 0.
 Expected<std::vector<Eigenmode>> mapped_buckling_modes(const SparseMatrix& stiffness,
                                                        const SparseMatrix& geometric,
                                                        const SparseMatrix& map, int count) {

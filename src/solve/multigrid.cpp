@@ -13,8 +13,13 @@ namespace knead {
 namespace {
 
 // Over the largest eigenvalue of D⁻¹A: the upper three quarters fall by 0.6 at least.
+// With λ the largest eigenvalue, an error along an eigenvector of D⁻¹A with eigenvalue μ is
+// multiplied by 1 − 1.6 μ/λ, between −0.6 and 0.6 for μ from λ/4 to λ. Functions with μ below λ/4
+// are left to the coarser space.
 constexpr double damping = 1.6;
 constexpr int power_iterations = 12;
+// The smoother diverges, and B is no longer positive, where the weight exceeds 2/λ: that is where
+// power iteration has found less than 0.73 of λ.
 constexpr double power_margin = 1.1;  // power iteration finds less than the largest eigenvalue
 // Of a Galerkin product at a time, which bounds what lies beside it.
 constexpr int product_columns = 2048;
@@ -26,6 +31,7 @@ std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
 /// Pᵀ A P.
+/// In blocks of columns: A P as a whole would take as much memory again as A.
 SparseMatrix galerkin(const SparseMatrix& a, const SparseMatrix& p,
                       const SparseMatrix& transposed) {
   SparseMatrix result(p.cols(), p.cols());
@@ -84,6 +90,9 @@ SparseMatrix lumped(const ConstraintSpace& space, const SparseMatrix& a) {
 }
 
 /// Numbers between −½ and ½ without a pattern.
+/// The start of power iteration must have a part along the eigenvector sought, whose signs
+/// alternate from control point to control point: a smooth start would have next to none. Fixed
+/// numbers, so that the same system gives the same bits.
 Points scattered(Eigen::Index rows) {
   Points x(rows, 3);
   std::uint32_t state = 1;
@@ -151,6 +160,20 @@ Points ConstrainedMultigrid::apply(const Points& x) const {
   return space_.lumped(product_(space_.expand_points(space_.reduce_points(x))));
 }
 
+// x ≈ A⁻¹ r on space `level` + 2 (the finest is in `precondition`): one smoothing from x = 0, the
+// correction from the next space, and one smoothing more. With S = w D⁻¹ (w the damping over λ)
+// both ends are the same, so that the map r ↦ x is
+//
+//   B = S + (I − S A) P B' Pᵀ (I − A S) + (I − S A) S,
+//
+// symmetric, and positive where B' and 2 D/w − A are: what conjugate gradients need of a
+// preconditioner. Several smoothings, or Gauss–Seidel, would smooth more a cycle; the first costs a
+// product for each, and the second depends on an order of unknowns, which threads would have to
+// respect.
+//
+// The correction is applied twice from the third space on (a W): a second cycle from the residual
+// of the first is again symmetric, and levels with a quarter of the unknowns each keep the cost of
+// a cycle at O(N).
 void ConstrainedMultigrid::cycle(std::size_t level, const Fours& r, Fours& x) const {
   x.resize(r.size());
   if (level == levels_.size()) {
@@ -185,6 +208,8 @@ void ConstrainedMultigrid::cycle(std::size_t level, const Fours& r, Fours& x) co
 }
 
 /// The correction from the coarser spaces for a force on the finest one.
+/// Forces are divided by their largest first: single precision has 7 digits but ends at 1e-38,
+/// where residuals of small models and late iterations would vanish.
 Points ConstrainedMultigrid::coarse(const Points& r) const {
   const double size = r.cwiseAbs().maxCoeff();
   if (!(size > 0)) return Points::Zero(r.rows(), 3);
@@ -202,6 +227,9 @@ Points ConstrainedMultigrid::coarse(const Points& r) const {
   return correction;
 }
 
+// The cycle on the finest space, in double precision and with A applied by the caller's product,
+// which need not assemble it: a cubic A on a surface has 49 entries a row. Where nothing depends on
+// other unknowns T only leaves rows out, which a weight of 0 does as well.
 Points ConstrainedMultigrid::precondition(const Points& r) const {
   Points x(r.rows(), 3);
   weigh(weight_, r, x);
@@ -217,6 +245,10 @@ Points ConstrainedMultigrid::precondition(const Points& r) const {
   return space_.tied() ? space_.expand_points(space_.reduce_points(x)) : x;
 }
 
+// Conjugate gradients preconditioned by B (Hestenes and Stiefel 1952; Saad 2003, Alg. 9.1). The
+// square rᵀBr that the recurrence needs anyway is the square of the error in the energy norm, but
+// for the difference of B and A⁻¹, and ends it. The curvature is tested, because rounding of an A
+// that is nearly singular may make it negative.
 ConstrainedMultigrid::Solved ConstrainedMultigrid::iterate(const Points& b, double tolerance,
                                                            int limit) const {
   Points r = space_.lumped(b), z = precondition(r), p = z;
@@ -265,6 +297,8 @@ void ConstrainedMultigrid::add_space(SparseMatrix& matrix, const SparseMatrix& p
   matrix = std::move(next);
 }
 
+// The known displacement of ones is smooth, the worst case of a method whose coarse spaces do not
+// fit; its iteration count also says how good a cycle is (`StepEngine`).
 Expected<ConstrainedMultigrid> ConstrainedMultigrid::create(
     SparseMatrix&& a, Product product, ConstraintSpace space,
     const std::vector<SparseMatrix>& prolongations) {
@@ -283,6 +317,9 @@ Expected<ConstrainedMultigrid> ConstrainedMultigrid::create(
   for (const int i : result.space_.independent()) places[at(i)] = i;
   for (const SparseMatrix& given : prolongations) {
     std::vector<int> columns;
+    // Constraints are those of the finest space only. A coarse function loses its part on points
+    // that are held or dependent, and vanishes where nothing is left: a correction never moves
+    // them.
     const SparseMatrix p = placed(given, places, matrix.rows(), columns);
     places = std::move(columns);
     result.add_space(matrix, p);

@@ -19,6 +19,10 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
+// Priorities are critical paths: the values of L from a task to the root (T. C. Hu, "Parallel
+// sequencing and assembly line problems", 1961). The 1 makes a child's strictly larger than its
+// parent's, even for tasks without panels, so that descending order puts children before parents
+// and its reverse parents before children, as `parallel_in_order` requires.
 void Panels::make_tasks(const Dissection& dissection) {
   int begin = 0;
   for (const Dissection::Node& node : dissection.nodes) {
@@ -50,6 +54,11 @@ void Panels::separate_tasks() {
   for (Task& task : tasks_) separate(task, place);
 }
 
+// After this, rows of other tasks in this task's panels point to rows of its own, which begin at
+// `first_row`. Two tasks that run at the same time then never write the same row, without locks or
+// atomic sums, and a row's sum has one order whatever the number of threads. The rows reached are
+// those of the task's panels and of its children, less the task's own: what a child adds to a
+// separator further behind passes through here.
 void Panels::separate(Task& task, std::vector<int>& place) {
   const auto size = static_cast<int>(panel_of_.size());
   const int end =
@@ -145,6 +154,8 @@ void Panels::substitute_backward(double* x, std::span<const int> panels) const {
   }
 }
 
+// A task begins by adding the sums of its children to its rows, in the order of the children. In a
+// confined solve children that take no part have stale sums, and are passed over.
 template <int columns>
 void Panels::forward(double* x, std::span<const int> panels) const {
   if (tasks_.empty()) return substitute_forward<columns>(x, panels);
@@ -168,6 +179,8 @@ void Panels::forward(double* x, std::span<const int> panels) const {
       });
 }
 
+// From the root down: a task copies the values of its targets from its parent's rows, which are
+// final by then, to rows of its own, so that the kernels find them where L's rows point.
 template <int columns>
 void Panels::backward(double* x, std::span<const int> panels) const {
   if (tasks_.empty()) return substitute_backward<columns>(x, panels);

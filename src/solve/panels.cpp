@@ -6,6 +6,12 @@
 
 namespace knead {
 
+// The nonzeros of L⁻¹ e_i are at the unknowns on the path from i to the root of the elimination
+// tree (Gilbert and Peierls, "Sparse partial pivoting in time proportional to arithmetic
+// operations", 1988). One pass over the panels in ascending order finds them for all rows at once:
+// a panel's rows below it lie in later panels. The backward sweep for the same rows needs the same
+// panels, since a row of x depends on later rows alone. Rows of a task's own stand for rows of the
+// matrix (`original_`).
 std::vector<int> Panels::reach(std::span<const int> rows) const {
   std::vector<char> marked(panels_.size(), 0);
   const auto size = static_cast<int>(panel_of_.size());

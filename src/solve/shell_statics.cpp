@@ -43,6 +43,13 @@ struct Loads {
 };
 
 /// Newton's iteration towards one load.
+/// Solves Tᵀ(f F(x) − ∇W(x)) = 0 for x = x₀ + T y, f the load factor: the tangent is ∇²W, with
+/// geometric stresses σ(x) + σ'(x) d extrapolated from the place before instead of recomputed at
+/// the new x (the mixed integration points of Magisano, Leonetti and Garcea, "How to improve
+/// efficiency and robustness of the Newton method in geometrically non-linear structural problem
+/// discretized via displacement-based finite elements", 2017), less f times that of the moments.
+/// LDLᵀ instead of Cholesky, as equilibria beyond a limit point have an indefinite tangent, and no
+/// line search, since the energy need not fall towards them.
 class ShellNewton {
  public:
   ShellNewton(const ShellStructure& shell, const SparseMatrix& map, const Loads& loads,
@@ -63,6 +70,8 @@ class ShellNewton {
     while (true) {
       const Points imbalance = factor * loads_.forces(x) - shell_.gradient(x);
       const Eigen::VectorXd reduced = map_.transpose() * flattened(imbalance);
+      // Without a load, as where values of constraints alone deform the shell, the first imbalance
+      // is the unit.
       if (scale == 0) scale = reduced.norm();
       outcome.residual = scale > 0 ? reduced.norm() / scale : 0;
       if (!std::isfinite(outcome.residual) || Interruption::asked_for()) return outcome;
@@ -115,6 +124,10 @@ Expected<void> check(const ShellStructure& shell, const Points& rest, const Poin
 
 }  // namespace
 
+// Load control: the share of the load grows by `part`, halved where Newton's iteration fails and
+// doubled, up to the wanted one, where it succeeds. Each increment starts from the equilibrium
+// before. A path that turns back in the load (snap-through) is not followed along the turn: the
+// iteration jumps to an equilibrium beyond it or fails.
 Expected<ShellEquilibrium> shell_equilibrium(const ShellStructure& shell, const Points& rest,
                                              std::span<const LinearConstraint> constraints,
                                              const Points& load, const ShellStaticsOptions& options,
@@ -150,6 +163,8 @@ Expected<ShellEquilibrium> shell_equilibrium(const ShellStructure& shell, const 
       return moves_freely();
     }
     part /= 2;
+    // Half a power of two below the smallest part allowed, so that rounding of `part` decides
+    // nothing.
     if (part < full * std::exp2(-options.max_halvings - 0.5)) {
       result.converged = false;
       result.note =
@@ -163,6 +178,8 @@ Expected<ShellEquilibrium> shell_equilibrium(const ShellStructure& shell, const 
   return result;
 }
 
+// u = d + T y with Tᵀ K T y = Tᵀ (load − K d), d the displacement that the constraints impose on
+// dependent unknowns.
 Expected<Points> linear_displacement(const ShellStructure& shell, const Points& rest,
                                      std::span<const LinearConstraint> constraints,
                                      const Points& load) {

@@ -18,6 +18,7 @@ struct SparseCholesky::Factor {
 namespace {
 
 /// In the order that `order` finds for the whole matrix, which is emptied.
+/// A and its permuted copy are never held together with L: memory peaks at one of the two and L.
 template <class Order>
 Expected<SparseCholesky> factor_by(SparseMatrix&& a, const Order& order) {
   Dissection dissection;
@@ -73,6 +74,8 @@ namespace {
 template <class Values>
 inline constexpr int columns = Values::ColsAtCompileTime == 1 ? 1 : 4;
 /// Rows of that many values, each within one line of the cache.
+/// Rows of 4 doubles on 32-byte boundaries: none crosses a line of the cache, and AVX2 loads each
+/// at once.
 template <class Values>
 class Work {
  public:
@@ -116,6 +119,7 @@ Values whole(const Panels& panels, const Eigen::VectorXi& order, const Values& b
   return x;
 }
 
+// Only rows of the part's panels are cleared and used; the rest of `y` stays as it was allocated.
 template <class Values>
 Values within(const Panels& panels, const SparseCholesky::Part& part, const Values& b) {
   Work<Values> y(panels.work_rows());
@@ -130,6 +134,7 @@ Values within(const Panels& panels, const SparseCholesky::Part& part, const Valu
   return x;
 }
 
+// z = L⁻¹ b, whose squared norm is bᵀ A⁻¹ b: a decrement for half the price of a solve.
 template <class Values>
 SparseCholesky::Half first_half(const Panels& panels, const Eigen::VectorXi& order,
                                 const Values& b) {
@@ -153,6 +158,8 @@ void second_half_within(const Panels& panels, const SparseCholesky::Part& part,
     take<Values>(y, part.rows[k], x, static_cast<Eigen::Index>(k));
 }
 
+// x = A⁻¹ (share · B + E b) = L⁻ᵀ (share · z + L⁻¹ E b): the forward sweep of E b runs in its reach
+// alone, and one backward sweep serves both.
 template <class Values>
 void second_half(const Panels& panels, const Eigen::VectorXi& order, const SparseCholesky::Half& z,
                  double share, const SparseCholesky::Part& part, const Values& b, Values& x) {
