@@ -142,6 +142,8 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
                                                           std::move(chosen->engine)}));
 }
 
+// Keeps the last system: a drag moves where springs draw to from step to step, not the springs. It
+// is made by the engine of the model, so that both results have the same accuracy.
 template <int D>
 std::shared_ptr<const SprungSystem<D>> ActiveSpline<D>::Model::with_springs(
     std::span<const PointForce> forces) const {
@@ -178,6 +180,8 @@ Points ActiveSpline<D>::allowed(const Points& displacement) const {
   return space.feasible(free) - space.feasible(Points::Zero(free.rows(), 3));
 }
 
+// The projection in the norm of A: Y = S + T y minimises |Y − U|_A over y for a start S that is
+// allowed, hence TᵀA T y = TᵀA (U − S).
 template <int D>
 Points ActiveSpline<D>::nearest_allowed(const Points& displacement) const {
   Points start = allowed(displacement);
@@ -189,6 +193,7 @@ Points ActiveSpline<D>::nearest_allowed(const Points& displacement) const {
   return start + model_->inverse.solve(model_->a * Points(displacement - start));
 }
 
+// One implicit step from the shape itself, (K + λW) Y = −K P, of the energy without a rest shape.
 template <int D>
 Points ActiveSpline<D>::fairing(const Points& control_points) const {
   // K annihilates constants.

@@ -55,6 +55,9 @@ Expected<Points> ActiveSpline<D>::Model::load_of(const ActiveState& state,
   return g;
 }
 
+// The residual is |Tᵀ(F + G − K X)| over the sum of the norms of what meets there. K X is split
+// into what comes from free control points and from held ones, since a held part that is far away
+// is a force on the others and belongs in the sum.
 template <int D>
 void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const Points& external,
                                     const PotentialState& contact,
@@ -100,6 +103,9 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
   }
 }
 
+// The problem of `minimise_step` with X = X₀ + Y: K X = G + F gives A Y = G − K X₀ + F, so b = G −
+// K X₀. `balanced` states have G = K X₀, so that nothing but tools moves them. The start Y brings
+// X₀ to what constraints demand.
 template <int D>
 ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from,
                           std::span<const Tool> given_tools, const ActiveLoads& given_loads,
@@ -142,6 +148,8 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from,
   }
   PotentialState at_start;
   at_start.force = Points::Zero(before.rows(), 3);
+  // Springs in the matrix: k r(rᵀ(X₀ + Y) − to) has its Y-part in A and the rest, their force at Y
+  // = 0, in b.
   add_springs(springs, problem.start, at_start);
   problem.b += at_start.force;
 }
@@ -175,6 +183,15 @@ void ActiveSpline<D>::Run::balance() {
 }
 
 /// The two stages of Alexander's method.
+/// M Ẍ + D Ẋ + K X = G + F by Alexander's second-order SDIRK with γ = 1 − √½ (R. Alexander,
+/// "Diagonally implicit Runge–Kutta methods for stiff O.D.E.'s", 1977). A stage of τ = γh from
+/// position X₀ + advance with velocity v is one implicit Euler step:
+///
+///   V = (Y − advance)/τ,  (M/τ² + D/τ + K) Y = b + M (advance/τ² + v/τ) + D advance/τ.
+///
+/// The second starts at what the first stage's derivatives give at (1 − γ)h: advance = ((1 − γ)/γ)
+/// Y₁ and v = V₀ + ((1 − γ)/γ)(V₁ − V₀). As the method is stiffly accurate, its result is the
+/// step's; A is the same for both stages.
 template <int D>
 void ActiveSpline<D>::Run::balance_dynamic() {
   const double tau = dynamic_stage * m.settings.time_step;
@@ -219,6 +236,8 @@ Expected<ActiveStep> ActiveSpline<D>::Run::accept() {
   result.control_points = state.control_points;
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
     for (int c = 0; c < 3; ++c) {
+      // What has not moved keeps the bits of the file, which a round trip through the model's units
+      // would change.
       if (x(i, c) != before(i, c))
         result.control_points(i, c) = file_origin(i, c) + m.length * x(i, c);
     }

@@ -21,6 +21,10 @@ void ContactDirections::keep(Pair pair) {
 
 /// The two loops of Nocedal and Wright, Alg. 7.4, around A⁻¹.
 /// \param image_of Gives A⁻¹ of what r becomes when `alpha` times the pairs' y are taken from it.
+/// M = the BFGS inverse from A⁻¹ and the pairs (p, y), symmetric and positive definite where all
+/// pᵀy > 0. Everything is needed twice, as z = M r in the neighbourhood and as A z: sums of p and A
+/// p keep both without a product with A. Cost: O(pairs × points of the neighbourhood) and what
+/// `image_of` takes.
 template <class Image>
 ContactDirections::Preconditioned ContactDirections::precondition(const Anchor& anchor,
                                                                   const Combination& r,
@@ -43,6 +47,13 @@ ContactDirections::Preconditioned ContactDirections::precondition(const Anchor& 
   return to;
 }
 
+// Preconditioned conjugate gradients in combinations: r, A p and A z are β r₀ + E e, and all inner
+// products are sums over the neighbourhood and the squares of the anchor. Convergence is measured
+// by rᵀA⁻¹r, not by rᵀM r, which `product` gives: the first is the same measure whatever pairs are
+// kept. A and M are fixed during the run, as pairs made in it are kept only at its end.
+//
+// The preconditioned operator is I + A^(−1/2) H A^(−1/2) without pairs: as many eigenvalues differ
+// from 1 as H has a rank, and iterations are about as many as there are clusters of them.
 ContactDirection ContactDirections::find(const PotentialState& state, const Anchor& anchor,
                                          ContactNeighbourhood& near, Combination r, Points image,
                                          const Wanted& wanted, int& solves) {
@@ -107,6 +118,9 @@ ContactDirection ContactDirections::find(const PotentialState& state, const Anch
   return to;
 }
 
+// The pair of a whole step: p = step · d, y = r before − r after, which is (A + H) p with H
+// averaged along the step. A pair with little curvature, or a negative one, would make M indefinite
+// or huge, and is left out.
 void ContactDirections::take(double step, const ContactDirection& direction, const Anchor& anchor,
                              const Residual& before, const Residual& after) {
   if (!corrects_ || before.image.rows() != after.image.rows()) return;

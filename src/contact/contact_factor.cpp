@@ -23,6 +23,8 @@ constexpr double poor_direction = 0.1;
 
 }  // namespace
 
+// A + H over coordinates has 9 times the entries of A on one, since H couples x, y and z of points;
+// where constraints couple coordinates, A ⊗ I is what was factored, with 3 times as many as A.
 bool ContactFactor::is_possible(const StepProblem& problem) {
   const ConstrainedCholesky* inverse = problem.inverse.factor();
   if (problem.source == nullptr || inverse == nullptr) return false;
@@ -37,6 +39,8 @@ ContactFactor::ContactFactor(const StepProblem& problem, const Potential& potent
       places_(problem.source->places()),
       system_(with_coordinate_blocks(problem.source->a())) {}
 
+// Order and restriction serve from one factor to the next. They are made anew only where a block of
+// H needs entries that the pattern does not have.
 bool ContactFactor::factor(const PotentialState& state) {
   system_.clear();
   potential_.each_hessian_block(state,
@@ -54,6 +58,9 @@ bool ContactFactor::factor(const PotentialState& state) {
 }
 
 /// z = M ρ, and A z.
+/// With ρ = β r + E e and s = A⁻¹ρ known in the neighbourhood, (A + H₀) z = ρ is z = s − M (H₀ s),
+/// as (A + H₀) s = ρ + H₀ s. The right side H₀ s is zero outside: one solve within the part. A z =
+/// ρ − H₀ z needs no product with A.
 ContactDirection ContactFactor::precondition(const Residual& rest,
                                              ContactNeighbourhood& near) const {
   ContactDirection to{rest.r, {}, 0};
@@ -67,6 +74,8 @@ ContactDirection ContactFactor::precondition(const Residual& rest,
 }
 
 /// A d for what lowers the residual to `target` of its square. \param enough Whether it does.
+/// M is the inverse of A + H₀, so that iterations count what has come into contact or left it since
+/// H₀; eight of them cost about what a new factor does.
 Combination ContactFactor::conjugate_gradients(const PotentialState& state, const Anchor& anchor,
                                                ContactNeighbourhood& near, Residual rest,
                                                double target, bool& enough, int& solves) const {
@@ -101,6 +110,10 @@ Combination ContactFactor::conjugate_gradients(const PotentialState& state, cons
   return sum;
 }
 
+// Iterative refinement (Wilkinson 1963; Higham 2002, ch. 12): each round solves for the residual
+// that the rounds before left, computed from d itself. A round that does not halve it with a fresh
+// factor has met rounding; with an old one, the factor is to blame and is made anew. A digit is
+// asked for at least; where it is not reached, conjugate gradients continue alone.
 bool ContactFactor::find(const PotentialState& state, const Anchor& anchor,
                          ContactNeighbourhood& near, Residual rest, double tolerance,
                          ContactDirection& to, int& solves) {

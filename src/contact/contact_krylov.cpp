@@ -66,6 +66,8 @@ double KrylovMinimisation::imbalance() {
 /// preconditioned residual. If A + H turns out not to be positive, the result is the sum of the
 /// steps so far, or B r: a descent direction in any case (Nocedal and Wright, Numerical
 /// Optimization, Alg. 7.1).
+/// No pairs of directions before, and no neighbourhood: with cycles the whole net is touched in
+/// every iteration anyway.
 KrylovMinimisation::ContactDirection KrylovMinimisation::direction(Residual at, double tolerance) {
   const Points first = at.r;
   ContactDirection to{Points::Zero(first.rows(), 3), Points::Zero(first.rows(), 3)};
@@ -106,6 +108,8 @@ KrylovMinimisation::ContactDirection KrylovMinimisation::direction(Residual at, 
 
 /// Steps along the direction, halved until Φ decreases enough; a full step if values are not
 /// decisive.
+/// Φ(Y + t d) − Φ(Y) as a polynomial in t and a difference of Ψ, rather than as a difference of two
+/// Φ, which would lose the digits that both have in common.
 void KrylovMinimisation::advance(const ContactDirection& to, bool rounded) {
   const double along = dot(to.d, ay_ - problem_.b), bent = 0.5 * dot(to.d, to.ad),
                before = state_.potential;
@@ -123,6 +127,10 @@ void KrylovMinimisation::advance(const ContactDirection& to, bool rounded) {
   }
 }
 
+// A Y is carried along by its steps, t A d, which drifts by rounding. An exact step that seems
+// finished computes it anew and goes on if the decrement is then too large. Where one such
+// measurement is more than half of that before, and below `rounded_tolerance`, what is left is the
+// rounding of A Y.
 void KrylovMinimisation::iterate(double tolerance, int max_iterations, bool certain) {
   summary.converged = false;
   double largest = std::max(norm_of_b(), norm(state_.force));

@@ -14,6 +14,8 @@ inline constexpr double followed_tolerance = 1e-8;
 // Where the rounding of recomputed forces does not allow more.
 inline constexpr double rounded_tolerance = 1e-9;
 inline constexpr double sufficient_decrease = 1e-4;
+// Of Φ's parts: a gain below it cannot be told from their rounding, some tens of units in the last
+// place.
 inline constexpr double rounding_of_potential = 1e-14;
 inline constexpr int max_newton_iterations = 60;
 inline constexpr int max_cg_iterations = 400;

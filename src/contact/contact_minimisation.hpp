@@ -258,6 +258,7 @@ class Minimisation {
     return to;
   }
 
+  // dΦ/dt at t = 0: −rᵀd, with rᵀd = rᵀA⁻¹(A d) for the part β r₀ of r.
   static double slope(const View& view, const Residual& at, const ContactDirection& to) {
     return -at.r.beta * to.ad.with_r(view.from) - dot(at.r.e, to.d);
   }
@@ -299,6 +300,8 @@ class Minimisation {
 
   /// Steps along the direction, halved until Φ decreases enough; a full step if values are not
   /// decisive. Returns the share of the direction.
+  /// Armijo's rule with 1e-4 of the slope; the quadratic part of Φ is exact at every t from squares
+  /// and products with the anchor, so that a trial costs Ψ inside and no substitution.
   double advance(View& view, const ContactDirection& to, bool rounded) {
     const double here = view.quadratic + state_.potential;
     double t = 1;
@@ -355,6 +358,8 @@ class Minimisation {
   }
 
   /// Iterates from one anchor until no contact is outside the neighbourhood.
+  /// The second half of the solve is made once per round, which is where the rest of the net learns
+  /// of the displacement.
   Round descend(View& view, Progress& progress) {
     const double before = view.quadratic + state_.potential;
     while (true) {

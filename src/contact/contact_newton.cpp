@@ -16,6 +16,10 @@ constexpr double stage_tolerance = 1e-2;
 constexpr double limited_stage_tolerance = 1e-4;
 constexpr int max_stage_iterations = 20;
 
+// Continuation in the stiffness (a homotopy): minima for k = 1e4, 3e5, 9e6, … , the last one to the
+// tolerance of the step. The contact set of a soft tool is close to that of one 30 times stiffer;
+// from far away the stiff one would take many iterations with a small step each. Stages are loose,
+// as only the set of points in contact is used of them.
 template <class M>
 Minimum minimise(const StepProblem& problem, Potential& potential, M minimisation) {
   // A very stiff tool is approached through softer ones: from afar its springs would throw the

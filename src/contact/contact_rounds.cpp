@@ -11,7 +11,12 @@
 namespace knead {
 namespace {
 
+// A spring of stiffness k is entered by about f/k under a force per area f: penalties grow tenfold
+// from here to `max_tool_stiffness` until `rigid_gap` is met. Beginning at the largest would cost
+// conjugate gradients and digits where a softer spring does.
 constexpr double first_rigid_stiffness = 1e6;
+// Of the penalty that keeps points within the limit at Gauss points, and how far the largest
+// displacement may exceed it anywhere, as a share of it.
 constexpr double limit_stiffness = 1e8;
 constexpr double limit_tolerance = 1e-6;
 constexpr int max_limit_rounds = 12;
@@ -45,6 +50,10 @@ typename ContactRounds<D>::Entries ContactRounds<D>::entries(const Points& x) co
 /// Stiffens the rigid tool that is penetrated at Gauss points, and starts contact further out for
 /// those penetrated in between. False if that tool is at its maximum stiffness: one more round will
 /// show what remains.
+/// Two faults with two remedies. Entered at a Gauss point, a tool's spring is too soft: ten times
+/// stiffer. Entered between Gauss points only, no stiffness would help, as the potential does not
+/// see it: contact begins further out by the entry, less half the gap allowed, so that offsets do
+/// not overshoot.
 template <int D>
 bool ContactRounds<D>::keep_out(const Entries& found, const PotentialState& at_gauss_points) {
   bool harder = true;
@@ -77,6 +86,8 @@ void ContactRounds<D>::tell_entered(const Entries& found) {
 
 /// The minimum without penetration of rigid tools, at and between Gauss points, in at most
 /// `max_rigid_rounds` rounds.
+/// Each round begins at the minimum before, which is near the next. 16 rounds leave room for four
+/// decades of stiffness and a dozen offsets; what is then still entered is told.
 template <int D>
 PotentialState ContactRounds<D>::touch_rigid(const Descend& descend, const Place& place) {
   for (int rounds_left = max_rigid_rounds;;) {
@@ -100,6 +111,9 @@ PotentialState ContactRounds<D>::touch_rigid(const Descend& descend, const Place
 
 /// The same under the limit, which is enforced at Gauss points and tightened until it holds between
 /// them too.
+/// The limit at Gauss points is lowered by the excess found elsewhere. The displacement between
+/// Gauss points differs from that at them by a share that hardly changes from round to round, so
+/// that the excess falls fast; a net whose spans are long against it may still fail, and says so.
 template <int D>
 PotentialState ContactRounds<D>::run(double limit, const Points& limit_origin,
                                      const Descend& descend, const Place& place) {

@@ -38,6 +38,8 @@ bool CoordinateSum::renewed() {
   return result;
 }
 
+// Base and sum keep the same pattern, so that `clear` is a copy of values. Where contacts travel
+// back and forth the pattern soon suffices.
 void CoordinateSum::grow(std::span<const int> points) {
   std::vector<Eigen::Triplet<double>> zeros;
   for (const int i : points) {
@@ -52,6 +54,8 @@ void CoordinateSum::grow(std::span<const int> points) {
   renewed_ = true;
 }
 
+// Three rows at a time, which are adjacent in a column: one search for each pair of points, and
+// none where points follow one another as they do within an element.
 void CoordinateSum::add(std::span<const int> points, const Eigen::MatrixXd& block) {
   std::vector<Eigen::Index> places(points.size());
   for (std::size_t j = 0; j < points.size(); ++j) {

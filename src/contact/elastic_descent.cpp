@@ -42,6 +42,8 @@ Points ElasticDescent::inertia_times(const Points& y) const {
   return problem_.inertia.rows() > 0 ? Points(problem_.inertia * y) : Points::Zero(y.rows(), 3);
 }
 
+// Φ, its gradient and the unit of imbalances at one Y; the gradient of W(start + θ Y)/θ in Y is ∇W,
+// without a θ. Cost: the energy and its gradient by quadrature, and one evaluation of contact.
 ElasticDescent::Place ElasticDescent::at(Points y) const {
   Place place;
   place.contact = potential_.evaluate(problem_.start + y);
@@ -57,6 +59,7 @@ ElasticDescent::Place ElasticDescent::at(Points y) const {
   return place;
 }
 
+// The second derivative of W(start + θ Y)/θ is θ ∇²W.
 SparseMatrix ElasticDescent::elastic(SparseMatrix hessian) const {
   if (problem_.theta != 1) hessian *= problem_.theta;
   if (inertia_.rows() > 0) hessian += inertia_;
@@ -81,6 +84,10 @@ bool ElasticDescent::factor(const SparseMatrix& system) {
 
 /// The Hessian, without its geometric part where that makes it indefinite, and with some more of a
 /// multiple of the identity where a mechanism is left.
+/// Three matrices in turn, each more certain to be positive definite and less like ∇²Φ: the exact
+/// one, which gives quadratic convergence; the material part, as Gauss–Newton, which is positive
+/// semidefinite; and this raised by 1e-10, 1e-8, … of its largest diagonal entry (Levenberg 1944,
+/// Marquardt 1963). Each gives a direction of descent.
 bool ElasticDescent::factor_at(const Place& place, const std::optional<Points>& before) {
   const Points x = position(place.y);
   const ElasticEnergy& energy = problem_.energy;
@@ -99,6 +106,10 @@ bool ElasticDescent::factor_at(const Place& place, const std::optional<Points>& 
 
 /// Moves along d as far as lowers Φ enough, or all the way where that lowers the imbalance by much.
 /// False: not at all.
+/// Armijo's rule with `slope` = −dΦ/dt > 0, and backtracking to the minimum of a parabola within
+/// 0.1 to 0.5 of the step before (Dennis and Schnabel 1983, § 6.3.2). Φ near a minimum is flat to
+/// rounding where its gradient still has digits, hence the second test, on the imbalance, for full
+/// steps.
 bool ElasticDescent::advance(Place& place, const Points& d, double slope) const {
   const double rounding = rounding_of_phi * std::max(std::abs(place.phi), std::abs(slope));
   double t = 1;
@@ -121,6 +132,9 @@ bool ElasticDescent::advance(Place& place, const Points& d, double slope) const 
   return false;
 }
 
+// Relative to the forces that meet: |Tᵀ f| / (|F| + |b| + |Qy| + |∇W|). Where nothing has moved yet
+// the tolerance is the tighter one, so that an interactive step from near a minimum does not stand
+// still.
 bool ElasticDescent::balanced(const Place& place, bool moved, double tolerance,
                               ContactSummary& summary) {
   const double size = place.imbalance.size() > 0 ? place.imbalance.norm() : 0;
@@ -131,6 +145,11 @@ bool ElasticDescent::balanced(const Place& place, bool moved, double tolerance,
   return summary.converged || !summary.finite;
 }
 
+// Sequential convex minimisation: W is replaced by W(Y) + ∇Wᵀd + ½ dᵀ(θ H⁺)d, H⁺ the Hessian with
+// tensile stresses alone, which is positive semidefinite, while contact stays as nonlinear as it
+// is. The change of the contact set, which stops Newton's method on both at once, is thus left to
+// `minimise_step`, which is made for it; and one factor of the parabola serves all its iterations.
+// It is kept while each round at least halves the imbalance.
 ElasticDescent::Place ElasticDescent::approach(Place place, double tolerance,
                                                ContactSummary& summary) {
   double before = std::numeric_limits<double>::infinity();
@@ -166,6 +185,8 @@ ElasticDescent::Place ElasticDescent::approach(Place place, double tolerance,
   return place;
 }
 
+// Newton's method on W and Ψ together, with a factor of ∇²Φ per iteration: quadratic convergence
+// once the contact set has settled.
 ElasticDescent::Place ElasticDescent::newton(Place place, ContactSummary& summary) {
   std::optional<Points> before;
   for (int iteration = 0;; ++iteration) {
@@ -187,6 +208,8 @@ ElasticDescent::Place ElasticDescent::newton(Place place, ContactSummary& summar
   return place;
 }
 
+// Without contact, and where more than 1e-3 is asked for, parabolas gain nothing on Newton's
+// method.
 PotentialState ElasticDescent::run(Points& y, ContactSummary& summary) {
   Place place = at(y);
   summary.converged = false;

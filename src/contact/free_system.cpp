@@ -67,6 +67,8 @@ Expected<Points> FreeSystem::forces(const Point& load) const {
   return result;
 }
 
+// A term of K on its own is the energy with its coefficient 1 and all others 0: K is linear in the
+// coefficients. β12's matrix has the 2 of 2β12|S_st|² in it.
 std::vector<NamedEnergy> system_energies(const Material& material, double mass, double damping) {
   constexpr std::array<std::array<const char*, 2>, 6> terms = {
       {{"K_alpha11", "int R_i,s R_j,s"},

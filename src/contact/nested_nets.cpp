@@ -11,6 +11,9 @@ constexpr double even_span = 1.5;
 constexpr double fewer = 0.75;  // as many control points at most as before, or nothing is gained
 
 /// Without every second knot inside the domain, all of its repetitions.
+/// The first movable knot inside goes, with all its repetitions, and the next one stays: about half
+/// the spans are left. A knot of multiplicity p or more is a crease that bends for free; without it
+/// no coarse function could represent the motion that costs least.
 KnotVector without_every_second(const KnotVector& knots) {
   const Interval domain = knots.domain();
   std::vector<double> kept;
@@ -36,6 +39,9 @@ template <int D>
 using Nets = std::vector<std::array<KnotVector, D>>;
 
 /// One step coarser.
+/// Semi-coarsening: the smoother damps what oscillates along short spans, since these have the
+/// large eigenvalues. Leaving out knots along long ones as well would leave functions that neither
+/// the smoother nor the coarser space reaches.
 template <int D>
 Nets<D> coarser(const Nets<D>& nets, std::span<const DomainScaling<D>> scalings) {
   Nets<D> result = nets;
@@ -69,6 +75,8 @@ int size_of(const Nets<D>& nets) {
 }
 
 /// Appends the rows of R₀ ⊗ … of one patch, `row` and `column` its first ones.
+/// P = R₀ ⊗ R₁ ⊗ …, R_d the knot insertion of one direction: row i of P is the product of one row
+/// of each, last direction fastest.
 template <int D>
 void append(const std::array<KnotVector, D>& from, const std::array<KnotVector, D>& to, int row,
             int column, std::vector<Eigen::Triplet<double>>& entries) {
@@ -118,6 +126,8 @@ std::vector<SparseMatrix> nested_prolongations(std::span<const Spline<D>> patche
   std::vector<SparseMatrix> result;
   while (size_of<D>(fine) > enough) {
     Nets<D> coarse = coarser<D>(fine, scalings);
+    // Creases or fixed knots everywhere: a cycle over spaces that hardly shrink costs more than it
+    // gains.
     if (size_of<D>(coarse) > fewer * size_of<D>(fine)) return {};
     std::vector<Eigen::Triplet<double>> entries;
     int row = 0, column = 0;

@@ -40,6 +40,8 @@ class NetOperator {
   }
 
   /// All of it as one matrix.
+  /// One patch, the usual case, adds values where patterns agree, as all energies of one net do;
+  /// several patches go through triplets.
   [[nodiscard]] SparseMatrix assemble() const {
     SparseMatrix sum(size_, size_);
     if (std::ranges::all_of(blocks_,
@@ -89,6 +91,8 @@ class NetOperator {
     return y;
   }
 
+  // Patches write disjoint rows, so that threads need no order among them; blocks of one patch are
+  // added in their own order. Both ways give the same bits.
   [[nodiscard]] Points product_of_blocks(const Points& x) const {
     if (blocks_.size() == 1 && identity_ == 0 && blocks_[0].factor == 1 &&
         blocks_[0].stiffness.size() == size_)

@@ -10,6 +10,10 @@
 namespace knead {
 
 /// Tools, friction and limit on all patches of a model, in normalised units.
+/// Ψ(x) = Σ over tools, friction, limit and point forces; sums over Gauss points come from the tool
+/// grids of each patch (`ToolLoad`). A state lists the points in contact with their 3 × 3 Hessians;
+/// H v, blocks of H and the control points concerned are made from that list, so that none of them
+/// looks for contacts again.
 template <int D>
 class PatchPotential final : public Potential {
  public:
@@ -143,6 +147,8 @@ class PatchPotential final : public Potential {
 
  private:
   /// What acts on elements: on all, on those that are watched, or on all others.
+  /// The limit is integrated on the coarsest grid of a patch only, which resolves the net; finer
+  /// grids exist for small tools.
   [[nodiscard]] PotentialState on_elements(const Points& x, const WatchedElements* watched,
                                            const WatchedElements* beyond) const {
     PotentialState state;
@@ -207,6 +213,9 @@ class PatchPotential final : public Potential {
     add(rows, block);
   }
 
+  // Springs (thesis Eq. 4.24): ψ = k/2 |d|², d = Σ r x − to. Volcanoes: ψ = k/ρ, ρ² = |d|² + core²;
+  // the force k d/ρ³ drives away, and the Hessian 3k d dᵀ/ρ⁵ − k/ρ³ I is indefinite: negative
+  // across d.
   void add_point(std::size_t k, const Points& x, PotentialState& state) const {
     const PointForce& p = points_[k];
     const Point way = combined(p, x) - p.to;

@@ -22,6 +22,8 @@ Points staying(const Points& history, const Plasticity& plasticity) {
   return result;
 }
 
+// β(Δ − 1/ℓ²)² = βΔ² − (2β/ℓ²)Δ + β/ℓ⁴: the double root is the case between alternation (complex
+// roots) and two lengths (real ones).
 Locality locality_of(double beta, double length) {
   const double square = length * length;
   return {beta / (square * square), 2 * beta / square};

@@ -6,8 +6,12 @@
 namespace knead {
 namespace {
 
+// A spring adds an eigenvalue of its own to A⁻¹(A + H), so that conjugate gradients take about one
+// substitution for each.
 constexpr std::size_t many_springs = 64;  // a footprint that is dragged has about 60, side by side
 
+// Π (p_d + 1): with more terms than a point of the spline, r rᵀ would join control points that A
+// does not, and fill L.
 template <int D>
 std::size_t most_terms(std::span<const Spline<D>> patches) {
   std::size_t most = 0;
@@ -58,6 +62,7 @@ SparseMatrix spring_stiffness(int size, std::span<const PointForce> springs) {
   return sum;
 }
 
+// k/2 |way|², way = Σ r x − to, and its force −k r way on every control point of the spring.
 void add_springs(std::span<const PointForce> springs, const Points& x, PotentialState& state) {
   for (const PointForce& s : springs) {
     Point way = -s.to;

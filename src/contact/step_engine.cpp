@@ -41,6 +41,10 @@ int highest_sum_of(std::span<const Spline<D>> patches) {
 }
 
 /// Whether anything forbids a displacement of the whole model.
+/// A constraint whose coefficients sum to s ≠ 0 forbids a common displacement of all its points:
+/// altogether where it is one on points, along its normal otherwise. Three independent normals are
+/// needed. Rotations are not looked at: where stretch resists, K vanishes on translations alone;
+/// where bend alone does, on all linear maps, which the factorisation then finds.
 bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held) {
   if (std::ranges::find(held, true) != held.end()) return true;
   Eigen::Matrix3d forbidden =
@@ -114,6 +118,8 @@ Expected<ConstrainedMultigrid> nested(const NetOperator<D>& a, const ConstraintS
 
 }  // namespace
 
+// A factor costs n^1.5 once and about n log n a step, cycles n for each iteration of a step: the
+// number of iterations at which both are even grows with n.
 template <int D>
 int most_iterations(int points, int degree) {
   if (D == 3 || degree > 3) return few_iterations;
