@@ -42,6 +42,8 @@ Expected<void> check_finite(const Matrix& a) {
 
 /// The power of two by which a matrix is multiplied so that squares of its entries neither overflow
 /// nor vanish: 0 for all but extreme ones.
+/// Squares overflow from 2^512 on and vanish below 2^-537: at 2^±300 a sum of squares is safe, and
+/// a multiplication by a power of two changes no digit.
 template <class Matrix>
 int exponent_of(const Matrix& a) {
   const double largest = a.size() > 0 ? a.cwiseAbs().maxCoeff() : 0;
@@ -71,6 +73,9 @@ auto by_least_squares(const Matrix& a, const Vector& b)
 
 }  // namespace
 
+// A is 3 × n with n up to a row of a net. Its singular values by those of AAᵀ would lose half the
+// digits, and an SVD of A costs more and forms vectors of length n: QR first, then Jacobi's method
+// on 3 × 3.
 Expected<LeftSingular> left_singular(const Eigen::Matrix3Xd& a) {
   if (auto finite = check_finite(a); !finite) return std::unexpected(finite.error());
   if (a.cols() == 0) return LeftSingular{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
@@ -131,6 +136,8 @@ const Eigen::VectorXi& PivotedQr::order() const { return factors_->order; }
 
 double PivotedQr::pivot(Eigen::Index k) const { return std::abs(factors_->r(k, k)); }
 
+// Q times the trailing block of R: what is left of each column after projection onto the pivots'
+// span, in the rows of A.
 Eigen::MatrixXd PivotedQr::remainder(Eigen::Index rank) const {
   const Eigen::MatrixXd& r = factors_->r;
   const Eigen::Index most = pivots(), columns = r.cols() - rank;
@@ -142,6 +149,7 @@ Eigen::MatrixXd PivotedQr::remainder(Eigen::Index rank) const {
   return rest;
 }
 
+// R₁₁ X = R₁₂ by substitution; the pivots themselves get unit vectors, exactly.
 Eigen::MatrixXd PivotedQr::coefficients(Eigen::Index rank) const {
   const Eigen::MatrixXd& r = factors_->r;
   Eigen::MatrixXd others = r.topRightCorner(rank, r.cols() - rank);
@@ -234,6 +242,9 @@ SparseLdlt::SparseLdlt(SparseLdlt&&) noexcept = default;
 SparseLdlt& SparseLdlt::operator=(SparseLdlt&&) noexcept = default;
 SparseLdlt::~SparseLdlt() = default;
 
+// The order of elimination is kept while the pattern stays the same, bit by bit: a comparison of
+// indices is far cheaper than minimum degree. No pivoting: an indefinite matrix may lose digits to
+// growth, which the ratio of the pivots (`regular`) shows where a pivot nearly vanishes.
 Expected<void> SparseLdlt::factor(const Sparse& given) {
   Sparse a = given;
   a.makeCompressed();

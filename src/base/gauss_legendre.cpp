@@ -19,6 +19,8 @@ __extension__ typedef __float128
     Wide;  // NOLINT(modernize-use-using): __extension__ takes a typedef only
 #endif
 
+// Bonnet's recursion m P_m = (2m − 1) x P_{m−1} − (m − 1) P_{m−2}, stable for |x| ≤ 1, and P_n'
+// from P_n and P_{n−1}. O(n) a point.
 template <class Real>
 void legendre(int n, Real x, Real& value, Real& derivative) {
   Real p0 = 1, p1 = x;
@@ -57,6 +59,8 @@ Node node(int n, int k) {
 }
 
 /// The rules of `first` to `last` points.
+/// n points integrate polynomials of degree 2n − 1 exactly. Rules are stored one after the other, n
+/// numbers each.
 struct RuleTable {
   std::vector<double> abscissae, weights;  // those of n points begin at place(n)
 

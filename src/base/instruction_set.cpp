@@ -5,6 +5,8 @@
 namespace knead {
 namespace {
 
+// AVX2 without FMA, and no set's kernels fuse: a fused product has other bits, and all sets must
+// give the same.
 bool runs_here(InstructionSet set) {
 #if defined(__x86_64__) || defined(__i386__)
   switch (set) {

@@ -21,6 +21,9 @@ namespace {
 thread_local bool inside = false;
 
 /// One call of `run_blocks`.
+/// Blocks are taken from an atomic counter, by whoever is free: loads of different size balance
+/// themselves. Relaxed order suffices for it, since the mutex of the pool orders the beginning and
+/// the end of a loop.
 class Loop {
  public:
   Loop(std::ptrdiff_t count, std::ptrdiff_t size,
@@ -73,6 +76,9 @@ class Loop {
 
 /// Threads that wait for loops. It is never destroyed, and they are never joined: they wait when
 /// the process ends.
+/// One loop at a time: whoever finds the pool busy does its loop alone, without waiting, so that
+/// threads of a program cannot block each other. Helpers that come after the last block find none
+/// and leave.
 class Pool {
  public:
   /// Runs the loop with up to that many helpers beside this thread; false, with nothing done, where
@@ -154,6 +160,8 @@ void abandon() {
 }
 [[maybe_unused]] const int registered = pthread_atfork(nullptr, nullptr, abandon);
 
+// Made without a lock and without a static's guard: a fork in between would leave either locked in
+// the child for ever. Of two threads that make one, one pool is deleted.
 Pool& pool() {
   Pool* known = current.load(std::memory_order_acquire);
   if (known != nullptr) return *known;

@@ -94,6 +94,7 @@ class SharedList {
   }
 
  private:
+  // Copy on write: a chunk that another list has is copied before it changes.
   void own_chunk(std::size_t k) {
     if (chunks_[k].use_count() > 1) chunks_[k] = std::make_shared<std::vector<T>>(*chunks_[k]);
   }

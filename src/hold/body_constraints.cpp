@@ -22,6 +22,8 @@ struct CurveSide {
   Point point = Point::Zero(), tangent = Point::Zero();
 };
 
+// R = w N / W and R' = (w N' − R W')/W, from the span on that side of u: both limits exist at a
+// knot of any multiplicity.
 Expected<CurveSide> side_at(const Curve& curve, double u, Side from) {
   const KnotVector& knots = curve.knots(0);
   const int span = knots.find_span(u, from), p = knots.degree();
@@ -62,6 +64,9 @@ Terms difference(Terms a, const Terms& b, double factor) {
 }
 
 /// Couples two sides of a curve as it is at rest.
+/// D_u⁺ = λ D_u⁻ with λ = |S_u⁺| / |S_u⁻| of the rest shape: S + D then has parallel tangents on
+/// both sides, of the same ratio as at rest. Their angle is taken by atan2 of the cross and the
+/// inner product, exact for small ones, where an arc cosine has half the digits.
 SmoothKnot::State couple(const CurveSide& before, const CurveSide& after, bool torn_basis,
                          int degree, double size, const SmoothOptions& options,
                          const std::string& name, ConstraintList& to) {

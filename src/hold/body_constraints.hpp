@@ -6,7 +6,7 @@
 
 #include "knead/hold/constraints.hpp"
 
-/// Design constraints on curves and volumes, in the manner of sculpt/constraints.hpp: every
+/// Design constraints on curves and volumes, in the manner of hold/constraints.hpp: every
 /// function appends to a `ConstraintList` conditions on the displacements X_i of the control
 /// points.
 namespace knead {

@@ -17,6 +17,8 @@ LocalBasis::LocalBasis(const KnotVector& knots, int span, double u, int order)
   basis_derivatives(knots, span, u, order, values.data());
 }
 
+// A derivative of order k jumps at a knot of multiplicity m where m + k > p: there a condition is
+// needed for either side, elsewhere one serves both.
 std::vector<int> spans_at(const KnotVector& knots, double c, int order) {
   const int left = knots.find_span(c, Side::left), right = knots.find_span(c, Side::right);
   if (left == right) return {right};
@@ -24,6 +26,8 @@ std::vector<int> spans_at(const KnotVector& knots, double c, int order) {
                                                         : std::vector<int>{right};
 }
 
+// R = w N / W; ∂R = (w ∂N − R ∂W)/W. Polynomial surfaces return before the quotient, so that their
+// coefficients are the values of B-splines to the bit.
 Expected<Terms> rational_row(const Surface& s, double u, double v, int span_u, int span_v,
                              int along, double* denominator) {
   const LocalBasis a(s.knots(0), span_u, u, 1), b(s.knots(1), span_v, v, 1);
@@ -53,6 +57,8 @@ Expected<Terms> rational_row(const Surface& s, double u, double v, int span_u, i
   return derivative;
 }
 
+// Coefficients up to 1: elimination compares those of different constraints, and lengths of domains
+// are no reason to prefer one.
 void append(ConstraintList& to, const std::string& name, Terms terms,
             const std::optional<Point>& normal) {
   std::erase_if(terms, [](const auto& term) { return term.second == 0; });
@@ -67,6 +73,11 @@ void append(ConstraintList& to, const std::string& name, Terms terms,
   to.constraints.push_back({name, std::move(terms), Point::Zero(), normal});
 }
 
+// QR with column pivoting (Businger and Golub, "Linear least squares solutions by Householder
+// transformations", 1965) chooses rows that are far from combinations of those before:
+// well-conditioned pivots for the elimination, and a measured remainder of all others. The rank
+// starts where the diagonal of R falls below the tolerance, and grows while a remainder, in the
+// 1-norm, exceeds it. Cost: O(m n min(m, n)) for m rows and n unknowns near the curve.
 Expected<SelectedRows> select_rows(const std::vector<Terms>& rows, double tolerance) {
   std::map<int, Eigen::Index> columns;
   for (const Terms& row : rows) {

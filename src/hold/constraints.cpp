@@ -21,6 +21,9 @@ using detail::Terms;
 
 /// The row of control points through which the line c of span `span` runs; −1 if there is none: if
 /// fewer than p knots of the span's functions lie at c.
+/// At a knot of p equal ones among the function's own the curve interpolates a control point: that
+/// row is the line. Held control points keep their bits and leave the system smaller, which an
+/// equation would not.
 int row_on_line(const KnotVector& knots, int span, double c) {
   const int p = knots.degree();
   if (c == knots[span] && knots[span - p + 1] == c) return span - p;
@@ -28,6 +31,9 @@ int row_on_line(const KnotVector& knots, int span, double c) {
   return -1;
 }
 
+// Where rows lie on the line its first order + 1 rows fix the derivatives up to that order.
+// Elsewhere each derivative of the numerator, Σ_i N_i^(k)(c) w_ij X_ij, vanishes for every j; with
+// those of lower order this makes the derivatives of D vanish, as D W is the numerator.
 Expected<void> hold_line(const NetAcross& net, double c, int order, const std::string& name,
                          ConstraintList& to) {
   if (order < 0 || order > 2)
@@ -90,6 +96,7 @@ void keep_present(ConstraintList& list, const Points& displacement, std::size_t 
   }
 }
 
+// Values are divided by the model's size first, the unit in which the space compares right sides.
 Expected<ConstraintSpace> constraint_space(const ConstraintList& list, const Points& displacement,
                                            double size) {
   assert(size > 0);
@@ -168,6 +175,8 @@ Expected<void> pin_point(const Surface& rest, double u, double v, const std::opt
   return {};
 }
 
+// All functions that are not zero somewhere in these spans: D is then exactly 0 there, and with it
+// every derivative. Held are whole spans, since a function is not zero on parts of one.
 Expected<FrozenRegion> freeze_region(const Surface& rest, Interval u, Interval v,
                                      ConstraintList& to) {
   const auto spans_u = covering_spans(rest.knots(0), u, "u");

@@ -15,6 +15,7 @@ constexpr double least_tolerance = 1e-9;
 constexpr int most_chords = 4096;  // per span
 
 /// Where the segment from a to b crosses knots, as fractions of its length, without the ends.
+/// Between crossings the curve stays in one span, where the surface is one polynomial.
 void add_crossings(const KnotVector& knots, double a, double b, std::vector<double>& cuts) {
   for (const int span : knots.spans()) {
     const double t = (knots[span] - a) / (b - a);
@@ -34,6 +35,11 @@ struct PieceRows {
   double growth = 1;  // of the displacement between the points
 };
 
+// On a straight piece within a span of degrees p and q the numerator of D is a polynomial of degree
+// p + q in the piece's parameter: it vanishes if it does at p + q + 1 points. Chebyshev's extreme
+// points serve, between which a polynomial grows by at most 1 + (2/π) ln(p + q + 1) (H. Ehlich and
+// K. Zeller, 1966): so a remainder at the points bounds D between them. Of a rational surface D W
+// is the polynomial, and the ratio of W's largest to its smallest value comes in.
 Expected<void> add_piece(const Surface& s, const std::array<double, 2>& from,
                          const std::array<double, 2>& to, int span_u, int span_v, PieceRows& out) {
   const int degree = s.knots(0).degree() + s.knots(1).degree();
@@ -66,6 +72,9 @@ Expected<void> add_piece(const Surface& s, const std::array<double, 2>& from,
 
 }  // namespace
 
+// Every piece of the polyline within a span gives p + q + 1 rows; most follow from others, since
+// neighbouring pieces share functions. `select_rows` keeps the independent ones, to a tolerance
+// divided by the growth between points.
 Expected<CurveHold> keep_curve(const Surface& rest, const Parameters<2>& polyline, double tolerance,
                                ConstraintList& to, const std::string& name) {
   if (polyline.rows() < 2) return input_error("the curve has less than two points", name);
@@ -128,6 +137,9 @@ Expected<CurveHold> keep_curve(const Surface& rest, const Parameters<2>& polylin
   return CurveHold{static_cast<int>(selected->chosen.size()), all.growth * selected->remainder};
 }
 
+// Chords are doubled until the middle of each, straight in parameters, is near enough to the
+// curve's on the surface: for a smooth curve the deviation falls by four each time, and is largest
+// near the middle.
 Expected<Parameters<2>> parameter_polyline(const Surface& rest, const Curve& parameter_curve,
                                            double tolerance) {
   if (auto valid = detail::check_tolerance(tolerance, "curve"); !valid)

@@ -16,6 +16,9 @@ struct RingRelation {
   Eigen::MatrixXd coefficients;  // rank × n
 };
 
+// Rank by singular values above `flatness` of the largest: 2 for a ring in a plane with the pole, 3
+// for a cone, 1 for a line, 0 if it is collapsed too. Coordinates along the singular vectors kept
+// are then combined by QR with pivoting, whose pivots are the columns that span the ring best.
 Expected<RingRelation> relation(const Eigen::Matrix3Xd& ring, double flatness) {
   RingRelation result;
   const auto left = detail::left_singular(ring);
@@ -35,6 +38,9 @@ Expected<RingRelation> relation(const Eigen::Matrix3Xd& ring, double flatness) {
 
 }  // namespace
 
+// At a collapsed side C¹ asks that the next row stays an affine image of its rest shape: Q_j − P =
+// Σ_k a_jk (Q_k − P) with the a of the rest shape. So a plane tangent to the surface at the pole
+// stays one, and a cone a cone, while the frame of up to three columns moves freely.
 Expected<std::vector<Pole>> keep_poles(const Surface& rest, double tolerance, double flatness,
                                        ConstraintList& to) {
   for (const auto& [value, name] :

@@ -41,6 +41,9 @@ struct Line {
   Expected<void> measure();
 };
 
+// Chebyshev points, 2q + 4 a span of degree q along the line: more than the degree of a product of
+// the numerators and weights on both sides needs, and none on a knot, where one-sided limits would
+// differ.
 Expected<void> Line::measure() {
   const KnotVector& knots = net.knots_along();
   const int samples = 2 * knots.degree() + 4;
@@ -103,6 +106,10 @@ struct WeightRatios {
   bool positions = true, derivatives = true;
 };
 
+// With E the numerator and D = E/W: D_u⁺ = ρ D_u⁻ and D⁺ = D⁻ read E_u⁺/σ − ρ E_u⁻ = κ E⁻, where W⁺
+// = σ W⁻ and W_u⁺/σ − ρ W_u⁻ = κ W⁻. If σ and κ are constant along the line, this is one equation
+// for each function along it, exact; otherwise both sides are rational functions of other
+// denominators, and samples must do.
 WeightRatios weight_ratios(const Line& line) {
   WeightRatios result;
   const NetAcross& net = line.net;
@@ -191,6 +198,8 @@ Expected<void> append_selected(std::vector<Terms> rows, const std::string& name,
 }
 
 /// C0 at samples, or D_u⁺ = λ D_u⁻ + μ D_v with λ and μ of the rest shape at each sample.
+/// Least squares express S_u⁺ by S_u⁻ and S_v of the rest shape, and D_u⁺ obeys the same: the three
+/// stay in a plane at the samples, and to the tolerance between.
 Expected<void> couple_samples(const Line& line, bool derivatives, const std::string& name,
                               double tolerance, ConstraintList& to) {
   std::vector<Terms> rows;
@@ -230,6 +239,7 @@ Expected<void> couple_positions(const Line& line, const WeightRatios& weights,
   return {};
 }
 
+// E_u⁺/σ − ρ E_u⁻ − κ E⁻ = 0 for each function along the line, `ratio` being ρ.
 void couple_derivatives(const Line& line, const WeightRatios& weights, const std::string& name,
                         ConstraintList& to) {
   for (int j = 0; j < line.net.columns(); ++j) {
@@ -243,6 +253,8 @@ void couple_derivatives(const Line& line, const WeightRatios& weights, const std
   }
 }
 
+// Positions first, whatever the angle: a torn basis would open where it creases. Then tangents, by
+// the exact conditions where speeds and weights are in constant ratios, at samples elsewhere.
 Expected<SmoothLine> keep_smooth_line(Line& line, const SmoothOptions& options, double size,
                                       ConstraintList& to) {
   if (auto measured = line.measure(); !measured) return std::unexpected(measured.error());

@@ -37,6 +37,8 @@ struct EdgeRows {
   double weight_error = 0;                  // how far W_u is from κ W
 };
 
+// D = E/W, D_u = (E_u − D W_u)/W: where W_u = κ W along the edge D_u vanishes with E_u − κ E, one
+// condition for each function along it.
 EdgeRows edge_rows(const NetAcross& net, bool at_end) {
   const KnotVector& knots = net.knots();
   const double c = at_end ? knots.domain().upper : knots.domain().lower;
@@ -76,6 +78,8 @@ double distance_to_nearest(const std::vector<double>& sorted, double x) {
   return distance;
 }
 
+// What is missing of a knot's image is reported as a knot to insert, which changes no shape:
+// symmetry of knots can always be reached so.
 void compare_knots(const KnotVector& knots, double tolerance, MirrorReport& report) {
   const Interval domain = knots.domain();
   const auto all = knots.knots();
@@ -107,6 +111,8 @@ void compare_knots(const KnotVector& knots, double tolerance, MirrorReport& repo
   }
 }
 
+// Gauss points and the ends of the domain: as many as the degree needs to tell two polynomials of a
+// span apart.
 Expected<std::array<Points, 2>> partners(const Surface& s, int direction) {
   std::array<std::vector<double>, 2> at, mirrored;
   for (std::size_t d = 0; d < 2; ++d) {
@@ -129,6 +135,9 @@ Expected<std::array<Points, 2>> partners(const Surface& s, int direction) {
 
 }  // namespace
 
+// A half that a mirror completes. Order 0: the edge stays in the plane, n · D = 0. Order 1: it also
+// meets it at right angles, so that both halves join smoothly: the part of D_u along the plane
+// vanishes. Both require that the rest shape has the property.
 Expected<void> hold_symmetry_plane(const Surface& rest, SurfaceEdge edge, const MirrorPlane& plane,
                                    int order, double tolerance, double angle, ConstraintList& to) {
   const auto frame = frame_of(plane);
@@ -210,6 +219,9 @@ Expected<MirrorReport> mirror_report(const Surface& rest, int direction, const M
   return report;
 }
 
+// The ways between partners are all parallel to the plane's normal if it exists: the eigenvector of
+// Σ way wayᵀ with the largest eigenvalue is the least-squares direction, without a sign to choose.
+// The plane goes through the mean of the midpoints.
 Expected<MirrorPlane> mirror_plane(const Surface& rest, int direction) {
   const auto points = partners(rest, direction);
   if (!points) return std::unexpected(points.error());
@@ -224,6 +236,9 @@ Expected<MirrorPlane> mirror_plane(const Surface& rest, int direction) {
                      axes->vectors.col(2)};
 }
 
+// X_b = (I − 2 n nᵀ) X_a: n · (X_a + X_b) = 0 and t · (X_a − X_b) = 0 for both tangents. Exact for
+// rational surfaces too, as weights are symmetric; control points on the middle row are their own
+// partners.
 Expected<MirrorReport> keep_mirror(const Surface& rest, int direction, const MirrorPlane& plane,
                                    double tolerance, ConstraintList& to) {
   auto report = mirror_report(rest, direction, plane, tolerance);

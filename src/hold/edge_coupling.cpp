@@ -87,6 +87,8 @@ Terms independent_terms(const detail::ConstraintElimination& elimination, int un
 }
 
 /// The conditions in the unknowns that an elimination leaves independent.
+/// Independence must be judged after what holds anyway: two conditions that differ in an unknown
+/// that a seam ties may say the same.
 std::vector<Terms> reduced(const detail::ConstraintElimination& elimination,
                            const std::vector<Terms>& conditions) {
   std::map<int, Terms> known;  // of every unknown
@@ -118,6 +120,8 @@ LinearConstraint constraint_of(const std::string& name, const Terms& terms) {
 
 }  // namespace
 
+// One elimination serves all curves: each chosen condition is added to it, so that the next curve
+// is expressed in what those before have left.
 Expected<EdgeCoupling> couple_edges(std::span<const Surface* const> patches,
                                     std::span<const int> rows, std::span<const CoupledEdge> edges,
                                     std::span<const LinearConstraint> before,

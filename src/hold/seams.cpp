@@ -92,6 +92,10 @@ struct Foot {
 
 /// That of the edge's curve to x, where it is nearer than `limit`: on the nearest piece of the
 /// polyline, then by Gauss–Newton on |C(t) − x|² about it.
+/// The polyline says which piece is nearest, within its own deviation (`stray`), and Gauss–Newton
+/// refines: t ← t + (x − C)·C'/|C'|², quadratic where x is on the curve and linear with a small
+/// factor near it. t stays within one piece to either side, or it might slip to another branch of
+/// the curve.
 std::optional<Foot> foot_on(const Point& x, const Edge& edge, double limit) {
   double nearest = limit + edge.longest, t = 0;
   std::size_t piece = edge.t.size();
@@ -144,6 +148,8 @@ Beside beside(const Edge& edge, const Edge& curve, double tolerance) {
 }
 
 /// Largest distance of the samples of `edge` from the points of `other` at the mapped parameters.
+/// Parameters normalised to [0, 1] at both sides: a seam is `whole` only if the same t is the same
+/// point, which is what conditions on coefficients need.
 double mapped_gap(const Edge& edge, const Edge& other, bool reversed) {
   std::vector<double> t = edge.t;
   if (reversed) {
@@ -154,6 +160,8 @@ double mapped_gap(const Edge& edge, const Edge& other, bool reversed) {
 }
 
 /// Whether the isocurves between two opposite edges stay within the tolerance of the edge.
+/// Opposite sides of a patch that is thinner than the tolerance are near each other without being a
+/// seam: then everything between them is near as well.
 bool flat_between(const Edge& edge, double tolerance) {
   const int across = edge_across(edge.id.edge);
   const Interval domain = edge.surface->knots(across).domain(),
@@ -172,6 +180,8 @@ bool flat_between(const Edge& edge, double tolerance) {
   return true;
 }
 
+// From the strictest to the loosest: the same curve with the same parameters (either way), the same
+// curve with others, part of it, nothing.
 std::optional<Seam> compare(const Edge& a, const Edge& b, double tolerance) {
   const bool itself = a.id == b.id;
   if (a.id.patch == b.id.patch && !itself && edge_across(a.id.edge) == edge_across(b.id.edge) &&
@@ -222,6 +232,8 @@ double turn_along(SurfaceEdge edge) {
 
 }  // namespace
 
+// From the first patch along seams until nothing is added. On a one-sided surface the result
+// depends on the way; all patches get a side.
 std::vector<double> seam_sides(std::span<const Seam> seams, int patches, int first) {
   std::vector<double> sides(static_cast<std::size_t>(patches), 0);
   const auto side = [&sides](int patch) -> double& {
@@ -295,6 +307,8 @@ Expected<FoundSeams> find_seams(std::span<const Surface* const> patches, double 
   return found;
 }
 
+// Parameters whose points lay together before are compared: where the sides of a seam slide along
+// each other there is a gap, too.
 Expected<double> moved_gap(const Seam& seam, std::span<const Surface* const> before,
                            std::span<const Surface* const> now) {
   const auto patch = [](std::span<const Surface* const> all, const PatchEdge& e) -> const Surface& {

@@ -60,6 +60,9 @@ struct Coupling {
 };
 
 /// X_{n−p+k} = X_k across a closed direction whose knots and weights repeat.
+/// With knots that repeat by a period, x_{n−p+k} = x_k + period for k = 1 … 2p − 1, p equal control
+/// points at both ends make all p − 1 derivatives continuous: more than tangents, by conditions of
+/// two terms.
 bool Coupling::periodic() {
   const int across = edge_across(seam.a.edge);
   const bool closed = seam.a.patch == seam.b.patch && seam.kind == SeamKind::whole &&
@@ -125,6 +128,9 @@ void Coupling::rigid(const std::string& why) {
   reason("the edge moves as a whole: " + why);
 }
 
+// D_a = D_b along the edge is E_a/W_a = E_b/W_b. With W_b = f W_a, in coefficients on the common
+// space, it is linear: R_a E_a/w_a = R_b E_b/w_b, row by row. Weights out of proportion make both
+// sides rational functions that agree only if they are constant along the edge, hence `rigid`.
 void Coupling::whole(const Expected<seams::RestMeeting>& rest) {
   const auto space =
       seams::common_space(a.knots(edge_along(seam.a.edge)), b.knots(edge_along(seam.b.edge)),
@@ -161,6 +167,10 @@ void Coupling::whole(const Expected<seams::RestMeeting>& rest) {
   if (options.most >= SeamContinuity::g1) tangents(forms_a, forms_b, *space, *rest);
 }
 
+// Inward derivatives: D_a' + ρ D_b' = 0, ρ of the rest shape. With D' = (E' − D W')/W this is
+// E_a'/W_a + ρ E_b'/W_b = κ D, κ = W_a'/W_a + ρ W_b'/W_b, and linear in coefficients of the common
+// space where κ is constant along the edge; 1/length of the domain is the scale in which its spread
+// is judged, as κ is a derivative by the parameter.
 void Coupling::tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms& forms_b,
                         const seams::CommonSpace& space, const seams::RestMeeting& rest) {
   // Folded onto each other, as at a thin trailing edge, counts as smooth: the same condition
@@ -211,6 +221,7 @@ void Coupling::tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms&
 
 }  // namespace
 
+// Ratios are made to agree over all seams before any condition is written (`agree_ratios`).
 Expected<SeamCoupling> couple_seams(std::span<const Surface* const> patches,
                                     std::span<const int> rows, std::span<const Seam> found,
                                     const SeamOptions& options) {

@@ -35,6 +35,8 @@ Points inward(const Evaluation<2>& evaluation, SurfaceEdge edge) {
   return sign * (edge_across(edge) == 0 ? evaluation.at({1, 0}) : evaluation.at({0, 1}));
 }
 
+// p + 3 a span tell a curve of degree p from any other; 24 in all give polylines of short edges a
+// shape.
 std::vector<double> edge_samples(const KnotVector& along) {
   const std::vector<int> spans = along.spans();
   const Interval domain = along.domain();

@@ -24,6 +24,8 @@ std::vector<InnerKnot> mirrored(std::vector<InnerKnot> inner, bool mirror) {
 }
 
 /// Extends `target` to contain `other`; true if that changed it.
+/// A degree raised by one raises every multiplicity by one, or the space would not contain the old
+/// one.
 bool take_over(Target& target, const Target& other, bool mirror, double agreement) {
   bool changed = false;
   if (other.degree > target.degree) {
@@ -53,6 +55,9 @@ bool take_over(Target& target, const Target& other, bool mirror, double agreemen
 
 }  // namespace
 
+// The least spaces that contain both sides at every whole seam, as a fixed point. Knots that stand
+// keep their bits, and new ones are measured from the nearer end, as `normalised_knots` does, so
+// that mirrored edges get mirrored knots.
 std::vector<SeamRefinement> seam_refinements(std::span<const Surface* const> patches,
                                              std::span<const Seam> seams, double agreement) {
   std::vector<std::array<Target, 2>> targets;

@@ -9,6 +9,9 @@
 
 namespace knead::seams {
 
+// ρ minimises Σ |S_a' + ρ S_b'|² over the samples of both edges; `deviation` says how far it is
+// from constant, in radians for small ones. Angles are between the normals, which need not have
+// equal speeds.
 Expected<RestMeeting> rest_meeting(const Surface& a, const Surface& b, const Seam& seam) {
   std::vector<double> t_a = edge_samples(a.knots(edge_along(seam.a.edge)));
   for (double t : edge_samples(b.knots(edge_along(seam.b.edge))))
@@ -46,6 +49,7 @@ Expected<RestMeeting> rest_meeting(const Surface& a, const Surface& b, const Sea
   return rest;
 }
 
+// The most exact seams come first and set the values that others take.
 void agree_ratios(std::span<const Surface* const> patches, std::span<const Seam> seams,
                   std::span<RestMeeting* const> rests) {
   std::vector<std::size_t> order;

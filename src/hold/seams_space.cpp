@@ -48,6 +48,9 @@ void add_blossom(const KnotVector& x, int s, std::span<const double> arguments, 
 /// Coefficients on `to` from those on `from`: same domain [0, 1], `to` clamped with all inner knots
 /// of `from`, its degree the same or one higher (then a mean over the omitted argument, Prautzsch
 /// 1984).
+/// Coefficient i on `to` is the polar form of the piece of `from` at the knots i + 1 … i + q of
+/// `to` (L. Ramshaw, "Blossoms are polar forms", 1989). The piece is one that contains these knots'
+/// spans. Every term is non-negative, so that no digit cancels, and rows sum to 1 to rounding.
 RowMatrix coarse_to_fine(const KnotVector& from, const KnotVector& to) {
   const int p = from.degree(), q = to.degree();
   assert(q == p || q == p + 1);
@@ -72,6 +75,7 @@ RowMatrix coarse_to_fine(const KnotVector& from, const KnotVector& to) {
   return result;
 }
 
+// Degree by degree, then all knots at once: each map is exact in exact arithmetic.
 std::optional<RowMatrix> onto(int degree, const std::vector<double>& knots, int common_degree,
                               const std::vector<double>& common) {
   auto from = KnotVector::create(degree, knots);
@@ -222,6 +226,8 @@ std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b
   return result;
 }
 
+// The numerator on the edge is Σ_j E_j B_j(t), one form E_j for each function along it; on a
+// clamped end `value` has one entry a row.
 EdgeForms edge_forms(const Surface& surface, SurfaceEdge edge) {
   const int across = edge_across(edge);
   const KnotVector& knots = surface.knots(across);

@@ -68,6 +68,9 @@ struct KnotLine {
 };
 
 /// The spans of a surface, with the edges that run through them.
+/// Chords of the edges are drawn into a grid of spans, as lines into pixels. Marked are all spans
+/// that the box of a piece meets, slack included: too many rather than too few, as a span that is
+/// missed would let an edge move.
 class Cells {
  public:
   Cells(const Surface& surface, const VisibleRegion& region, double tolerance)
@@ -84,6 +87,7 @@ class Cells {
 
   /// Marks the spans that an edge crosses, and returns the lines it runs along. `number` < 0: not
   /// held.
+  /// The edge's deviation from its chords is in fractions of the domain, hence the slack.
   std::vector<KnotLine> mark(const TrimEdge& edge, int number) {
     std::vector<KnotLine> lines;
     const Vector2d slack = Vector2d(u_.domain.length(), v_.domain.length()) * edge.deviation;
@@ -132,6 +136,8 @@ class Cells {
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   [[nodiscard]] std::size_t cell(int i, int j) const { return at(i * v_.count() + j); }
 
+  // The tolerance of space becomes one of parameters by the largest sampled speed, at most 1e-4 of
+  // the domain: where a surface is nearly degenerate a length says nothing.
   void speed(const Surface& surface, double tolerance) {
     constexpr int samples = 12;
     std::array<std::vector<double>, 2> grid;
@@ -173,6 +179,8 @@ class Cells {
             v_.domain.lower + fractions.y() * v_.domain.length()};
   }
 
+  // A chord with both ends near one knot line counts as on it and holds the functions of the line
+  // only; others mark spans, in pieces so short that their boxes hold little but the chord.
   void chord(const Vector2d& a, const Vector2d& b, const Vector2d& slack, int number,
              std::vector<KnotLine>& lines) {
     for (int d = 0; d < 2; ++d) {
@@ -247,6 +255,9 @@ void hold_line(const Cells& cells, const KnotLine& line, int order, int columns,
 
 }  // namespace
 
+// Three reasons to hold a control point, in this order: its function acts on a held line or pole up
+// to the order; a held edge runs through its support; nothing visible does. The first that applies
+// gives the name.
 Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region,
                               std::span<const int> orders, double tolerance, ConstraintList& to) {
   if (orders.size() != region.edges.size())

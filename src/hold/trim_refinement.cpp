@@ -41,6 +41,8 @@ class Isocurve {
   }
   /// The parameter at this length from the place towards `end`, or `end`; in steps of a 64th of the
   /// length.
+  /// An adaptive march: steps between a 128th and a 32nd of the length, so that the sum of chords
+  /// is near the arc, whatever the speed of the parameter.
   [[nodiscard]] Expected<double> reach(double length_to, double end) const {
     constexpr int steps = 64;
     const double from = at_[direction_];
@@ -74,6 +76,8 @@ class Isocurve {
 };
 
 /// Knots that divide the spans of one direction between `lower` and `upper` to at most `length`.
+/// Spans are divided evenly in parameters, measured in space: a surface whose speed changes little
+/// within a span is refined evenly.
 Expected<void> divide(const Isocurve& curve, const KnotVector& knots, double lower, double upper,
                       double length, std::vector<double>& insert) {
   std::vector<double> lines = {lower, upper};
@@ -115,6 +119,7 @@ Expected<Surface> TrimRefinement::apply(const Surface& surface) const {
   return insert_knots<2>(*result, insert);
 }
 
+// Lengths grow by 2 until the net fits under the cap, or nothing is refined.
 Expected<TrimRefinement> trim_refinement(const Surface& surface, const std::array<double, 2>& at,
                                          double distance, double detail, int cap) {
   TrimRefinement result;

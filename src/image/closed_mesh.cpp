@@ -23,12 +23,16 @@ std::vector<double> steps(const KnotVector& knots, int per_span, bool last) {
 }
 
 /// Which side of the plane through three points.
+/// Six times the signed volume of the tetrahedron (a, b, c, p).
 double side_of(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b,
                const Eigen::RowVector3d& c, const Eigen::RowVector3d& p) {
   return (b - a).cross(c - a).dot(p - a);
 }
 
 /// Whether a segment goes through a triangle.
+/// Its ends lie on different sides of the plane, and its line passes the three edges on the same
+/// side. What only touches has a volume of 0 and does not count, so that a mesh that lies on itself
+/// is not reported for rounding.
 bool pierces(const Points& at, std::uint32_t from, std::uint32_t to, const Corners& triangle) {
   const Eigen::RowVector3d a = at.row(triangle[0]), b = at.row(triangle[1]),
                            c = at.row(triangle[2]), p = at.row(from), q = at.row(to);
@@ -46,6 +50,9 @@ bool cross(const Points& at, const Corners& s, const Corners& t) {
 
 /// Twice the area of (a, b, p) in the plane of the last two coordinates; exactly the negative for
 /// (b, a, p).
+/// Both triangles at an edge compute the same number, not two that differ by rounding: a line along
+/// x that passes near the edge then meets exactly one of them, and crosses a closed mesh an even
+/// number of times.
 double area_of(const Point& a, const Point& b, double y, double z) {
   const bool swapped = std::pair(a[1], a[2]) > std::pair(b[1], b[2]);
   const Point &from = swapped ? b : a, &to = swapped ? a : b;
@@ -59,6 +66,9 @@ bool keeps_edge(const Point& a, const Point& b) { return a[2] == b[2] ? b[1] < a
 
 }  // namespace
 
+// Samples of a grid of parameters with corners shared around u, and around v of a torus. On a
+// sphere all samples of the first and last column are one corner each, numbered last, and the
+// quadrilaterals beside it are one triangle each.
 ClosedMesh closed_mesh(const ClosedSurface& snake, int per_span) {
   const bool sphere = snake.form == SurfaceForm::sphere;
   const std::vector<double> u = steps(snake.surface.knots()[0], per_span, false),
@@ -92,6 +102,8 @@ ClosedMesh closed_mesh(const ClosedSurface& snake, int per_span) {
   return mesh;
 }
 
+// Sweep along x over boxes sorted by their lower ends: only triangles whose boxes overlap are
+// tested.
 int crossings(const ClosedMesh& mesh) {
   struct Box {
     Eigen::RowVector3d lower, upper;
@@ -124,6 +136,10 @@ int crossings(const ClosedMesh& mesh) {
   return count;
 }
 
+// Every triangle is rasterised in the plane of the lines along x; each line keeps the x at which it
+// goes through the surface, sorted, and what is between the first and second, third and fourth … is
+// inside. In voxels, whatever the frame: directions that are not perpendicular change nothing of
+// what is inside. Cost: O(voxels + lines that triangles cover).
 VolumeImage mask_of(const ClosedMesh& mesh, const std::array<int, 3>& size,
                     const VolumeFrame& frame) {
   VolumeImage mask{size, {}, frame};

@@ -37,6 +37,7 @@ Expected<void> check_start(const SurfaceStart& start) {
 }
 
 /// A place of the start, at fractions of a turn around u and v (of half a turn from pole to pole).
+/// A sphere has its poles at z = −1, v = 0, and at z = 1, v = 1, so that S_u × S_v points outwards.
 Point place_of(const SurfaceStart& start, const Eigen::Quaterniond& turn, double u, double v) {
   const double a = 2 * pi * u;
   Point at;
@@ -88,6 +89,9 @@ Expected<ClosedSurface> closed_surface(const SurfaceStart& start,
   return net->surface(*c);
 }
 
+// Area ∫ |S_u × S_v|; volume ∫ S · (S_u × S_v) / 3 by the divergence theorem, whose integrand is of
+// degree 3p − 1 at most in each direction: p + 3 points are exact for p ≤ 6, and the area's root is
+// smooth.
 SurfaceMeasure measure(const ClosedSurface& snake) {
   std::array<BasisQuadrature, 2> q;
   for (std::size_t d = 0; d < 2; ++d) {

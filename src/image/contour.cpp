@@ -15,6 +15,7 @@ double turn(const Place& a, const Place& b, const Place& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
+// Strictly: segments that touch do not cross, as those that follow one another must not.
 bool cross(const Place& a, const Place& b, const Place& c, const Place& d) {
   return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
 }

@@ -25,6 +25,8 @@ void for_rows_inside(std::span<const std::array<double, 2>> polygon, int width, 
     at.clear();
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       const auto &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+      // Half open: a corner on the row belongs to one of its two edges, so that every row is
+      // crossed an even number of times.
       if ((a[1] <= y) == (b[1] <= y)) continue;
       at.push_back(a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
     }

@@ -50,6 +50,8 @@ Expected<void> check_potential_settings(const ImagePotentialSettings& s) {
 namespace {
 
 /// Sums along rows by the trapezoidal rule, from their left end.
+/// ∂J/∂x = I, so that ∮ J dy = ∫∫ I dx dy: the sum of intensity inside a contour as a line
+/// integral, whose cost is that of the contour and not of the pixels inside.
 Image sums_to_the_left(const Image& image) {
   Image sums = image;
   for (int y = 0; y < image.height; ++y) {
@@ -89,6 +91,10 @@ Expected<Image> nearness(const Image& image, const std::optional<Image>& mask) {
 
 }  // namespace
 
+// All terms of Q are added up as images and interpolated once. So the force is the exact gradient
+// of one C2 function, which forces interpolated on their own are not, and costs 16 coefficients a
+// point. Only the flow, which is no gradient, and the region term, which depends on the contour as
+// a whole, are kept apart.
 Expected<ImagePotential> ImagePotential::create(const Image& image,
                                                 const ImagePotentialSettings& settings,
                                                 const std::optional<Image>& mask) {

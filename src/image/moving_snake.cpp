@@ -15,6 +15,8 @@ constexpr double most_uneven = 2;
 
 }  // namespace
 
+// Area ½ ∮ x dy − y dx and intensity ∮ J dy (Green), J the sums to the left. Signed: which side is
+// inside follows from the sign, not from the order of points.
 Inside MovingSnake::inside(const ImagePotential& image) const {
   Inside sum;
   if (!settings.closed) return sum;
@@ -28,6 +30,7 @@ Inside MovingSnake::inside(const ImagePotential& image) const {
   return sum;
 }
 
+// v' of clamped knots: p (c₁ − c₀) over the length of the first span, and the same at the end.
 std::array<Eigen::RowVector3d, 2> MovingSnake::end_tangents() const {
   const KnotVector& knots = net.knots();
   const int p = knots.degree();
@@ -37,6 +40,8 @@ std::array<Eigen::RowVector3d, 2> MovingSnake::end_tangents() const {
   return {p * (c.row(1) - c.row(0)) / first, p * (c.row(n - 1) - c.row(n - 2)) / final};
 }
 
+// Stretch draws a free end inwards by α |v'|. A force as large outwards, that of the start,
+// balances it: lengths are then the image's affair, and the end still turns with its tangent.
 std::array<Eigen::RowVector3d, 2> MovingSnake::pulls() const {
   std::array<Eigen::RowVector3d, 2> pulls = {Eigen::RowVector3d::Zero(),
                                              Eigen::RowVector3d::Zero()};
@@ -52,6 +57,9 @@ bool MovingSnake::uneven() const {
   return speed.maxCoeff() > most_uneven * speed.minCoeff();
 }
 
+// Forces along the normal leave the parametrisation alone, and control points gather where the
+// contour has shrunk. Fitting the same contour over its chord length moves it within itself only,
+// to the accuracy of the net.
 Expected<void> MovingSnake::spread() {
   const auto curve = net.curve(c);
   if (!curve) return std::unexpected(curve.error());
@@ -61,6 +69,9 @@ Expected<void> MovingSnake::spread() {
   return {};
 }
 
+// γ v is the inertial part of the right side (γ M c as a load), so that one load vector serves the
+// whole step. Pressure acts along (y', −x'), not along its unit vector: the same force per length
+// of the contour for any parametrisation, as ds = |v'| du.
 Points MovingSnake::forces(const ImagePotential& image, double side,
                            const std::optional<Sides>& sides) const {
   const Points v = net.at_gauss(c, 0), t = net.at_gauss(c, 1);
@@ -87,6 +98,9 @@ Points MovingSnake::forces(const ImagePotential& image, double side,
   return f;
 }
 
+// Semi-implicit Euler of Kass, Witkin and Terzopoulos (1988): (γ M + K) c⁺ = γ M c + F(c), stiff
+// terms implicit, the image explicit. K alone allows any step; F allows about a pixel, as an image
+// says nothing of what is further, hence the limit on moves.
 Expected<void> MovingSnake::step(const ImagePotential& image, double side,
                                  const std::optional<Sides>& sides) {
   const Points next = net.solve(forces(image, side, sides), c, pulls());
@@ -123,6 +137,8 @@ Expected<MovingSnake> snake_on(const Curve& start, const SnakeSettings& settings
   return snake;
 }
 
+// Where the spans only grow in number the space contains the old one, and the contour stays to
+// rounding.
 Expected<MovingSnake> moved_to(const MovingSnake& snake, std::span<const double> breaks) {
   const auto curve = snake.net.curve(snake.c);
   if (!curve) return std::unexpected(curve.error());
@@ -145,6 +161,8 @@ std::vector<double> halved(const std::vector<double>& breaks, const std::vector<
   return result;
 }
 
+// Both at the Gauss points of the coarse net, as parameters are the same: the distance across the
+// coarse contour, as points may slide along it without moving it.
 std::vector<bool> spans_that_differ(const MovingSnake& coarse, const MovingSnake& fine) {
   const auto& at = coarse.net.quadrature().parameters;
   std::vector<bool> marked(coarse.net.breaks().size() - 1, false);

@@ -33,6 +33,7 @@ std::size_t bytes_per_value(NrrdType type) {
   }
 }
 
+// Copied byte by byte, as data begin anywhere in a file and not on the boundary of a number.
 template <class T>
 void read_values(std::string_view data, bool swapped, std::vector<double>& values) {
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -112,6 +113,8 @@ std::size_t NrrdHeader::data_bytes() const {
   return all;
 }
 
+// Lines are skipped before bytes, as the format says. −1 bytes means that the data are the last
+// ones of the file, whatever precedes them.
 Expected<VolumeImage> nrrd_volume(const NrrdHeader& header, std::string_view data) {
   for (long line = 0; line < header.skipped_lines; ++line) {
     const auto end = data.find('\n');

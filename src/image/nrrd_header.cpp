@@ -16,6 +16,7 @@
 namespace knead {
 namespace {
 
+// As doubles a gigabyte, before splines and flows of it are made.
 constexpr double most_voxels = 1 << 27;
 constexpr std::size_t longest_header = 1 << 20;
 
@@ -262,6 +263,8 @@ Expected<std::vector<double>> per_axis(const HeaderFields& fields, const std::st
 }
 
 /// Spacings, and where the axes begin.
+/// A minimum of cells is half a step before the first centre, one of nodes is the centre: a file
+/// that does not say which is refused, since either guess would shift the volume.
 Expected<void> read_axes(const HeaderFields& fields, NrrdHeader& header) {
   const auto spacings = per_axis(fields, "spacings"), mins = per_axis(fields, "axis mins");
   if (!spacings) return std::unexpected(spacings.error());

@@ -12,6 +12,8 @@ namespace knead {
 namespace {
 
 /// Which closed snake each pixel is inside of.
+/// Rasterised polygons of Gauss points, to half a pixel: exact insides would cost point-in-curve
+/// tests for every sample of every band.
 class Cover {
  public:
   static constexpr int none = -1, several = -2;
@@ -58,6 +60,8 @@ class Cover {
 /// Grey values with weights.
 using GreySamples = std::vector<std::pair<double, double>>;
 
+// A median and not a mean: a bright neighbour that reaches into the band by less than half does not
+// change it.
 std::optional<double> median(GreySamples samples) {
   std::ranges::sort(samples);
   double all = 0, below = 0;
@@ -70,6 +74,8 @@ std::optional<double> median(GreySamples samples) {
 }
 
 /// Fills in what is outside within the snake's band.
+/// From every Gauss point outwards, a sample a pixel, until the band ends or another snake begins;
+/// weighted by the length of contour that the point stands for, or crowded points would count more.
 void look_around(const ImagePotential& image, const MovingSnake& snake, double side,
                  const Cover& cover, int snake_index, Sides& sides) {
   const Points v = snake.net.at_gauss(snake.c, 0), t = snake.net.at_gauss(snake.c, 1);
@@ -128,6 +134,9 @@ std::vector<std::optional<Sides>> sides_of(const ImagePotential& image,
   return result;
 }
 
+// Chan and Vese (2001): the derivative of ∫ (I − μ_in)² inside plus ∫ (I − μ_out)² outside as the
+// contour moves outwards, negated. Points in other snakes or beyond the image are pushed back with
+// the largest force that the term has between the two means.
 double region_pressure(const Sides& sides, std::size_t point, double grey, bool relative) {
   const double outside = sides.outside[point], contrast = sides.inside - outside,
                square = contrast * contrast;

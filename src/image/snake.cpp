@@ -8,6 +8,7 @@
 
 namespace knead {
 
+// Even spans: of the length of the polygon, or of the units asked for, in which α and β count.
 Expected<Curve> curve_through(std::span<const std::array<double, 2>> points,
                               const SnakeSettings& settings) {
   if (auto checked = check_settings(settings); !checked) return std::unexpected(checked.error());

@@ -10,6 +10,9 @@ constexpr int places_compared = 10, highest_level = 40, patience = 20;
 
 }  // namespace
 
+// Ten places are collected, then the eleventh is compared with all of them: a snake that circles
+// through some of them rests as well. Moves shrink by 2^level as viscosity grows, and are counted
+// as if it had not.
 void SnakeMotion::went_to(const Points& c, double rest) {
   if (static_cast<int>(before_.size()) < places_compared) {
     before_.push_back(c);
@@ -23,6 +26,9 @@ void SnakeMotion::went_to(const Points& c, double rest) {
   before_.clear();
 }
 
+// An explicit force with a stiffness above 2γ makes control points swing ever wider across an edge,
+// each move against the last one. Where those that turn back outweigh a quarter of all, γ is
+// doubled, which halves the step; after 20 moves that go on by nine tenths it is halved again.
 bool SnakeMotion::steadied(const Points& move) {
   double onwards = 0, all = 0;  // how much of the motion goes on as before
   if (move_.rows() == move.rows()) {
@@ -39,6 +45,8 @@ bool SnakeMotion::steadied(const Points& move) {
   return level_ != before;
 }
 
+// |d| ↦ m tanh(|d|/m): identity for small moves, and smooth, where a cut at m would make the point
+// at which a snake rests depend on it.
 Points limited(Points moves, double most) {
   for (Eigen::Index k = 0; k < moves.rows(); ++k) {
     const double length = moves.row(k).norm();

@@ -24,6 +24,10 @@ Expected<KnotVector> knots_between(std::span<const double> breaks, const SnakeSe
 
 }  // namespace
 
+// A = γ M + α G11 + β G22 + Σ k N Nᵀ of one coordinate, N × N with bandwidth p, exact Gramians of
+// the given knots. Periodic functions fold by i mod N, which adds entries in the corners. M in
+// place of Kass's identity makes the evolution that of the contour and not of its control points:
+// the same motion on any net. A projection has M alone.
 Expected<SnakeNet> SnakeNet::create(std::span<const double> breaks, const SnakeSettings& settings,
                                     bool projection) {
   auto knots = knots_between(breaks, settings);
@@ -71,6 +75,8 @@ Expected<SnakeNet> SnakeNet::create(std::span<const double> breaks, const SnakeS
   return net;
 }
 
+// Held ends stay in the matrix as rows of the identity: symmetric, and the numbering of unknowns is
+// the same for all snakes.
 Expected<void> SnakeNet::set_viscosity(double gamma) {
   matrix_ = gamma * mass_ + stiffness_;
   SparseMatrix reduced = matrix_;
@@ -98,6 +104,8 @@ Points SnakeNet::at_gauss(const Points& c, int derivative) const {
   return result;
 }
 
+// ∫ N f ds by p + 2 Gauss points a span, as the image is no polynomial; one substitution, O(N p).
+// Columns of held ends go to the right side.
 Points SnakeNet::solve(const Points& f, const Points& c,
                        const std::array<Eigen::RowVector3d, 2>& ends) const {
   const BasisTable& basis = quadrature_.basis;
@@ -150,6 +158,9 @@ Expected<Points> projected(const Curve& curve, std::span<const double> breaks,
   return net->solve(places->points(), ends);
 }
 
+// The c that minimises ∫ |v(s) − q(s)|² ds, q the polygon at the same share of its length. Least
+// squares in L², not at the given places: places that crowd do not outweigh others, and fewer
+// places than unknowns leave nothing undetermined.
 Expected<Points> fitted(std::vector<std::array<double, 2>> places, std::span<const double> breaks,
                         const SnakeSettings& settings) {
   if (settings.closed && places.front() != places.back()) places.push_back(places.front());

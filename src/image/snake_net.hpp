@@ -16,8 +16,8 @@ namespace knead {
 class SnakeNet {
  public:
   /// On spans between these places of the parameter, ascending, at least p + 1 of them for a closed
-  /// snake. `held`: the first and the last unknown keep their places. Errors: those of the
-  /// factorisation.
+  /// snake. `projection`: with M alone, for least squares, and the first and the last unknown of an
+  /// open one held. Errors: those of the factorisation.
   [[nodiscard]] static Expected<SnakeNet> create(std::span<const double> breaks,
                                                  const SnakeSettings& settings,
                                                  bool projection = false);

@@ -26,6 +26,7 @@ Expected<KnotVector> uniform_knots(int degree, int count, double length, bool pe
 }
 
 /// The Gramian of functions that come around again.
+/// On uniform periodic knots the result is a symmetric circulant matrix.
 Eigen::MatrixXd folded(const BandMatrix& band, int count) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, count);
   const int p = band.half_bandwidth();
@@ -37,6 +38,8 @@ Eigen::MatrixXd folded(const BandMatrix& band, int count) {
 }
 
 /// The eigenvalue of a symmetric circulant matrix for a wave number.
+/// Its eigenvectors are cosines and sines of 2π k i/n whatever its entries: so all Gramians around
+/// u are diagonal in one Fourier basis.
 double symbol(const Eigen::MatrixXd& circulant, int wave) {
   double sum = 0;
   const auto n = static_cast<int>(circulant.rows());
@@ -45,6 +48,9 @@ double symbol(const Eigen::MatrixXd& circulant, int wave) {
 }
 
 /// ∫ N_i^(d) N_j^(d) weight(v) dv of the functions from pole to pole.
+/// 1/sin is infinite at a pole. It weighs slopes along u only, of waves k ≥ 1, whose functions
+/// vanish there (`allowed`): what is integrated stays finite, and entries of functions that do not
+/// vanish are never used.
 template <class Weight>
 Eigen::MatrixXd weighted_gramian(const KnotVector& knots, int derivative, const Weight& weight) {
   const BasisQuadrature q = gauss_basis(knots, knots.degree() + 1 + extra_points, derivative);
@@ -132,6 +138,8 @@ Expected<SurfaceNet> SurfaceNet::create(const SurfaceSpace& space, double alpha,
   return net;
 }
 
+// Real and orthonormal: √(1/n) for k = 0 and n/2, √(2/n) cos and sin for those between. Dense
+// products, O(n²) a line: with some tens of control points around, a fast transform gains nothing.
 void SurfaceNet::make_transform() {
   const int n = space_.counts[0];
   waves_.resize(n, n);
@@ -150,6 +158,9 @@ void SurfaceNet::make_transform() {
   }
 }
 
+// A pole is one point with a tangent plane if the first column is constant (wave 0 alone) and the
+// second is it plus an affine image of a regular polygon (waves 0, its mean the pole, and 1). In
+// the Fourier basis these conditions leave out coefficients, and couple nothing.
 Eigen::MatrixXd SurfaceNet::allowed(int wave) const {
   const int m = space_.counts[1];
   if (space_.form == SurfaceForm::torus) return Eigen::MatrixXd::Identity(m, m);
@@ -162,6 +173,10 @@ Eigen::MatrixXd SurfaceNet::allowed(int wave) const {
   return t;
 }
 
+// K = Σ products of circulant and dense matrices becomes one dense m × m matrix for each wave
+// number: n/2 + 1 factors of O(m³) in place of one of (n m)³, or of its band. Bend on a sphere is
+// K₁ M⁻¹ K₁, the square of the discrete Laplacian: second derivatives in u and v would be infinite
+// at poles although the surface is smooth there.
 Expected<void> SurfaceNet::make_modes(double alpha, double beta) {
   for (const int wave : {0, 1, 2}) allowed_.push_back(allowed(wave));
   const auto around = gramians(axes_[0].knots);
@@ -219,6 +234,7 @@ Expected<void> SurfaceNet::factor(double gamma, bool mass_alone) {
   return {};
 }
 
+// Rows of `waves` hold the m × 3 coefficients of one column of the Fourier basis.
 template <class Work>
 Points SurfaceNet::by_modes(const Points& right, const Work& work) const {
   const int n = space_.counts[0], m = space_.counts[1];
@@ -251,6 +267,7 @@ Points SurfaceNet::internal(const Points& c) const {
   });
 }
 
+// Sum factorisation: first along u for all columns, then along v for each Gauss point of u.
 Points SurfaceNet::at_gauss(const Points& c, int du, int dv) const {
   const int n = space_.counts[0], m = space_.counts[1];
   const Dense &u = axes_[0].functions[static_cast<std::size_t>(du)],
@@ -298,6 +315,8 @@ Eigen::VectorXd SurfaceNet::functions_at(double u, double v) const {
   return all;
 }
 
+// Of the column at the pole its mean is left; of the next one wave 1, about the pole. Moves obey
+// these conditions already, but for the limit on their length, which is not linear.
 void SurfaceNet::keep_poles(Points& c) const {
   if (space_.form == SurfaceForm::torus) return;
   const int n = space_.counts[0], m = space_.counts[1];

@@ -60,6 +60,10 @@ struct MovingSurface {
 
   /// The move by forces on the unknowns, springs drawing at its end (Sherman, Morrison and
   /// Woodbury).
+  /// With H the functions at the springs, S their strengths and A = γ M + K: A d = f + H S (to −
+  /// Hᵀ(c + d)). λ = S (to − Hᵀ(c + d)) solves (Hᵀ A⁻¹ H + S⁻¹) λ = to − Hᵀ c − Hᵀ A⁻¹ f, a system
+  /// as small as there are springs, and d = A⁻¹ f + (A⁻¹ H) λ. In the matrix a spring would couple
+  /// all waves and undo the transform.
   [[nodiscard]] Expected<Points> moved_by(Points forces) const {
     const auto count = std::ssize(settings.springs);
     if (count == 0) return net.solve(forces);
@@ -78,6 +82,8 @@ struct MovingSurface {
     return Points(free + spread * *drawn);
   }
 
+  // ∫ x dy dz over the surface, in voxels: n_x dA = (S_u × S_v)_x du dv. Intensity with sums along
+  // x in place of x.
   [[nodiscard]] InsideSums inside(const VolumePotential& image) const {
     InsideSums sum;
     const Points v = net.at_gauss(c, 0, 0), u = net.at_gauss(c, 1, 0), w = net.at_gauss(c, 0, 1);
@@ -144,6 +150,8 @@ struct MovingSurface {
     return f;
   }
 
+  // The move d of (γ M + K) d = F − K c, which is c⁺ − c of the implicit step: near rest its right
+  // side is small, and the rounding of γ M c plays no part.
   Expected<void> step(const VolumePotential& image, double side,
                       const std::optional<Greys>& greys) {
     auto moved = moved_by(net.load(forces(image, side, greys)) - net.internal(c));
@@ -179,6 +187,10 @@ struct MovingSurface {
   /// Moves it within itself so that area J is stretched evenly, to first order: by the places of
   /// parameters shifted by ∇φ with Δφ = mean − log J on Ω, since log J changes by Δφ (J. Moser's
   /// construction, linear).
+  /// The Poisson problem has constants in its null space: 1e-6 of M, in the radius of the domain,
+  /// makes it definite and hardly changes φ, as the right side has the mean 0. On a sphere ∇φ has
+  /// the components φ_u / sin² and φ_v. The mass matrix turns the shift at Gauss points into one of
+  /// the unknowns.
   Expected<void> redistribute(const Eigen::VectorXd& stretch) {
     const double turn = net.space().lengths[0] / (2 * std::numbers::pi);
     if (!mass) {
@@ -216,6 +228,7 @@ struct MovingSurface {
 };
 
 /// All of them until the last one rests.
+/// Sums of all surfaces come first, as those outside of one are what is in none.
 Expected<void> run_until_rest(const VolumePotential& image, std::vector<MovingSurface>& snakes) {
   const bool region = image.settings().region != 0;
   const auto [nx, ny, nz] = image.size();

@@ -62,6 +62,8 @@ void each_line(VolumeImage& volume, std::size_t axis, const Work& work) {
 }
 
 /// Derivatives by voxels of the splines along an axis.
+/// The derivative of the cubic spline at its knots, (c_{i+1} − c_{i−1})/2: of fourth order, where
+/// differences of voxels are of second, at the cost of one filter.
 VolumeImage slope_along(VolumeImage volume, std::size_t axis) {
   std::vector<double> line;
   each_line(volume, axis, [&line](double* first, std::size_t stride, int n) {
@@ -126,6 +128,7 @@ VolumeImage gaussian(const VolumeImage& volume, double sigma) {
   return result;
 }
 
+// x = origin + D i, hence ∂I/∂x = D⁻ᵀ ∂I/∂i.
 std::array<VolumeImage, 3> gradient(const VolumeImage& volume) {
   std::array<VolumeImage, 3> slopes = {slope_along(volume, 0), slope_along(volume, 1),
                                        slope_along(volume, 2)};
@@ -236,6 +239,7 @@ std::array<VolumeImage, 3> gradient_vector_flow(const VolumeImage& edges, double
   return flow;
 }
 
+// As `ImageSpline`, with one direction more.
 VolumeSpline::VolumeSpline(const VolumeImage& volume) : size_(volume.size) {
   VolumeImage c = volume;
   for (std::size_t d = 0; d < 3; ++d) each_line(c, d, detail::interpolate_line);
@@ -255,6 +259,7 @@ VolumeSpline::VolumeSpline(const VolumeImage& volume) : size_(volume.size) {
   }
 }
 
+// 64 coefficients once for the value and all three derivatives: sums along x serve both y and z.
 Eigen::Vector4d VolumeSpline::sum(const Point& voxel, bool derivatives) const {
   double values[3][4], slopes[3][4];
   int first[3], used[3];

@@ -23,6 +23,7 @@ struct VolumePotential::Fields {
 namespace {
 
 /// Sums along the first direction by the trapezoidal rule, from the border.
+/// J with ∂J/∂i = I: by the divergence theorem ∮ J n_i dA is the sum of intensity inside.
 VolumeImage sums_along_rows(const VolumeImage& volume) {
   VolumeImage sums = volume;
   for (int z = 0; z < volume.size[2]; ++z) {
@@ -72,6 +73,8 @@ Expected<VolumeImage> distance_from(const VolumeImage& volume,
 
 }  // namespace
 
+// Splines are made of what the settings use alone: each takes a number per voxel, and a volume of
+// 2^27 voxels is a gigabyte each.
 Expected<VolumePotential> VolumePotential::create(const VolumeImage& volume,
                                                   const ImagePotentialSettings& settings,
                                                   const std::optional<VolumeImage>& mask) {
@@ -125,6 +128,7 @@ double VolumePotential::value(const Point& place) const {
   return fields_->potential ? fields_->potential->value(voxel(place)) : 0;
 }
 
+// ∇ in space from the derivatives by voxels: D⁻ᵀ.
 Eigen::Vector3d VolumePotential::force(const Point& place) const {
   if (!fields_->potential) return Eigen::Vector3d::Zero();
   return fields_->to_voxels.transpose() * fields_->potential->gradient(voxel(place));

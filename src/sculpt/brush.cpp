@@ -18,6 +18,7 @@ constexpr double most_lean = std::numbers::pi / 3;  // of a pen's axis, from the
 constexpr double opposed = 0.1;  // mean of normals below which they say nothing of a direction
 
 /// Half the way to the neighbours on both sides.
+/// Trapezoidal weights of the abscissae, which need not be even.
 std::vector<double> cells_of(const std::vector<double>& at) {
   std::vector<double> cells(at.size());
   for (std::size_t k = 0; k < at.size(); ++k) {
@@ -74,6 +75,7 @@ bool leans(BrushKind kind) {
 
 /// The direction of a pen's axis, on the side of the normal and no farther from it than pens may
 /// lean.
+/// Beyond 60° the direction would be nearly within the surface, and a push of it a shear.
 Point leaned(const Point& normal, const Point& axis) {
   const Point along = axis.dot(normal) * normal, aside = axis - along;
   const double up = along.norm(), out = aside.norm();
@@ -99,6 +101,8 @@ bool acts_about_one_place(BrushKind kind) {
          kind == BrushKind::stamp;
 }
 
+// t³ (10 − 15 t + 6 t²), the quintic with two vanishing derivatives at both ends: C² is what cubic
+// surfaces can follow.
 double brush_falloff(double distance, double radius, double core) {
   const double t = (1 - distance / radius) /
                    (1 - core);  // from the rim inwards, where it is small without cancellation
@@ -106,6 +110,9 @@ double brush_falloff(double distance, double radius, double core) {
   return t <= rim ? 0 : t * t * t * (10 - t * (15 - 6 * t));
 }
 
+// The area of a sample is |S_u × S_v| by the cell of its abscissa, so that means over samples are
+// means over the surface and not over its net. A normal is left out where |S_u × S_v| is below 1e-9
+// of |S_u|² + |S_v|²: at poles and on degenerate sides.
 Expected<void> BrushSamples::append(const Surface& shape, const SiteValues<2>& values,
                                     double side) {
   const std::array<const std::vector<double>*, 2> at = {&values.abscissae(0), &values.abscissae(1)};
@@ -164,6 +171,11 @@ BrushHistory::BrushHistory(Eigen::Index samples)
       total_(Eigen::VectorXd::Zero(samples)),
       sum_(Points::Zero(samples, 3)) {}
 
+// The mean normal under the brush rather than that of the place: single normals follow every
+// wrinkle that the brush is to work on. Where they oppose each other, as on both sides of a thin
+// sheet, the mean says nothing, and that of the place stays. For `flatten` the plane of least
+// squares, weighed alike, replaces both: its normal is the eigenvector of the covariance with the
+// least eigenvalue. It needs a spread in two directions.
 BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSamples& samples,
                                            const BrushPlace& place) {
   Frame frame{place, place.at, place.normal};
@@ -224,6 +236,9 @@ Point BrushHistory::asked_at(const Frame& frame, const Brush& brush, const Brush
   }
 }
 
+// One piece of the path. The weight is that of its nearest point, of which the largest of all
+// pieces counts; the mean is the trapezoidal rule between its ends. So u converges as places become
+// dense, and does not count how many there are.
 void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Frame& from,
                        const Frame& to, double length, const Points& fair) {
   const Point piece = to.place.at - from.place.at;
@@ -265,6 +280,8 @@ void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Fr
   }
 }
 
+// The first place has no piece: a sixteenth of a radius stands for it, so that a tap does something
+// and a long path hardly notices.
 void BrushHistory::go_to(const Brush& brush, const BrushSamples& samples, const BrushPlace& place,
                          const Points& fair) {
   assert(samples.points.rows() == weight_.size());
@@ -311,6 +328,8 @@ Points BrushHistory::displacement(const Brush& brush, const BrushSamples& sample
   return result;
 }
 
+// Weights |u|² in place of a plain mean: copies that do not act at a sample do not dilute the one
+// that does, and a copy fades in without a jump.
 Points blended(std::span<const Points> copies) {
   if (copies.size() == 1) return copies.front();
   Points result = Points::Zero(copies.front().rows(), 3);

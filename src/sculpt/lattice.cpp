@@ -47,6 +47,7 @@ Expected<Lattice> Lattice::create(const BoundingBox& box, double margin,
   return Lattice(std::move(*rest), lower, upper - lower);
 }
 
+// x + D(u(x)) and not V(u(x)): V at rest reproduces x only to rounding, D = 0 exactly.
 Expected<Points> Lattice::deformed(const Points& points, const Points& control_points) const {
   const auto displacement = rest_.with_control_points(control_points - rest_.control_points());
   if (!displacement) return std::unexpected(displacement.error());

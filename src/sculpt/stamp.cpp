@@ -15,6 +15,9 @@ constexpr int most_ray_steps = 1000;
 constexpr double seen_share = 1e-9;  // of the size: a ray that comes so near has met the shape
 
 /// Where a ray downwards at (x, y) meets the shape; −∞ where it misses it.
+/// Sphere tracing (J. C. Hart, 1996): nothing is nearer than the distance, so that a step of it
+/// cannot pass through the shape. Steps shrink geometrically towards a surface that is met at an
+/// angle.
 double seen_from_above(const PlacedShape& shape, double x, double y, double top, double bottom) {
   double z = top;
   for (int k = 0; k < most_ray_steps; ++k) {
@@ -28,6 +31,7 @@ double seen_from_above(const PlacedShape& shape, double x, double y, double top,
 
 }  // namespace
 
+// Bilinear: the pattern is as continuous as its grid, and a step in it stays within a cell.
 double StampPattern::at(double xi, double eta) const {
   if (empty() || std::abs(xi) > 1 || std::abs(eta) > 1) return 0;
   const int rows = static_cast<int>(heights.size()) / columns;

@@ -2,6 +2,8 @@
 
 namespace knead {
 
+// Places are counted along the whole path: `rest`, the way since the last one, goes over from piece
+// to piece, so that corners do not add places and a path in parts has those of the whole.
 void ToolPath::go_to(const Point& point, std::vector<Point>& places) {
   if (!begun) {
     places.push_back(point);

@@ -20,6 +20,8 @@ struct SampledShape {
   Points points;
 
   /// About the foot of a point: downhill from the nearest sample.
+  /// The nearest sample is a start in the right valley of the distance; a global search would cost
+  /// more for each of a stroke's places.
   [[nodiscard]] std::array<double, 2> foot(const Point& x) const {
     Eigen::Index nearest = 0;
     (points.rowwise() - x.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
@@ -45,6 +47,10 @@ struct Motion {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
 };
 
+// Inside the domain the way is the difference of the feet's parameters. Where a foot is on the
+// border the tool has left the surface, and its feet stand still: then the way in space is
+// expressed by the tangents, (S_u S_v) way ≈ to − from in least squares. Displacements turn as the
+// normal does.
 std::optional<Motion> motion_of(const SampledShape& on, const Travel& travel) {
   const std::array<double, 2> from = on.foot(travel.from), to = on.foot(travel.to);
   const SurfaceJet a = surface_jet(on.shape, from[0], from[1]),
@@ -67,6 +73,8 @@ std::optional<Motion> motion_of(const SampledShape& on, const Travel& travel) {
 }
 
 /// The displacement, moved, at the abscissae.
+/// D(u − way), turned: the value at the parameters from where it comes. Beyond the border it is
+/// that of the border.
 std::optional<Points> moved(const SampledShape& on, const Surface& displacement,
                             const Motion& motion) {
   std::array<std::vector<double>, 2> at;
