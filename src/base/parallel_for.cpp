@@ -123,6 +123,8 @@ class Pool {
     return started;
   }
 
+  // Joined and left under the mutex: `run` returns only when nobody is inside, as the loop lives on
+  // its stack.
   [[noreturn]] void help() {
     std::unique_lock lock(mutex_);
     for (;;) {

@@ -115,6 +115,9 @@ NetOperator<D> with_mass(const std::vector<Spline<D>>& patches, const ActiveSett
 
 }  // namespace
 
+// Domains are scaled patch by patch, so that the sides of each are the mean lengths of its
+// isocurves; lengths are those of the first patch for all, since displacements of coupled patches
+// must have one unit. `raw` leaves knots and coordinates as they are, the thesis' own setting.
 template <int D>
 Expected<Assembly<D>> assemble(const std::vector<Spline<D>>& patches,
                                const ActiveSettings<D>& settings) {
@@ -140,6 +143,9 @@ Expected<Assembly<D>> assemble(const std::vector<Spline<D>>& patches,
   return result;
 }
 
+// A is K (stationary), K + λ W (acm; W the mass matrix, or the identity of the thesis), or K + D/τ
+// + M/τ² (dynamic), τ the length of a stage. `with_mass` serves where M and D are multiples of one
+// mass matrix, which is where no field and no weights are.
 template <int D>
 NetOperator<D> step_operator(const std::vector<Spline<D>>& patches,
                              const ActiveSettings<D>& settings, const Assembly<D>& from, int size) {

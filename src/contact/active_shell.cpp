@@ -48,6 +48,8 @@ Expected<ActiveShell> ActiveShell::create(std::vector<Surface> patches, ShellStr
 const ShellStructure& ActiveShell::structure() const { return model_->structure; }
 double ActiveShell::length() const { return model_->elastic.units.length; }
 
+// Pressure, wind and moments turn with the shape: they are evaluated again where the shape is, and
+// have no part in W.
 Expected<ActiveStep> ActiveShell::step(const ActiveState& state, std::span<const Tool> tools,
                                        const ActiveLoads& loads) const {
   const bool blown = loads.pressure != 0 || loads.wind != Point::Zero();

@@ -106,6 +106,9 @@ Expected<ConstraintSpace> hold(const ActiveSettings<D>& settings, const RestShap
 
 }  // namespace
 
+// Everything that steps have in common is made here: Gramians, constraints, and A's inverse, by far
+// the largest part. Centre and length are those of the rest shape and stay, so that the same shape
+// has the same bits in every step.
 template <int D>
 Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches,
                                                   const ActiveSettings<D>& settings) {

@@ -212,6 +212,9 @@ void ActiveSpline<D>::Run::balance_dynamic() {
   }
 }
 
+// Results are judged before they are taken: what is not finite, or further than `run_away` sizes of
+// the model, is an error and changes nothing; constraints that what is held does not allow are a
+// note, since the rest of the result is right.
 template <int D>
 Expected<ActiveStep> ActiveSpline<D>::Run::accept() {
   const bool dynamic = m.settings.evolution == Evolution::dynamic;

@@ -243,6 +243,7 @@ class Minimisation {
     ++summary.solves;
   }
 
+  // Without contact (A + H) is A, and r's image is the whole direction: one solve ends the step.
   ContactDirection direction(View& view, const Residual& at, const Progress& progress) {
     ContactDirection to;
     if (state_.contacts.empty()) {

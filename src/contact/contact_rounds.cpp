@@ -87,7 +87,7 @@ void ContactRounds<D>::tell_entered(const Entries& found) {
 /// The minimum without penetration of rigid tools, at and between Gauss points, in at most
 /// `max_rigid_rounds` rounds.
 /// Each round begins at the minimum before, which is near the next. 16 rounds leave room for four
-/// decades of stiffness and a dozen offsets; what is then still entered is told.
+/// decades of stiffness and a dozen offsets; what is then still entered is reported.
 template <int D>
 PotentialState ContactRounds<D>::touch_rigid(const Descend& descend, const Place& place) {
   for (int rounds_left = max_rigid_rounds;;) {

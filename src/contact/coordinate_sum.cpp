@@ -74,6 +74,7 @@ void CoordinateSum::add(std::span<const int> points, const Eigen::MatrixXd& bloc
   }
 }
 
+// The zeros are stored for the blocks of H to come, which fill all nine places of a pair of points.
 SparseMatrix with_coordinate_blocks(const SparseMatrix& a) {
   SparseMatrix result(3 * a.rows(), 3 * a.cols());
   result.reserve(9 * a.nonZeros());

@@ -158,7 +158,7 @@ struct ElasticRun {
   /// With Δ = Y: M (V₁ − V₀)/h + D V + ∇W(X_θ) + c = G, V = Δ/h, V₁ = (V − (1 − θ) V₀)/θ.
   /// Multiplied by Δ, energy gains W₁ − W₀ − ∇W·Δ, loses (θ − ½)|V₁ − V₀|²_M and what damping
   /// takes; where the gain is larger, c takes the difference as a force along the momentum. c
-  /// changes the step and so the difference: rounds.
+  /// changes the step, and with it the difference: hence the rounds.
   [[nodiscard]] bool move_on(const Points& from, double theta, int rounds_left) {
     const double h = m.settings.time_step;
     const SparseMatrix inertia = (1 / (theta * h * h) + m.settings.damping / h) * m.mass;
@@ -231,6 +231,8 @@ struct ElasticRun {
   }
 };
 
+// As for `ActiveSpline`: nothing is taken that is not finite or far away, and coordinates that have
+// not moved keep the bits of the file.
 template <int D>
 Expected<ActiveStep> ElasticRun<D>::accept() {
   if (!summary.finite || !y.allFinite()) {
@@ -289,6 +291,9 @@ Expected<ActiveStep> ElasticRun<D>::accept() {
 
 }  // namespace
 
+// Normalisation: x = (x_file − centre)/L, W = W_file/e with e = 2 · `stretching`. A membrane has
+// then the stiffness of the linear model with α = 1, and all tolerances and constants of contact
+// serve for both.
 template <int D>
 Expected<ElasticModel<D>> ElasticModel<D>::create(std::vector<Spline<D>> patches,
                                                   ActiveShellSettings settings, double stretching) {
@@ -317,6 +322,9 @@ Expected<ElasticModel<D>> ElasticModel<D>::create(std::vector<Spline<D>> patches
   return m;
 }
 
+// Constraints are over coordinates even where none couples them, as ∇²W does. The pattern of the
+// restriction is that of the Hessian at rest, which is that of any other. The mass is the shape's
+// own where it has one (density), else a multiple of the scaled domain's, λ in the mode `acm`.
 template <int D>
 Expected<void> ElasticModel<D>::complete(std::shared_ptr<const ElasticEnergy> of,
                                          const SparseMatrix& own_mass) {

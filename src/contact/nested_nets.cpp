@@ -111,6 +111,8 @@ void append(const std::array<KnotVector, D>& from, const std::array<KnotVector, 
 
 }  // namespace
 
+// Rational patches have the same P, without weights: coarse spaces are then not quite subspaces of
+// functions, which costs iterations alone, as B stays symmetric and positive for any P.
 template <int D>
 std::vector<SparseMatrix> nested_prolongations(std::span<const Spline<D>> patches,
                                                std::span<const DomainScaling<D>> scalings,

@@ -196,6 +196,8 @@ class PatchPotential final : public Potential {
     return sum;
   }
 
+  // The point is Σ r_i x_i, so that its Hessian h makes the blocks r_i r_j h between its control
+  // points.
   void add_point_block(const ContactPoint& contact, const AddBlock& add) const {
     const auto& terms = points_[static_cast<std::size_t>(contact.at[0])].terms;
     std::vector<int> rows;

@@ -47,6 +47,7 @@ bool same_stiffness(std::span<const PointForce> a, std::span<const PointForce> b
   });
 }
 
+// Springs that meet in an entry are added up in their order.
 SparseMatrix spring_stiffness(int size, std::span<const PointForce> springs) {
   std::vector<Eigen::Triplet<double>> entries;
   std::size_t count = 0;

@@ -132,6 +132,10 @@ template int most_iterations<1>(int, int);
 template int most_iterations<2>(int, int);
 template int most_iterations<3>(int, int);
 
+// Iterated only where it is asked for or the net is large, and then only where a known displacement
+// shows that cycles converge fast enough: the choice is made by counts and by that trial, never by
+// time, so that results repeat. Where cycles fail, unasked for, the factor is made after all, and
+// the reason goes into the report.
 template <int D>
 Expected<ChosenInverse> invert(const NetOperator<D>& a, ConstraintSpace space,
                                std::span<const Spline<D>> patches,

@@ -87,6 +87,9 @@ std::string side_name(DomainSide side) {
   return fmt::format("{}{}", "uvw"[side.direction], side.upper ? 1 : 0);
 }
 
+// A line of control points across the side, for every place along it: the first of these holds the
+// side, the next its slope, a third its curvature. Elsewhere than at clamped ends a condition per
+// line and order takes their place, on the p + 1 control points of the span.
 template <int D>
 Expected<void> hold_side(const Spline<D>& rest, DomainSide side, int order, ConstraintList& to) {
   if (side.direction < 0 || side.direction >= D) {
@@ -126,6 +129,7 @@ Expected<void> hold_side(const Spline<D>& rest, DomainSide side, int order, Cons
   return {};
 }
 
+// One condition with three right sides. S + D takes the place given: Σ R X = place − S(u).
 template <int D>
 Expected<void> pin_place(const Spline<D>& rest, const std::array<double, D>& u,
                          const std::optional<Point>& place, ConstraintList& to) {
@@ -149,6 +153,8 @@ Expected<void> pin_place(const Spline<D>& rest, const std::array<double, D>& u,
   return {};
 }
 
+// Below multiplicity p the basis itself is C¹. At p it is continuous only, at p + 1 torn; the two
+// ends of a closed curve are like a torn knot.
 Expected<std::vector<SmoothKnot>> keep_smooth_knots(const Curve& rest, const SmoothOptions& options,
                                                     ConstraintList& to) {
   const KnotVector& knots = rest.knots(0);

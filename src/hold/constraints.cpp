@@ -142,6 +142,7 @@ Expected<void> hold_edge(const Surface& rest, SurfaceEdge edge, int order, Const
                    fmt::format("edge {}", edge_name(edge)), to);
 }
 
+// On a torn knot line the point is one of each side, up to four, and all are pinned.
 Expected<void> pin_point(const Surface& rest, double u, double v, const std::optional<Point>& place,
                          ConstraintList& to) {
   if (auto inside = detail::check_parameter(rest.knots(0), u, "u"); !inside) return inside;

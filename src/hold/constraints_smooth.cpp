@@ -289,6 +289,8 @@ Expected<SmoothLine> keep_smooth_line(Line& line, const SmoothOptions& options, 
 
 }  // namespace
 
+// Only interior lines of multiplicity p or more: elsewhere every D of the space is C¹. On an error
+// no condition is left behind.
 Expected<std::vector<SmoothLine>> keep_smooth(const Surface& rest, const SmoothOptions& options,
                                               ConstraintList& to) {
   for (const auto& [value, name] :

@@ -191,6 +191,8 @@ Expected<void> hold_symmetry_plane(const Surface& rest, SurfaceEdge edge, const 
   return {};
 }
 
+// Three things must be symmetric for a mirror of control points to be one of the surface: knots,
+// weights, and the shape itself, whose deviation is a length in space.
 Expected<MirrorReport> mirror_report(const Surface& rest, int direction, const MirrorPlane& plane,
                                      double tolerance) {
   const auto frame = frame_of(plane);

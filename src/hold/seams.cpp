@@ -32,6 +32,9 @@ struct Edge {
 
 constexpr Eigen::Index block_size = 16;
 
+// The curve between two samples strays from its chord by about |second difference|/8; the whole
+// second difference of either end is taken, eight times as much, as a bound for curves that are not
+// arcs.
 void complete(Edge& edge) {
   const Eigen::Index pieces = edge.points.rows() - 1;
   std::vector<double> bends(static_cast<std::size_t>(pieces + 1), 0.0);
@@ -260,6 +263,8 @@ std::vector<double> seam_sides(std::span<const Seam> seams, int patches, int fir
   return sides;
 }
 
+// Cost: O(edges · those whose boxes overlap along x), each comparison O(samples · pieces near). A
+// side is compared with itself, too: it may be folded, one half on the other.
 Expected<FoundSeams> find_seams(std::span<const Surface* const> patches, double tolerance) {
   if (!(tolerance > 0) || !std::isfinite(tolerance)) {
     return input_error("the tolerance of seams is not a positive length", {},

@@ -136,6 +136,8 @@ std::vector<InnerKnot> inner_knots(std::span<const double> normalised) {
   return inner;
 }
 
+// A merge of two ascending lists. A pair is taken only if neither knot is nearer to the next one of
+// the other list, so that clusters are matched one to one.
 std::vector<std::pair<std::size_t, std::size_t>> matching_knots(std::span<const InnerKnot> a,
                                                                 std::span<const InnerKnot> b,
                                                                 double agreement) {
@@ -156,6 +158,12 @@ std::vector<std::pair<std::size_t, std::size_t>> matching_knots(std::span<const 
   return pairs;
 }
 
+// The common space has the higher degree q and, at every knot of either, the larger multiplicity
+// after elevation: m_a + q − p_a or m_b + q − p_b. It contains both spaces. Their intersection is
+// what both sides of a seam can do together; its dimension, min(p_a, p_b) + 1 and the
+// multiplicities that both have, is known in integers, and says how many conditions are
+// independent. Knots of b within `agreement` of one of a take its value first: spans that short
+// between them would carry conditions of their own.
 std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b, bool reversed,
                                         double agreement) {
   const std::vector<double> knots_a = normalised_knots(a, false);

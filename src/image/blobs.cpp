@@ -50,6 +50,8 @@ bool is_largest(const std::vector<Image>& scales, std::size_t k, int x, int y) {
 
 }  // namespace
 
+// Greedy by contrast: the strongest answer stands for its place, whatever weaker ones the same
+// thing has at other scales.
 Expected<std::vector<Blob>> find_blobs(const Image& image, const BlobSettings& settings) {
   if (auto checked = check_image(image); !checked) return std::unexpected(checked.error());
   const auto [least, largest] = settings.radii;

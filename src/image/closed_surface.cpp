@@ -65,6 +65,8 @@ SurfaceSpace space_for(const SurfaceStart& start, const SurfaceSnakeSettings& se
 
 }  // namespace
 
+// Fitted by least squares in the space of the snake, and not interpolated: the conditions at the
+// poles hold, and the first step starts from a shape that the snake can have.
 Expected<ClosedSurface> closed_surface(const SurfaceStart& start,
                                        const SurfaceSnakeSettings& settings) {
   if (auto checked = check_settings(settings); !checked) return std::unexpected(checked.error());

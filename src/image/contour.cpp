@@ -40,6 +40,8 @@ std::vector<Place> polyline(const SnakeResult& snake, int per_span) {
   return result;
 }
 
+// Pairs of segments that are no neighbours, those apart along x skipped: O(segments²) comparisons
+// of two numbers, for some hundred segments.
 int crossings(const SnakeResult& snake) {
   std::vector<Place> line = polyline(snake);
   if (line.empty()) return 0;

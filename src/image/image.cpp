@@ -112,6 +112,8 @@ Image distance_to(const Image& mask) {
   return result;
 }
 
+// Below 1e-3 of the largest slope the quotient is of rounding and noise; it would be large where
+// nothing is to be seen.
 Image termination(const Image& image) {
   const auto [ix, iy] = differences(image);
   const auto [ixx, ixy] = differences(ix);

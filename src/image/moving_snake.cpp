@@ -119,6 +119,8 @@ Expected<void> MovingSnake::step(const ImagePotential& image, double side,
   return spreads ? spread() : Expected<void>{};
 }
 
+// The pull on free ends is that of the start for the whole run: one that followed |v'| would grow
+// with the snake and never find a length.
 Expected<MovingSnake> snake_on(const Curve& start, const SnakeSettings& settings) {
   if (auto checked = check_settings(settings); !checked) return std::unexpected(checked.error());
   auto net = SnakeNet::create(breaks_of(start), settings);

@@ -314,6 +314,7 @@ Expected<void> read_data_place(const HeaderFields& fields, NrrdHeader& header) {
 
 bool is_nrrd(std::string_view bytes) { return bytes.starts_with("NRRD"); }
 
+// Space directions take precedence over spacings.
 Expected<NrrdHeader> parse_nrrd_header(std::string_view bytes, std::string name) {
   NrrdHeader header;
   HeaderFields fields;

@@ -107,6 +107,9 @@ void look_around(const ImagePotential& image, const MovingSnake& snake, double s
 
 }  // namespace
 
+// The outside of all is the image less the insides of all; snakes that overlap are subtracted twice
+// where they do, which the mean of a large image hardly shows. Where less than a pixel is left
+// there is no outside, and 0 stands for it.
 std::vector<std::optional<Sides>> sides_of(const ImagePotential& image,
                                            const std::vector<MovingSnake>& snakes,
                                            const std::vector<Inside>& insides) {

@@ -205,6 +205,7 @@ Expected<SnakeScript> parse_snake_script(std::string_view text) {
   return script;
 }
 
+// Circles are moved into the image: a snake that begins beyond it has no forces there.
 Expected<std::vector<SnakeStart>> starts_of(const SnakeScript& script, const Image& image) {
   std::vector<SnakeStart> starts = script.snakes;
   if (!script.blobs) return starts;
@@ -231,6 +232,7 @@ SnakeSettings settings_of(const SnakeScript& script, const SnakeStart& start) {
   return settings;
 }
 
+// 400 points: chords of an ellipse are off by 3e-5 of its radius, far below a pixel.
 Expected<std::vector<std::array<double, 2>>> points_of(const SnakeStart& start) {
   if (start.shape == SnakeShape::points) return start.points;
   if (!(start.radii[0] > 0 && start.radii[1] > 0)) {

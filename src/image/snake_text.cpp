@@ -45,6 +45,7 @@ static void describe(SurfaceSnakeInfo& s, Fields& fields) {
 
 namespace {
 
+// The polygon's area by Gauss's formula, without a sign.
 double area_inside(const std::vector<std::array<double, 2>>& line) {
   double twice = 0;
   for (std::size_t k = 0; k < line.size(); ++k) {

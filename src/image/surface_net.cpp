@@ -75,6 +75,8 @@ SurfaceSpace SurfaceSpace::halved() const {
   return {form, degree, {2 * counts[0], 2 * counts[1] - (around ? 0 : degree)}, lengths};
 }
 
+// Recognised by its knots, which must be those that `closed_surface` makes, to the bit: the modes
+// need even spans, and a sphere's metric needs v to be half of u's length.
 Expected<SurfaceSpace> space_of(const ClosedSurface& snake) {
   const auto& knots = snake.surface.knots();
   const int p = knots[0].degree();
@@ -95,6 +97,8 @@ Expected<SurfaceSpace> space_of(const ClosedSurface& snake) {
   return space;
 }
 
+// Dense tables of all functions at all Gauss points: mostly zeros, but products with them run at
+// the speed of matrix products, and nets are small.
 Expected<SurfaceNet::Axis> SurfaceNet::Axis::create(int degree, int count, double length,
                                                     bool periodic) {
   auto knots = uniform_knots(degree, count, length, periodic);
@@ -114,6 +118,8 @@ Expected<SurfaceNet::Axis> SurfaceNet::Axis::create(int degree, int count, doubl
   return Axis{std::move(*knots), periodic, count, std::move(quadrature), std::move(functions)};
 }
 
+// dΩ is du dv on a torus, which is flat, and sin(π v/l) du dv on the round sphere: what shapes at
+// poles need, where du dv would give the pole the weight of a circle.
 Expected<SurfaceNet> SurfaceNet::create(const SurfaceSpace& space, double alpha, double beta) {
   auto u = Axis::create(space.degree, space.counts[0], space.lengths[0], true);
   if (!u) return std::unexpected(u.error());
@@ -316,7 +322,7 @@ Eigen::VectorXd SurfaceNet::functions_at(double u, double v) const {
 }
 
 // Of the column at the pole its mean is left; of the next one wave 1, about the pole. Moves obey
-// these conditions already, but for the limit on their length, which is not linear.
+// these conditions already, except where their length was limited, which is not linear.
 void SurfaceNet::keep_poles(Points& c) const {
   if (space_.form == SurfaceForm::torus) return;
   const int n = space_.counts[0], m = space_.counts[1];

@@ -117,6 +117,8 @@ struct MovingSurface {
   }
 
   /// Forces of the image, of pressure and of volcanoes at the Gauss points, with their weights.
+  /// Weighted by dΩ like the mass matrix: forces and viscosity are per measure of the parameters,
+  /// so that the motion of a place does not depend on the net.
   [[nodiscard]] Points forces(const VolumePotential& image, double side,
                               const std::optional<Greys>& greys) const {
     const Points v = net.at_gauss(c, 0, 0);
@@ -328,6 +330,8 @@ Expected<void> refine_all(const VolumePotential& image, std::vector<MovingSurfac
 
 }  // namespace
 
+// A start must fulfil the conditions at its poles: `solve` returns moves that do, and a start that
+// does not would keep its kink.
 Expected<std::vector<SurfaceSnakeResult>> run_surface_snakes(
     const VolumePotential& potential, std::vector<ClosedSurface> starts,
     const std::vector<SurfaceSnakeSettings>& settings) {

@@ -149,6 +149,8 @@ VolumeImage gradient_magnitude(const VolumeImage& volume) {
   return std::move(g[0]);
 }
 
+// One pass of lower envelopes along each axis, with the axis' own spacing. Squared distances along
+// axes add up where these are perpendicular.
 VolumeImage distance_to(const VolumeImage& mask) {
   VolumeImage result = mask;
   for (double& x : result.values) x = x >= 0.5 ? 0 : std::numeric_limits<double>::infinity();

@@ -313,6 +313,7 @@ Point BrushHistory::about_first(const Brush& brush, const Point& x) const {
   return w * (brush.factor - 1) * off;
 }
 
+// u = a ŵ ∫ w d dl / ∫ w dl; of `pinch` d at the nearest place stands in the sum, without a mean.
 Points BrushHistory::displacement(const Brush& brush, const BrushSamples& samples) const {
   Points result = Points::Zero(weight_.size(), 3);
   const double strength = has_strength(brush.kind) ? brush.strength : 1;

@@ -12,6 +12,8 @@ namespace knead {
 
 constexpr std::int64_t max_lattice_size = 1000000;
 
+// Control points at Greville abscissae reproduce x = lower + u ∘ (upper − lower) (linear
+// precision): the volume at rest is the identity of its box.
 Expected<Lattice> Lattice::create(const BoundingBox& box, double margin,
                                   const std::array<int, 3>& degree, const std::array<int, 3>& net) {
   if (!box.lower.allFinite() || !box.upper.allFinite() || !(box.diagonal() > 0)) {

@@ -50,6 +50,9 @@ double stamp_rim(double xi, double eta, double core) {
   return brush_falloff(std::abs(xi), 1, core) * brush_falloff(std::abs(eta), 1, core);
 }
 
+// Rays begin a little above the box and end a little below it, or rounding of its bounds would
+// decide whether they meet a face there. Where all seen is level within 1e-6 the relief has no
+// scale, and the stamp is the shape's outline.
 Expected<StampPattern> stamp_of(const Shape& shape, double width) {
   const auto placed = PlacedShape::create(shape);
   if (!placed) return std::unexpected(placed.error());

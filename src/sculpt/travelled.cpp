@@ -92,6 +92,9 @@ std::optional<Points> moved(const SampledShape& on, const Surface& displacement,
 
 }  // namespace
 
+// With several tools every sample follows the one that comes nearest to it, and the result is
+// interpolated at the abscissae. It is a guess from which a step starts: whatever cannot be
+// computed leaves the displacement as it is.
 Points travelled(const Surface& shape, const SiteValues<2>& values, const Points& displacement,
                  std::span<const Travel> travels) {
   const auto field = shape.with_control_points(displacement);

@@ -22,6 +22,8 @@ std::vector<int> coordinates_of(const std::vector<int>& points) {
 
 }  // namespace
 
+// Every block is M ⊗ I: coordinates of one point follow one another, 3 i + c. Right sides move from
+// three columns to one.
 ConstraintSpace ConstraintSpace::on_coordinates() const {
   ConstraintSpace result = *this;
   if (coupled_) return result;

@@ -32,6 +32,8 @@ Expected<bool> check(int size, std::span<const LinearConstraint> constraints) {
 
 }  // namespace
 
+// Names of sources take memory quadratic in their number, and only an error needs them: the
+// elimination runs without, and once more with them where it has failed.
 Expected<detail::ConstraintElimination> ConstraintSpace::eliminated(
     int size, std::span<const LinearConstraint> constraints, const std::vector<bool>& held,
     bool coordinates) {

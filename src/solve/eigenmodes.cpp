@@ -214,6 +214,7 @@ double trace(const SparseMatrix& a) { return a.diagonal().sum(); }
 
 }  // namespace
 
+// T as a matrix of 3N rows, whether or not constraints couple coordinates.
 SparseMatrix coordinate_map(const ConstraintSpace& space) {
   std::vector<int> all(static_cast<std::size_t>(space.size()));
   std::iota(all.begin(), all.end(), 0);

@@ -119,6 +119,8 @@ void Panels::divide(const SparseMatrix& lower, std::span<const int> breaks) {
   allocate();
 }
 
+// Pieces of 4 MB rather than one array: they fit where A's arrays have been, and no allocation asks
+// for all of L at once.
 void Panels::allocate() {
   constexpr std::size_t most = std::size_t{1}
                                << 19;  // of a piece of memory, unless one panel needs more
