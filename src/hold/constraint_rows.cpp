@@ -57,8 +57,8 @@ Expected<Terms> rational_row(const Surface& s, double u, double v, int span_u, i
   return derivative;
 }
 
-// Coefficients up to 1: elimination compares those of different constraints, and lengths of domains
-// are no reason to prefer one.
+// The largest coefficient is 1, so that violations of different constraints are lengths alike
+// (`ConstraintSpace::worst`), whatever the domain's.
 void append(ConstraintList& to, const std::string& name, Terms terms,
             const std::optional<Point>& normal) {
   std::erase_if(terms, [](const auto& term) { return term.second == 0; });

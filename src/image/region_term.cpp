@@ -60,8 +60,8 @@ class Cover {
 /// Grey values with weights.
 using GreySamples = std::vector<std::pair<double, double>>;
 
-// A median and not a mean: a bright neighbour that reaches into the band by less than half does not
-// change it.
+// A median and not a mean: a bright neighbour that reaches into less than half of the band hardly
+// changes it.
 std::optional<double> median(GreySamples samples) {
   std::ranges::sort(samples);
   double all = 0, below = 0;

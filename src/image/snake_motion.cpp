@@ -45,8 +45,7 @@ bool SnakeMotion::steadied(const Points& move) {
   return level_ != before;
 }
 
-// |d| ↦ m tanh(|d|/m): identity for small moves, and smooth, where a cut at m would make the point
-// at which a snake rests depend on it.
+// |d| ↦ m tanh(|d|/m): the identity for small moves, without a kink where it begins to limit them.
 Points limited(Points moves, double most) {
   for (Eigen::Index k = 0; k < moves.rows(); ++k) {
     const double length = moves.row(k).norm();

@@ -246,8 +246,8 @@ Points ConstrainedMultigrid::precondition(const Points& r) const {
 }
 
 // Conjugate gradients preconditioned by B (Hestenes and Stiefel 1952; Saad 2003, Alg. 9.1). The
-// square rᵀBr that the recurrence needs anyway is the square of the error in the energy norm, but
-// for the difference of B and A⁻¹, and ends it. The curvature is tested, because rounding of an A
+// square rᵀBr that the recurrence needs anyway is the square of the error in the energy norm, up
+// to the difference of B and A⁻¹, and ends it. The curvature is tested, because rounding of an A
 // that is nearly singular may make it negative.
 ConstrainedMultigrid::Solved ConstrainedMultigrid::iterate(const Points& b, double tolerance,
                                                            int limit) const {
