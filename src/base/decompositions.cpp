@@ -42,6 +42,7 @@ Expected<void> check_finite(const Matrix& a) {
 
 /// The power of two by which a matrix is multiplied so that squares of its entries neither overflow
 /// nor vanish: 0 for all but extreme ones.
+///
 /// Squares overflow from 2^512 on and vanish below 2^-537: at 2^±300 a sum of squares is safe, and
 /// a multiplication by a power of two changes no digit.
 template <class Matrix>

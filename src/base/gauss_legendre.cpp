@@ -59,6 +59,7 @@ Node node(int n, int k) {
 }
 
 /// The rules of `first` to `last` points.
+///
 /// n points integrate polynomials of degree 2n − 1 exactly. Rules are stored one after the other, n
 /// numbers each.
 struct RuleTable {

@@ -21,6 +21,7 @@ namespace {
 thread_local bool inside = false;
 
 /// One call of `run_blocks`.
+///
 /// Blocks are taken from an atomic counter, by whoever is free: loads of different size balance
 /// themselves. Relaxed order suffices for it, since the mutex of the pool orders the beginning and
 /// the end of a loop.
@@ -76,6 +77,7 @@ class Loop {
 
 /// Threads that wait for loops. It is never destroyed, and they are never joined: they wait when
 /// the process ends.
+///
 /// One loop at a time: whoever finds the pool busy does its loop alone, without waiting, so that
 /// threads of a program cannot block each other. Helpers that come after the last block find none
 /// and leave.

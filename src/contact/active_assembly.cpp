@@ -92,6 +92,7 @@ Expected<void> assemble_forces(const Spline<D>& patch, std::size_t k,
 }
 
 /// K + c W of polynomial patches of one material: as many distinct factors as K alone.
+///
 /// One `Stiffness` with the term of mass among those of K applies in one pass over the coordinates;
 /// a sum of two operators would take two.
 template <int D>

@@ -31,8 +31,8 @@ PotentialState ActiveSpline<D>::Run::keep_within_limit(const StepProblem& step) 
       limit, limit_origin, [&] { return descend(step); }, [&] { return Points(step.start + y); });
 }
 
-/// F_analytic − F_Gauss of the tools at x.
-/// Tools alone, without friction and point forces, which have no analytic route.
+/// F_analytic − F_Gauss of the tools at x. Tools alone, without friction and point forces, which
+/// have no analytic route.
 template <int D>
 Points ActiveSpline<D>::Run::greville_correction(const Points& x) const {
   PatchPotential<D> alone(m.loads, m.rows, scaled);
@@ -56,6 +56,7 @@ Points ActiveSpline<D>::Run::greville_correction(const Points& x) const {
 
 /// The minimum; on the analytic route with a lagged correction of the forces: F_analytic − F_Gauss
 /// at the last result is added to the right side until the result stops changing.
+///
 /// F_analytic has no potential, as its derivative is not symmetric, so that it cannot stand in Φ.
 /// As a lagged term it can: with y ↦ the minimum under b + (F_analytic − F_Gauss)(y), a fixed point
 /// balances the analytic forces. It contracts where the difference of the two Hessians is small

@@ -183,6 +183,7 @@ void ActiveSpline<D>::Run::balance() {
 }
 
 /// The two stages of Alexander's method.
+///
 /// M Ẍ + D Ẋ + K X = G + F by Alexander's second-order SDIRK with γ = 1 − √½ (R. Alexander,
 /// "Diagonally implicit Runge–Kutta methods for stiff O.D.E.'s", 1977). A stage of τ = γh from
 /// position X₀ + advance with velocity v is one implicit Euler step:

@@ -21,6 +21,7 @@ void ContactDirections::keep(Pair pair) {
 
 /// The two loops of Nocedal and Wright, Alg. 7.4, around A⁻¹.
 /// \param image_of Gives A⁻¹ of what r becomes when `alpha` times the pairs' y are taken from it.
+///
 /// M = the BFGS inverse from A⁻¹ and the pairs (p, y), symmetric and positive definite where all
 /// pᵀy > 0. Everything is needed twice, as z = M r in the neighbourhood and as A z: sums of p and A
 /// p keep both without a product with A. Cost: O(pairs × points of the neighbourhood) and what

@@ -58,6 +58,7 @@ bool ContactFactor::factor(const PotentialState& state) {
 }
 
 /// z = M ρ, and A z.
+///
 /// With ρ = β r + E e and s = A⁻¹ρ known in the neighbourhood, (A + H₀) z = ρ is z = s − M (H₀ s),
 /// as (A + H₀) s = ρ + H₀ s. The right side H₀ s is zero outside: one solve within the part. A z =
 /// ρ − H₀ z needs no product with A.
@@ -74,6 +75,7 @@ ContactDirection ContactFactor::precondition(const Residual& rest,
 }
 
 /// A d for what lowers the residual to `target` of its square. \param enough Whether it does.
+///
 /// M is the inverse of A + H₀, so that iterations count what has come into contact or left it since
 /// H₀; eight of them cost about what a new factor does.
 Combination ContactFactor::conjugate_gradients(const PotentialState& state, const Anchor& anchor,

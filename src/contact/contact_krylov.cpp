@@ -66,6 +66,7 @@ double KrylovMinimisation::imbalance() {
 /// preconditioned residual. If A + H turns out not to be positive, the result is the sum of the
 /// steps so far, or B r: a descent direction in any case (Nocedal and Wright, Numerical
 /// Optimization, Alg. 7.1).
+///
 /// No pairs of directions before, and no neighbourhood: with cycles the whole net is touched in
 /// every iteration anyway.
 KrylovMinimisation::ContactDirection KrylovMinimisation::direction(Residual at, double tolerance) {
@@ -108,6 +109,7 @@ KrylovMinimisation::ContactDirection KrylovMinimisation::direction(Residual at, 
 
 /// Steps along the direction, halved until Φ decreases enough; a full step if values are not
 /// decisive.
+///
 /// Φ(Y + t d) − Φ(Y) as a polynomial in t and a difference of Ψ, rather than as a difference of two
 /// Φ, which would lose the digits that both have in common.
 void KrylovMinimisation::advance(const ContactDirection& to, bool rounded) {

@@ -301,6 +301,7 @@ class Minimisation {
 
   /// Steps along the direction, halved until Φ decreases enough; a full step if values are not
   /// decisive. Returns the share of the direction.
+  ///
   /// Armijo's rule with 1e-4 of the slope; the quadratic part of Φ is exact at every t from squares
   /// and products with the anchor, so that a trial costs Ψ inside and no substitution.
   double advance(View& view, const ContactDirection& to, bool rounded) {
@@ -359,6 +360,7 @@ class Minimisation {
   }
 
   /// Iterates from one anchor until no contact is outside the neighbourhood.
+  ///
   /// The second half of the solve is made once per round, which is where the rest of the net learns
   /// of the displacement.
   Round descend(View& view, Progress& progress) {

@@ -50,6 +50,7 @@ typename ContactRounds<D>::Entries ContactRounds<D>::entries(const Points& x) co
 /// Stiffens the rigid tool that is penetrated at Gauss points, and starts contact further out for
 /// those penetrated in between. False if that tool is at its maximum stiffness: one more round will
 /// show what remains.
+///
 /// Two faults with two remedies. Entered at a Gauss point, a tool's spring is too soft: ten times
 /// stiffer. Entered between Gauss points only, no stiffness would help, as the potential does not
 /// see it: contact begins further out by the entry, less half the gap allowed, so that offsets do
@@ -86,6 +87,7 @@ void ContactRounds<D>::tell_entered(const Entries& found) {
 
 /// The minimum without penetration of rigid tools, at and between Gauss points, in at most
 /// `max_rigid_rounds` rounds.
+///
 /// Each round begins at the minimum before, which is near the next. 16 rounds leave room for four
 /// decades of stiffness and a dozen offsets; what is then still entered is reported.
 template <int D>
@@ -111,6 +113,7 @@ PotentialState ContactRounds<D>::touch_rigid(const Descend& descend, const Place
 
 /// The same under the limit, which is enforced at Gauss points and tightened until it holds between
 /// them too.
+///
 /// The limit at Gauss points is lowered by the excess found elsewhere. The displacement between
 /// Gauss points differs from that at them by a share that hardly changes from round to round, so
 /// that the excess falls fast; a net whose spans are long against it may still fail, and says so.

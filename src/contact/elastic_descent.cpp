@@ -84,6 +84,7 @@ bool ElasticDescent::factor(const SparseMatrix& system) {
 
 /// The Hessian, without its geometric part where that makes it indefinite, and with some more of a
 /// multiple of the identity where a mechanism is left.
+///
 /// Three matrices in turn, each more certain to be positive definite and less like ∇²Φ: the exact
 /// one, which gives quadratic convergence; the material part, as Gauss–Newton, which is positive
 /// semidefinite; and this raised by 1e-10, 1e-8, … of its largest diagonal entry (Levenberg 1944,
@@ -106,6 +107,7 @@ bool ElasticDescent::factor_at(const Place& place, const std::optional<Points>& 
 
 /// Moves along d as far as lowers Φ enough, or all the way where that lowers the imbalance by much.
 /// False: not at all.
+///
 /// Armijo's rule with `slope` = −dΦ/dt > 0, and backtracking to the minimum of a parabola within
 /// 0.1 to 0.5 of the step before (Dennis and Schnabel 1983, § 6.3.2). Φ near a minimum is flat to
 /// rounding where its gradient still has digits, hence the second test, on the imbalance, for full

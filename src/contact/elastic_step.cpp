@@ -155,6 +155,7 @@ struct ElasticRun {
 
   /// The same at one θ, with c found in some rounds. False: it did not converge, or the energy
   /// grew.
+  ///
   /// With Δ = Y: M (V₁ − V₀)/h + D V + ∇W(X_θ) + c = G, V = Δ/h, V₁ = (V − (1 − θ) V₀)/θ.
   /// Multiplied by Δ, energy gains W₁ − W₀ − ∇W·Δ, loses (θ − ½)|V₁ − V₀|²_M and what damping
   /// takes; where the gain is larger, c takes the difference as a force along the momentum. c
@@ -190,6 +191,7 @@ struct ElasticRun {
   [[nodiscard]] Expected<ActiveStep> accept();
 
   /// Whether forces that nothing meets move the model as a whole along an axis.
+  ///
   /// Equilibrium exists only if no admissible rigid displacement gains from the forces.
   /// Translations along the axes are tested.
   [[nodiscard]] bool drifts() const {

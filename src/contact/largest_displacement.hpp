@@ -42,6 +42,7 @@ double largest_of(const Spline<D>& field) {
 }
 
 /// The largest |S − S_original| over all patches, for control points that differ by `displacement`.
+///
 /// With rational patches a displacement of control points has the weights of the patch, so that it
 /// is a spline of the same kind and is S − S_original itself.
 template <int D>

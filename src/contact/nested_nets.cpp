@@ -11,6 +11,7 @@ constexpr double even_span = 1.5;
 constexpr double fewer = 0.75;  // as many control points at most as before, or nothing is gained
 
 /// Without every second knot inside the domain, all of its repetitions.
+///
 /// The first movable knot inside goes, with all its repetitions, and the next one stays: about half
 /// the spans are left. A knot of multiplicity p or more is a crease that bends for free; without it
 /// no coarse function could represent the motion that costs least.
@@ -39,6 +40,7 @@ template <int D>
 using Nets = std::vector<std::array<KnotVector, D>>;
 
 /// One step coarser.
+///
 /// Semi-coarsening: the smoother damps what oscillates along short spans, since these have the
 /// large eigenvalues. Leaving out knots along long ones as well would leave functions that neither
 /// the smoother nor the coarser space reaches.
@@ -75,6 +77,7 @@ int size_of(const Nets<D>& nets) {
 }
 
 /// Appends the rows of R₀ ⊗ … of one patch, `row` and `column` its first ones.
+///
 /// P = R₀ ⊗ R₁ ⊗ …, R_d the knot insertion of one direction: row i of P is the product of one row
 /// of each, last direction fastest.
 template <int D>

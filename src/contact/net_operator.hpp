@@ -40,6 +40,7 @@ class NetOperator {
   }
 
   /// All of it as one matrix.
+  ///
   /// One patch, the usual case, adds values where patterns agree, as all energies of one net do;
   /// several patches go through triplets.
   [[nodiscard]] SparseMatrix assemble() const {

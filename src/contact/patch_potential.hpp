@@ -10,6 +10,7 @@
 namespace knead {
 
 /// Tools, friction and limit on all patches of a model, in normalised units.
+///
 /// Ψ(x) = Σ over tools, friction, limit and point forces; sums over Gauss points come from the tool
 /// grids of each patch (`ToolLoad`). A state lists the points in contact with their 3 × 3 Hessians;
 /// H v, blocks of H and the control points concerned are made from that list, so that none of them
@@ -147,6 +148,7 @@ class PatchPotential final : public Potential {
 
  private:
   /// What acts on elements: on all, on those that are watched, or on all others.
+  ///
   /// The limit is integrated on the coarsest grid of a patch only, which resolves the net; finer
   /// grids exist for small tools.
   [[nodiscard]] PotentialState on_elements(const Points& x, const WatchedElements* watched,

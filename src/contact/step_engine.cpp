@@ -41,6 +41,7 @@ int highest_sum_of(std::span<const Spline<D>> patches) {
 }
 
 /// Whether anything forbids a displacement of the whole model.
+///
 /// A constraint whose coefficients sum to s ≠ 0 forbids a common displacement of all its points:
 /// altogether where it is one on points, along its normal otherwise. Three independent normals are
 /// needed. Rotations are not looked at: where stretch resists, K vanishes on translations alone;

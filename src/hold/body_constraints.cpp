@@ -64,6 +64,7 @@ Terms difference(Terms a, const Terms& b, double factor) {
 }
 
 /// Couples two sides of a curve as it is at rest.
+///
 /// D_u⁺ = λ D_u⁻ with λ = |S_u⁺| / |S_u⁻| of the rest shape: S + D then has parallel tangents on
 /// both sides, of the same ratio as at rest. Their angle is taken by atan2 of the cross and the
 /// inner product, exact for small ones, where an arc cosine has half the digits.

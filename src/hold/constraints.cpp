@@ -21,6 +21,7 @@ using detail::Terms;
 
 /// The row of control points through which the line c of span `span` runs; −1 if there is none: if
 /// fewer than p knots of the span's functions lie at c.
+///
 /// At a knot of p equal ones among the function's own the curve interpolates a control point: that
 /// row is the line. Held control points keep their bits and leave the system smaller, which an
 /// equation would not.

@@ -198,6 +198,7 @@ Expected<void> append_selected(std::vector<Terms> rows, const std::string& name,
 }
 
 /// C0 at samples, or D_u⁺ = λ D_u⁻ + μ D_v with λ and μ of the rest shape at each sample.
+///
 /// Least squares express S_u⁺ by S_u⁻ and S_v of the rest shape, and D_u⁺ obeys the same: the three
 /// stay in a plane at the samples, and to the tolerance between.
 Expected<void> couple_samples(const Line& line, bool derivatives, const std::string& name,

@@ -87,6 +87,7 @@ Terms independent_terms(const detail::ConstraintElimination& elimination, int un
 }
 
 /// The conditions in the unknowns that an elimination leaves independent.
+///
 /// Independence must be judged after what holds anyway: two conditions that differ in an unknown
 /// that a seam ties may say the same.
 std::vector<Terms> reduced(const detail::ConstraintElimination& elimination,

@@ -95,6 +95,7 @@ struct Foot {
 
 /// That of the edge's curve to x, where it is nearer than `limit`: on the nearest piece of the
 /// polyline, then by Gauss–Newton on |C(t) − x|² about it.
+///
 /// The polyline says which piece is nearest, within its own deviation (`stray`), and Gauss–Newton
 /// refines: t ← t + (x − C)·C'/|C'|², quadratic where x is on the curve and linear with a small
 /// factor near it. t stays within one piece to either side, or it might slip to another branch of
@@ -151,6 +152,7 @@ Beside beside(const Edge& edge, const Edge& curve, double tolerance) {
 }
 
 /// Largest distance of the samples of `edge` from the points of `other` at the mapped parameters.
+///
 /// Parameters normalised to [0, 1] at both sides: a seam is `whole` only if the same t is the same
 /// point, which is what conditions on coefficients need.
 double mapped_gap(const Edge& edge, const Edge& other, bool reversed) {
@@ -163,6 +165,7 @@ double mapped_gap(const Edge& edge, const Edge& other, bool reversed) {
 }
 
 /// Whether the isocurves between two opposite edges stay within the tolerance of the edge.
+///
 /// Opposite sides of a patch that is thinner than the tolerance are near each other without being a
 /// seam: then everything between them is near as well.
 bool flat_between(const Edge& edge, double tolerance) {

@@ -60,9 +60,10 @@ struct Coupling {
 };
 
 /// X_{n−p+k} = X_k across a closed direction whose knots and weights repeat.
-/// With knots that repeat by a period, x_{n−p+k} = x_k + period for k = 1 … 2p − 1, p control points
-/// that repeat make all p − 1 derivatives continuous: more than tangents, by conditions of two
-/// terms.
+///
+/// With knots that repeat by a period, x_{n−p+k} = x_k + period for k = 1 … 2p − 1, p control
+/// points that repeat make all p − 1 derivatives continuous: more than tangents, by conditions of
+/// two terms.
 bool Coupling::periodic() {
   const int across = edge_across(seam.a.edge);
   const bool closed = seam.a.patch == seam.b.patch && seam.kind == SeamKind::whole &&

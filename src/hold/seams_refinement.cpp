@@ -24,6 +24,7 @@ std::vector<InnerKnot> mirrored(std::vector<InnerKnot> inner, bool mirror) {
 }
 
 /// Extends `target` to contain `other`; true if that changed it.
+///
 /// A degree raised by one raises every multiplicity by one, or the space would not contain the old
 /// one.
 bool take_over(Target& target, const Target& other, bool mirror, double agreement) {

@@ -48,6 +48,7 @@ void add_blossom(const KnotVector& x, int s, std::span<const double> arguments, 
 /// Coefficients on `to` from those on `from`: same domain [0, 1], `to` clamped with all inner knots
 /// of `from`, its degree the same or one higher (then a mean over the omitted argument, Prautzsch
 /// 1984).
+///
 /// Coefficient i on `to` is the polar form of the piece of `from` at the knots i + 1 … i + q of
 /// `to` (L. Ramshaw, "Blossoms are polar forms", 1989). The piece is one that contains these knots'
 /// spans. Every term is non-negative, so that no digit cancels, and rows sum to 1 to rounding.

@@ -68,6 +68,7 @@ struct KnotLine {
 };
 
 /// The spans of a surface, with the edges that run through them.
+///
 /// Chords of the edges are drawn into a grid of spans, as lines into pixels. Marked are all spans
 /// that the box of a piece meets, slack included: too many rather than too few, as a span that is
 /// missed would let an edge move.
@@ -86,8 +87,7 @@ class Cells {
   [[nodiscard]] const Direction& direction(int d) const { return d == 0 ? u_ : v_; }
 
   /// Marks the spans that an edge crosses, and returns the lines it runs along. `number` < 0: not
-  /// held.
-  /// The edge's deviation from its chords is in fractions of the domain, hence the slack.
+  /// held. The edge's deviation from its chords is in fractions of the domain, hence the slack.
   std::vector<KnotLine> mark(const TrimEdge& edge, int number) {
     std::vector<KnotLine> lines;
     const Vector2d slack = Vector2d(u_.domain.length(), v_.domain.length()) * edge.deviation;

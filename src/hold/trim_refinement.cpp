@@ -41,6 +41,7 @@ class Isocurve {
   }
   /// The parameter at this length from the place towards `end`, or `end`; in steps of a 64th of the
   /// length.
+  ///
   /// An adaptive march: steps between a 128th and a 32nd of the length, so that the sum of chords
   /// is near the arc, whatever the speed of the parameter.
   [[nodiscard]] Expected<double> reach(double length_to, double end) const {
@@ -76,6 +77,7 @@ class Isocurve {
 };
 
 /// Knots that divide the spans of one direction between `lower` and `upper` to at most `length`.
+///
 /// Spans are divided evenly in parameters, measured in space: a surface whose speed changes little
 /// within a span is refined evenly.
 Expected<void> divide(const Isocurve& curve, const KnotVector& knots, double lower, double upper,

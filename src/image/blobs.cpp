@@ -13,6 +13,7 @@ namespace {
 constexpr double growth = 1.15;  // from scale to scale
 
 /// The contrast of the disc of radius √2 σ that would answer so, at each pixel.
+///
 /// −σ² ∇²(G_σ * I) is 2/e of the contrast at the centre of such a disc (Lindeberg 1998); times e/2
 /// it is the contrast itself, comparable from scale to scale. The factor σ² is what makes it so:
 /// without it derivatives of ever smoother images only shrink. The Laplacian is the five-point
@@ -33,6 +34,7 @@ Image answers(const Image& image, double sigma, double sign) {
 }
 
 /// Whether no neighbour at this and the next scales answers more.
+///
 /// Of 26 neighbours in space and scale. Equal ones do not forbid: what lies double is removed
 /// afterwards, when blobs nearer than the larger radius are left out.
 bool is_largest(const std::vector<Image>& scales, std::size_t k, int x, int y) {

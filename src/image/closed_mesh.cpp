@@ -22,14 +22,15 @@ std::vector<double> steps(const KnotVector& knots, int per_span, bool last) {
   return at;
 }
 
-/// Which side of the plane through three points.
-/// Six times the signed volume of the tetrahedron (a, b, c, p).
+/// Which side of the plane through three points. Six times the signed volume of the tetrahedron (a,
+/// b, c, p).
 double side_of(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b,
                const Eigen::RowVector3d& c, const Eigen::RowVector3d& p) {
   return (b - a).cross(c - a).dot(p - a);
 }
 
 /// Whether a segment goes through a triangle.
+///
 /// Its ends lie on different sides of the plane, and its line passes the three edges on the same
 /// side. What only touches has a volume of 0 and does not count, so that a mesh that lies on itself
 /// is not reported for rounding.
@@ -50,6 +51,7 @@ bool cross(const Points& at, const Corners& s, const Corners& t) {
 
 /// Twice the area of (a, b, p) in the plane of the last two coordinates; exactly the negative for
 /// (b, a, p).
+///
 /// Both triangles at an edge compute the same number, not two that differ by rounding: a line along
 /// x that passes near the edge then meets exactly one of them, and crosses a closed mesh an even
 /// number of times.

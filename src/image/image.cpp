@@ -16,6 +16,7 @@ namespace {
 
 /// The image filtered along x and then along y by an odd number of weights, the border repeated.
 /// Whole rows at a time: each sum is in the order of its weights.
+///
 /// Two passes of m weights cost 2 m a pixel, a mask of m × m would cost m²: every filter here is a
 /// product of two.
 Image convolved(const Image& image, const std::vector<double>& along_x,

@@ -50,6 +50,7 @@ Expected<void> check_potential_settings(const ImagePotentialSettings& s) {
 namespace {
 
 /// Sums along rows by the trapezoidal rule, from their left end.
+///
 /// ∂J/∂x = I, so that ∮ J dy = ∫∫ I dx dy: the sum of intensity inside a contour as a line
 /// integral, whose cost is that of the contour and not of the pixels inside.
 Image sums_to_the_left(const Image& image) {

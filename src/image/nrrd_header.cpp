@@ -263,6 +263,7 @@ Expected<std::vector<double>> per_axis(const HeaderFields& fields, const std::st
 }
 
 /// Spacings, and where the axes begin.
+///
 /// A minimum of cells is half a step before the first centre, one of nodes is the centre: a file
 /// that does not say which is refused, since either guess would shift the volume.
 Expected<void> read_axes(const HeaderFields& fields, NrrdHeader& header) {

@@ -12,6 +12,7 @@ namespace knead {
 namespace {
 
 /// Which closed snake each pixel is inside of.
+///
 /// Rasterised polygons of Gauss points, to half a pixel: exact insides would cost point-in-curve
 /// tests for every sample of every band.
 class Cover {
@@ -74,6 +75,7 @@ std::optional<double> median(GreySamples samples) {
 }
 
 /// Fills in what is outside within the snake's band.
+///
 /// From every Gauss point outwards, a sample a pixel, until the band ends or another snake begins;
 /// weighted by the length of contour that the point stands for, or crowded points would count more.
 void look_around(const ImagePotential& image, const MovingSnake& snake, double side,

@@ -17,6 +17,7 @@ bool all_ended(const std::vector<MovingSnake>& snakes) {
 }
 
 /// An iteration of those that have not ended.
+///
 /// Sums inside and grey values outside of all snakes are taken before any of them moves, so that
 /// results do not depend on their order.
 Expected<void> step_all(const ImagePotential& image, std::vector<MovingSnake>& snakes) {
@@ -72,6 +73,7 @@ struct Snakes::State {
   }
 
   /// Halves those spans in which the finer net made a difference.
+  ///
   /// Refinement by trial: how far a finer net would move the contour is measured on that net at
   /// rest, since no estimate from the image says where more control points help. Only the spans
   /// that differ are halved, from the coarse shape on; iterations of the trial count.

@@ -25,8 +25,8 @@ Expected<KnotVector> uniform_knots(int degree, int count, double length, bool pe
   return periodic_knots(degree, breaks);
 }
 
-/// The Gramian of functions that come around again.
-/// On uniform periodic knots the result is a symmetric circulant matrix.
+/// The Gramian of functions that come around again. On uniform periodic knots the result is a
+/// symmetric circulant matrix.
 Eigen::MatrixXd folded(const BandMatrix& band, int count) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, count);
   const int p = band.half_bandwidth();
@@ -38,6 +38,7 @@ Eigen::MatrixXd folded(const BandMatrix& band, int count) {
 }
 
 /// The eigenvalue of a symmetric circulant matrix for a wave number.
+///
 /// Its eigenvectors are cosines and sines of 2π k i/n whatever its entries: so all Gramians around
 /// u are diagonal in one Fourier basis.
 double symbol(const Eigen::MatrixXd& circulant, int wave) {
@@ -48,6 +49,7 @@ double symbol(const Eigen::MatrixXd& circulant, int wave) {
 }
 
 /// ∫ N_i^(d) N_j^(d) weight(v) dv of the functions from pole to pole.
+///
 /// 1/sin is infinite at a pole. It weighs slopes along u only, of waves k ≥ 1, whose functions
 /// vanish there (`allowed`): what is integrated stays finite, and entries of functions that do not
 /// vanish are never used.

@@ -60,6 +60,7 @@ struct MovingSurface {
 
   /// The move by forces on the unknowns, springs drawing at its end (Sherman, Morrison and
   /// Woodbury).
+  ///
   /// With H the functions at the springs, S their strengths and A = γ M + K: A d = f + H S (to −
   /// Hᵀ(c + d)). λ = S (to − Hᵀ(c + d)) solves (Hᵀ A⁻¹ H + S⁻¹) λ = to − Hᵀ c − Hᵀ A⁻¹ f, a system
   /// as small as there are springs, and d = A⁻¹ f + (A⁻¹ H) λ. In the matrix a spring would couple
@@ -117,6 +118,7 @@ struct MovingSurface {
   }
 
   /// Forces of the image, of pressure and of volcanoes at the Gauss points, with their weights.
+  ///
   /// Weighted by dΩ like the mass matrix: forces and viscosity are per measure of the parameters,
   /// so that the motion of a place does not depend on the net.
   [[nodiscard]] Points forces(const VolumePotential& image, double side,
@@ -189,6 +191,7 @@ struct MovingSurface {
   /// Moves it within itself so that area J is stretched evenly, to first order: by the places of
   /// parameters shifted by ∇φ with Δφ = mean − log J on Ω, since log J changes by Δφ (J. Moser's
   /// construction, linear).
+  ///
   /// The Poisson problem has constants in its null space: 1e-6 of M, in the radius of the domain,
   /// makes it definite and hardly changes φ, as the right side has the mean 0. On a sphere ∇φ has
   /// the components φ_u / sin² and φ_v. The mass matrix turns the shift at Gauss points into one of
@@ -229,8 +232,8 @@ struct MovingSurface {
   }
 };
 
-/// All of them until the last one rests.
-/// Sums of all surfaces come first, as those outside of one are what is in none.
+/// All of them until the last one rests. Sums of all surfaces come first, as those outside of one
+/// are what is in none.
 Expected<void> run_until_rest(const VolumePotential& image, std::vector<MovingSurface>& snakes) {
   const bool region = image.settings().region != 0;
   const auto [nx, ny, nz] = image.size();

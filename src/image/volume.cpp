@@ -62,6 +62,7 @@ void each_line(VolumeImage& volume, std::size_t axis, const Work& work) {
 }
 
 /// Derivatives by voxels of the splines along an axis.
+///
 /// The derivative of the cubic spline at its knots, (c_{i+1} − c_{i−1})/2: of fourth order, where
 /// differences of voxels are of second, at the cost of one filter.
 VolumeImage slope_along(VolumeImage volume, std::size_t axis) {

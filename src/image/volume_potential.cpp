@@ -22,8 +22,8 @@ struct VolumePotential::Fields {
 
 namespace {
 
-/// Sums along the first direction by the trapezoidal rule, from the border.
-/// J with ∂J/∂i = I: by the divergence theorem ∮ J n_i dA is the sum of intensity inside.
+/// Sums along the first direction by the trapezoidal rule, from the border. J with ∂J/∂i = I: by
+/// the divergence theorem ∮ J n_i dA is the sum of intensity inside.
 VolumeImage sums_along_rows(const VolumeImage& volume) {
   VolumeImage sums = volume;
   for (int z = 0; z < volume.size[2]; ++z) {

@@ -17,8 +17,8 @@ constexpr int fewest_of_plane = 6;                  // samples
 constexpr double most_lean = std::numbers::pi / 3;  // of a pen's axis, from the normal
 constexpr double opposed = 0.1;  // mean of normals below which they say nothing of a direction
 
-/// Half the way to the neighbours on both sides.
-/// Trapezoidal weights of the abscissae, which need not be even.
+/// Half the way to the neighbours on both sides. Trapezoidal weights of the abscissae, which need
+/// not be even.
 std::vector<double> cells_of(const std::vector<double>& at) {
   std::vector<double> cells(at.size());
   for (std::size_t k = 0; k < at.size(); ++k) {
@@ -74,8 +74,7 @@ bool leans(BrushKind kind) {
 }
 
 /// The direction of a pen's axis, on the side of the normal and no farther from it than pens may
-/// lean.
-/// Beyond 60° the direction would be nearly within the surface, and a push of it a shear.
+/// lean. Beyond 60° the direction would be nearly within the surface, and a push of it a shear.
 Point leaned(const Point& normal, const Point& axis) {
   const Point along = axis.dot(normal) * normal, aside = axis - along;
   const double up = along.norm(), out = aside.norm();

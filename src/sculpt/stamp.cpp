@@ -15,6 +15,7 @@ constexpr int most_ray_steps = 1000;
 constexpr double seen_share = 1e-9;  // of the size: a ray that comes so near has met the shape
 
 /// Where a ray downwards at (x, y) meets the shape; −∞ where it misses it.
+///
 /// Sphere tracing (J. C. Hart, 1996): nothing is nearer than the distance, so that a step of it
 /// cannot pass through the shape. Steps shrink geometrically towards a surface that is met at an
 /// angle.

@@ -20,6 +20,7 @@ struct SampledShape {
   Points points;
 
   /// About the foot of a point: downhill from the nearest sample.
+  ///
   /// The nearest sample is a start in the right valley of the distance; a global search would cost
   /// more for each of a stroke's places.
   [[nodiscard]] std::array<double, 2> foot(const Point& x) const {
@@ -73,6 +74,7 @@ std::optional<Motion> motion_of(const SampledShape& on, const Travel& travel) {
 }
 
 /// The displacement, moved, at the abscissae.
+///
 /// D(u − way), turned: the value at the parameters from where it comes. Beyond the border it is
 /// that of the border.
 std::optional<Points> moved(const SampledShape& on, const Surface& displacement,

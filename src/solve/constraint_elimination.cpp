@@ -18,6 +18,7 @@ namespace {
 constexpr double dependent_below = 1e-11;
 constexpr double contradictory_above = 1e-9;
 // Of the largest coefficient: room to choose an unknown that few others use.
+//
 // Markowitz's choice of pivots (1957) with a threshold: the largest coefficient would be the most
 // stable pivot, but one that many definitions contain is substituted in all of them.
 constexpr double pivot_threshold = 0.3;

@@ -29,6 +29,7 @@ std::vector<MapRow> map_rows(const ConstraintSpace& space) {
 
 /// Calls visit(entry of A, unknown, unknown, coefficient) for all that the entries of A add to Tᵀ A
 /// T.
+///
 /// An entry A_ij adds c d A_ij to entry (p, q) for each term (p, c) of row i of T and (q, d) of row
 /// j: one term each where points are free, so that the sum is then a renumbering.
 template <class Visit>
@@ -79,6 +80,7 @@ struct Marks {
 };
 
 /// Ones where Tᵀ A T has entries, column by column.
+///
 /// Column q of Tᵀ A T is nonzero where Tᵀ (A t_q) may be: the rows of A's columns in t_q, then the
 /// unknowns of these rows. Marks take the memory of one column, whatever the number of terms.
 SparseMatrix restricted_pattern(const SparseMatrix& a, const std::vector<MapRow>& rows,

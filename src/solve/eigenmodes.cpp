@@ -47,6 +47,7 @@ struct RitzPairs {
 };
 
 /// Block Lanczos for the operator A⁻¹ C, symmetric in the inner product of P.
+///
 /// The invariant subspace is grown block by block: V_{k+1} R = A⁻¹C V_k − V (Vᵀ P A⁻¹ C V_k), V
 /// P-orthonormal, T = Vᵀ P A⁻¹ C V. With the eigenpair (θ, s) of T, x = V s has the residual |A⁻¹C
 /// x − θ x|_P = |R s_last|, s_last the rows of the last block: known without computing x (Grimes,
@@ -102,6 +103,7 @@ class Lanczos {
 
   /// Replaces columns by orthonormal ones of the same span and returns R of the product; columns
   /// that depend on others are left out.
+  ///
   /// Gram–Schmidt, twice, with P as inner product. A column that loses all but 1e-12 of the
   /// largest length lies in the span of those before; the space is then invariant in its direction.
   Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& block) {

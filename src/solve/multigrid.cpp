@@ -13,6 +13,7 @@ namespace knead {
 namespace {
 
 // Over the largest eigenvalue of D⁻¹A: the upper three quarters fall by 0.6 at least.
+//
 // With λ the largest eigenvalue, an error along an eigenvector of D⁻¹A with eigenvalue μ is
 // multiplied by 1 − 1.6 μ/λ, between −0.6 and 0.6 for μ from λ/4 to λ. Functions with μ below λ/4
 // are left to the coarser space.
@@ -30,8 +31,7 @@ std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
-/// Pᵀ A P.
-/// In blocks of columns: A P as a whole would take as much memory again as A.
+/// Pᵀ A P. In blocks of columns: A P as a whole would take as much memory again as A.
 SparseMatrix galerkin(const SparseMatrix& a, const SparseMatrix& p,
                       const SparseMatrix& transposed) {
   SparseMatrix result(p.cols(), p.cols());
@@ -90,6 +90,7 @@ SparseMatrix lumped(const ConstraintSpace& space, const SparseMatrix& a) {
 }
 
 /// Numbers between −½ and ½ without a pattern.
+///
 /// The start of power iteration must have a part along the eigenvector sought, whose signs
 /// alternate from control point to control point: a smooth start would have next to none. Fixed
 /// numbers, so that the same system gives the same bits.
@@ -208,6 +209,7 @@ void ConstrainedMultigrid::cycle(std::size_t level, const Fours& r, Fours& x) co
 }
 
 /// The correction from the coarser spaces for a force on the finest one.
+///
 /// Forces are divided by their largest first: single precision has 7 digits but ends at 1e-38,
 /// where residuals of small models and late iterations would vanish.
 Points ConstrainedMultigrid::coarse(const Points& r) const {

@@ -18,6 +18,7 @@ namespace knead {
 /// symmetric and positive, and no error grows. The smoother is Jacobi's method, damped by the
 /// largest eigenvalue of D⁻¹A. The coarsest matrix is factored. All but the finest space is in
 /// single precision, which a preconditioner does not notice.
+///
 /// Against a factor: O(N) memory and time a cycle, where L of a surface takes O(N log N) entries
 /// and O(N^1.5) operations. What is lost is locality: every iteration runs over the whole net,
 /// while a contact needs a part of L alone (`Minimisation`).

@@ -27,6 +27,7 @@ const detail::PanelKernels& panel_kernels_of(InstructionSet set) {
 /// those of all columns of which it is the first row (George, Liu: Computer Solution of Large
 /// Sparse Positive Definite Systems, § 5.3). A column's rows are kept until they have been passed
 /// on and nobody asks for them any more.
+///
 /// With parent(k) the first row below the diagonal of column k of L, rows(j) = rows of A's column j
 /// united with rows(k) \ {j} of all k whose parent is j. Columns further down the elimination tree
 /// add nothing, as their rows are already in those of their parents. Cost: O(entries of L) times
@@ -146,6 +147,7 @@ void Panels::allocate() {
 /// waits until that is made. Tasks that do not need each other are made by several threads, and the
 /// last ones, of large panels, one by one, where threads share the rows of a panel. Who adds what
 /// in which order does not depend on that.
+///
 /// Left-looking: with J a panel, K those before it that have rows in J,
 ///
 ///   L_J = (A_J − Σ_K L_K L_JKᵀ) L_JJ⁻ᵀ,  L_JJ L_JJᵀ = the same difference on J's own rows

@@ -43,6 +43,7 @@ struct Loads {
 };
 
 /// Newton's iteration towards one load.
+///
 /// Solves Tᵀ(f F(x) − ∇W(x)) = 0 for x = x₀ + T y, f the load factor: the tangent is ∇²W, with
 /// geometric stresses σ(x) + σ'(x) d extrapolated from the place before instead of recomputed at
 /// the new x (the mixed integration points of Magisano, Leonetti and Garcea, "How to improve

@@ -17,8 +17,8 @@ struct SparseCholesky::Factor {
 
 namespace {
 
-/// In the order that `order` finds for the whole matrix, which is emptied.
-/// A and its permuted copy are never held together with L: memory peaks at one of the two and L.
+/// In the order that `order` finds for the whole matrix, which is emptied. A and its permuted copy
+/// are never held together with L: memory peaks at one of the two and L.
 template <class Order>
 Expected<SparseCholesky> factor_by(SparseMatrix&& a, const Order& order) {
   Dissection dissection;
@@ -74,6 +74,7 @@ namespace {
 template <class Values>
 inline constexpr int columns = Values::ColsAtCompileTime == 1 ? 1 : 4;
 /// Rows of that many values, each within one line of the cache.
+///
 /// Rows of 4 doubles on 32-byte boundaries: none crosses a line of the cache, and AVX2 loads each
 /// at once.
 template <class Values>
