@@ -45,14 +45,15 @@ class PivotedQr {
   [[nodiscard]] Eigen::Index pivots() const;
   /// The columns of A in the order of the pivots.
   [[nodiscard]] const Eigen::VectorXi& order() const;
-  /// |R_kk|. \param k less than `pivots()`
+  /// |R_kk|.
+  /// \param k less than `pivots()`
   [[nodiscard]] double pivot(Eigen::Index k) const;
-  /// The remainders of the other columns after the first `rank` pivots, in pivot order. \param rank
-  /// at most `pivots()`
+  /// The remainders of the other columns after the first `rank` pivots, in pivot order.
+  /// \param rank at most `pivots()`
   [[nodiscard]] Eigen::MatrixXd remainder(Eigen::Index rank) const;
   /// All columns of A as combinations of the first `rank` pivots, those of least squares:
-  /// coefficients(k, j) is that of pivot k in column j of A. \param rank at most `pivots()`; the
-  /// pivots before it are not zero
+  /// coefficients(k, j) is that of pivot k in column j of A.
+  /// \param rank at most `pivots()`; the pivots before it are not zero
   [[nodiscard]] Eigen::MatrixXd coefficients(Eigen::Index rank) const;
 
  private:

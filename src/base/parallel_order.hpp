@@ -21,8 +21,9 @@ void give_way();
 /// what it needs is done: `needs` gives a range of the items before it in `order` that come first;
 /// items that are not in `order` are not waited for. What two items write that do not need each
 /// other must be apart. What a body throws is thrown here, as by `parallel_for`; no body begins
-/// after that. \param items numbers of items are below it. \param worth whether there is enough to
-/// do for several threads.
+/// after that.
+/// \param items numbers of items are below it.
+/// \param worth whether there is enough to do for several threads.
 template <class Needs, class Body>
 void parallel_in_order(std::span<const int> order, std::size_t items, bool worth,
                        const Needs& needs, const Body& body) {

@@ -33,10 +33,10 @@ struct ActiveShellSettings {
 /// has the stiffness 1, and tools, friction, limits, λ and tolerances mean what they do in the
 /// linear model with α = 1. A step finds
 ///
-///   acm         argmin W(X) − G·X + Ψ(X) + λ/2 |X − X₀|²_B,  B the mass matrix of the scaled
-///   domain stationary  argmin W(X) − G·X + Ψ(X), beginning at X₀ dynamic     M(V₁ − V₀)/h + D V +
-///   ∇W(X_θ) + c − G + ∇Ψ(X₁) = 0,  X_θ = (1 − θ) X₀ + θ X₁,  Δ = X₁ − X₀ = h V,
-///               V = (1 − θ) V₀ + θ V₁,  D = damping · M
+///   acm         argmin W(X) − G·X + Ψ(X) + λ/2 |X − X₀|²_B,  B the mass of the scaled domain
+///   stationary  argmin W(X) − G·X + Ψ(X), beginning at X₀
+///   dynamic     M(V₁ − V₀)/h + D V + ∇W(X_θ) + c − G + ∇Ψ(X₁) = 0,  D = damping · M,
+///               X_θ = (1 − θ) X₀ + θ X₁,  Δ = X₁ − X₀ = h V,  V = (1 − θ) V₀ + θ V₁
 ///
 /// first by convex parabolas in the place of W with contact as it is, to an imbalance of 1e-3 of
 /// the forces that meet (interactive accuracy), then by Newton's method with the exact Hessian and

@@ -42,8 +42,9 @@ class ContactDirections {
 
   /// To a share of the first residual. If A + H turns out not to be positive, the result is the sum
   /// of the steps so far, or the preconditioned r: a descent direction in any case (Nocedal and
-  /// Wright, Numerical Optimization, Alg. 7.1). The slope is left to be found. \param image A⁻¹ r
-  /// in the neighbourhood. \param solves Is raised by the number of substitutions.
+  /// Wright, Numerical Optimization, Alg. 7.1). The slope is left to be found.
+  /// \param image A⁻¹ r in the neighbourhood.
+  /// \param solves Is raised by the number of substitutions.
   [[nodiscard]] ContactDirection find(const PotentialState& state, const Anchor& anchor,
                                       ContactNeighbourhood& near, Combination r, Points image,
                                       const Wanted& wanted, int& solves);

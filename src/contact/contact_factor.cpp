@@ -74,7 +74,8 @@ ContactDirection ContactFactor::precondition(const Residual& rest,
   return to;
 }
 
-/// A d for what lowers the residual to `target` of its square. \param enough Whether it does.
+/// A d for what lowers the residual to `target` of its square.
+/// \param enough Whether it does.
 ///
 /// M is the inverse of A + H₀, so that iterations count what has come into contact or left it since
 /// H₀; eight of them cost about what a new factor does.

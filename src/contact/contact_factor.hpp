@@ -27,7 +27,8 @@ class ContactFactor {
 
   /// The direction to `tolerance` of the first residual in the norm of A⁻¹, or as near as rounding
   /// allows. False if A + H is not positive definite, or too close to singular. The slope is left
-  /// to be found. \param solves Is raised by the number of substitutions, and one per factor.
+  /// to be found.
+  /// \param solves Is raised by the number of substitutions, and one per factor.
   [[nodiscard]] bool find(const PotentialState& state, const Anchor& anchor,
                           ContactNeighbourhood& near, Residual rest, double tolerance,
                           ContactDirection& to, int& solves);

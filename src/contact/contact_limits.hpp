@@ -25,10 +25,12 @@ inline constexpr int max_rounded_steps = 4;
 /// and Walker, 1996): loose while the iterate is far away, since which points touch will change,
 /// and tighter near the end, where a step must not undo the gain of the previous one; never tighter
 /// than what is enough of the whole, as the remainder is then only rounding, and directions made
-/// from it violate the constraints. \param decrement of the iterate. \param enough A decrement that
-/// ends the iteration. \param largest Of the terms that the step balances. \param interactive
-/// Whether an error of the displacement is allowed: what the last iteration gains too little of,
-/// the next one need not make up for.
+/// from it violate the constraints.
+/// \param decrement of the iterate.
+/// \param enough A decrement that ends the iteration.
+/// \param largest Of the terms that the step balances.
+/// \param interactive Whether an error of the displacement is allowed: what the last iteration
+/// gains too little of, the next one need not make up for.
 inline double direction_tolerance(double decrement, double enough, double largest,
                                   bool interactive) {
   const double loosest = interactive ? 0.1 : 1e-2, factor = interactive ? 1 : 0.1;

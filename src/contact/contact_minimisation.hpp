@@ -190,7 +190,8 @@ class Minimisation {
     return true;
   }
 
-  /// sqrt(bᵀ A⁻¹ b) over the free unknowns. \param force sqrt(Fᵀ A⁻¹ F)
+  /// sqrt(bᵀ A⁻¹ b) over the free unknowns.
+  /// \param force sqrt(Fᵀ A⁻¹ F)
   double norm_of_b(const View& here, double force) {
     if (norm_of_b_ >= 0) return norm_of_b_;
     if ((y_.array() == 0).all()) {  // r is b + F

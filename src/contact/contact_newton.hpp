@@ -12,7 +12,7 @@ namespace knead {
 /// How the minimisation of one step ended.
 struct ContactSummary {
   int iterations = 0;  ///< Newton iterations
-  int solves = 0;      ///< back substitutions
+  int solves = 0;      ///< substitutions
   bool converged = false;
   bool finite = true;  ///< false: a number overflowed on the way
 };

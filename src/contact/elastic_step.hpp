@@ -31,12 +31,13 @@ struct ElasticModel {
   ConstraintSpace space{0};
   std::optional<CoordinateRestriction> restriction = {};
 
-  /// All but energy, mass and restriction. \param stretching twice of it is the unit of energy.
+  /// All but energy, mass and restriction.
+  /// \param stretching twice of it is the unit of energy.
   [[nodiscard]] static Expected<ElasticModel> create(std::vector<Spline<D>> patches,
                                                      ActiveShellSettings settings,
                                                      double stretching);
-  /// Takes the energy, in these units, and makes the rest. \param own_mass in units of the file;
-  /// empty: none.
+  /// Takes the energy, in these units, and makes the rest.
+  /// \param own_mass in units of the file; empty: none.
   [[nodiscard]] Expected<void> complete(std::shared_ptr<const ElasticEnergy> of,
                                         const SparseMatrix& own_mass);
 };

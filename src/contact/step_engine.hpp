@@ -23,7 +23,8 @@ inline constexpr int direct_points = D == 3 ? 20000 : 90000;
 /// The most iterations for eight digits with which cycles are cheaper than a factor. On surfaces of
 /// degree 3 and less: 12, the usual number, times points / `direct_points`, since a factor costs
 /// n^1.5, and iterations n for each; at least 12 and at most 40. On volumes, and of higher degree,
-/// 40: their factors are much denser. \param degree the highest
+/// 40: their factors are much denser.
+/// \param degree the highest
 template <int D>
 [[nodiscard]] int most_iterations(int points, int degree);
 

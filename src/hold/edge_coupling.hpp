@@ -46,12 +46,12 @@ struct EdgeCoupling {
 /// curves, which may run through the inside of spans, at different speeds on either side, and meet
 /// one another in vertices:
 ///
-///   Σ R_a,ij X_a,ij − Σ R_b,ij X_b,ij = 0     at the points of the curve, for the first patch
-///   there and each other one.
+///   Σ R_a,ij X_a,ij − Σ R_b,ij X_b,ij = 0
 ///
-/// and likewise for the derivatives Σ ∂R_ij X_ij in the directions `across`, which keep tangent
-/// planes common: with position, the differentials of all displacements then agree on the plane
-/// that the patches shared (docs/design/trims.md).
+/// at the points of the curve, for the first patch there and each other one, and likewise for the
+/// derivatives Σ ∂R_ij X_ij in the directions `across`, which keep tangent planes common: with
+/// position, the differentials of all displacements then agree on the plane that the patches shared
+/// (docs/design/trims.md).
 ///
 /// Two nets have few displacements along a curve exactly in common. Hence conditions are not taken
 /// at all points: first everything is expressed by the unknowns that the constraints so far leave
@@ -62,8 +62,9 @@ struct EdgeCoupling {
 /// conditions that follow from seams or meet in a vertex are not repeated, whatever their rounding.
 /// Curves are taken one after another, each given those before it.
 ///
-/// \param rows   first unknown of every patch, and the end
-/// \param before constraints that hold anyway \param held one flag per unknown, or empty
+/// \param rows first unknown of every patch, and the end
+/// \param before constraints that hold anyway
+/// \param held one flag per unknown, or empty
 /// Errors: a parameter outside the domain, a tolerance out of range (input); a denominator that is
 /// not positive (numerical); those of the constraints so far. Cost: one elimination of the
 /// constraints before, and per curve O(m n min(m, n)) for m points and n unknowns near it.

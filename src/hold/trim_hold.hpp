@@ -40,12 +40,13 @@ struct TrimHold {
 /// vary beside it.
 ///
 /// A pole (an end of the domain that is a single point) is held like an edge with the largest order
-/// of any edge. \param orders one per edge of the region: −1 free, 0, 1, 2. \param tolerance a
-/// length: an edge no further than this from a knot line counts as running along it; the
-///   displacement of the edge is then at most `tolerance` times the slope of D there. With an order
-///   above 0, one more order is held where it lies off the line by more than rounding.
-/// Errors: a wrong number of orders, or one out of range (usage).
-/// Cost: O(chords of the edges · spans each crosses + spans · corners of the loops).
+/// of any edge.
+/// \param orders one per edge of the region: −1 free, 0, 1, 2.
+/// \param tolerance a length: an edge no further than this from a knot line counts as running along
+/// it; the displacement of the edge is then at most `tolerance` times the slope of D there. With an
+/// order above 0, one more order is held where it lies off the line by more than rounding.
+/// Errors: a wrong number of orders, or one out of range (usage). Cost: O(chords of the edges ·
+/// spans each crosses + spans · corners of the loops).
 Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region,
                               std::span<const int> orders, double tolerance, ConstraintList& to);
 

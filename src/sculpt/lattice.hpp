@@ -14,10 +14,12 @@ namespace knead {
 /// embedded geometry: x ↦ V(u(x)), u(x) = (x − lower) / (upper − lower).
 class Lattice {
  public:
-  /// \param box    what it must contain, file units. It is widened by `margin` of its diagonal on
-  /// every side, so that a flat box gains a thickness. \param degree, net per direction: knots are
-  /// clamped and uniform on [0, 1], control points at Greville abscissae. Errors (input): a degree
-  /// or net that makes no valid knots; a margin that is not positive; a box that is not finite.
+  /// \param box what it must contain, file units. It is widened by `margin` of its diagonal on
+  /// every side, so that a flat box gains a thickness.
+  /// \param degree, net per direction: knots are clamped and uniform on [0, 1], control points at
+  /// Greville abscissae.
+  /// Errors (input): a degree or net that makes no valid knots; a margin that is not positive; a
+  /// box that is not finite.
   [[nodiscard]] static Expected<Lattice> create(const BoundingBox& box, double margin,
                                                 const std::array<int, 3>& degree,
                                                 const std::array<int, 3>& net);

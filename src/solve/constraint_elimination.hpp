@@ -29,10 +29,10 @@ class ConstraintElimination {
     std::vector<int> sources = {};
   };
 
-  /// \param size    number of points; with `coupled`, their 3 coordinates are the unknowns: 3 i +
-  /// k. \param held    one flag per point; empty: none. \param sources whether definitions know the
-  /// constraints they follow from, which takes memory quadratic in the
-  ///                number of names: only an error about a contradiction needs them.
+  /// \param size number of points; with `coupled`, their 3 coordinates are the unknowns: 3 i + k.
+  /// \param held one flag per point; empty: none.
+  /// \param sources whether definitions know the constraints they follow from, which takes memory
+  /// quadratic in the number of names: only an error about a contradiction needs them.
   ConstraintElimination(int size, const std::vector<bool>& held, bool coupled, bool sources);
 
   /// Errors (input): the constraint contradicts those before it, which are named where `sources`

@@ -43,9 +43,11 @@ struct Dissection {
 /// by places: every part is cut across its longest direction, and the separator is what depends on
 /// the other side of the cut. Which entries the matrix has decides alone, so that any places give a
 /// right order; good ones a good one. Fills less than approximate minimum degree on large grids,
-/// and its parts can be eliminated side by side. \param a symmetric: its pattern, both triangles.
+/// and its parts can be eliminated side by side.
+/// \param a symmetric: its pattern, both triangles.
 /// \param node_size parts of at most so many unknowns are one node: some 0.1 ms of substitution for
-/// a thread. Cost: O((entries of A + size · log size) · log size).
+/// a thread.
+/// Cost: O((entries of A + size · log size) · log size).
 [[nodiscard]] Dissection dissect(const SparseMatrix& a, const GridPlaces& places,
                                  int node_size = 2000);
 

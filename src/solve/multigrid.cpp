@@ -105,7 +105,8 @@ Points scattered(Eigen::Index rows) {
 }
 
 /// The damped weights of Jacobi's method, 1.6 / (d λ) for the diagonal d and the largest eigenvalue
-/// λ of D⁻¹A, found by power iteration. \param d zero where there is no unknown.
+/// λ of D⁻¹A, found by power iteration.
+/// \param d zero where there is no unknown.
 template <class Product>
 Eigen::VectorXd jacobi_weights(const Eigen::VectorXd& d, const Product& product) {
   const Eigen::VectorXd inverse = (d.array() == 0).select(0.0, d.cwiseInverse());

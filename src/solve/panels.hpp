@@ -31,11 +31,12 @@ class Panels {
 
   Panels() = default;
   /// The L of A = L Lᵀ, made in place: each panel takes from A's entries the products of those
-  /// before it that reach it, so that L is stored once and A beside it. \param lower the lower
-  /// triangle of A, in the order in which it is to be factored, columns in any order of rows \param
-  /// set the fastest instruction set to use; all give the same bits \param dissection that gave the
-  /// order; null: another order did. None: A is not positive definite or not finite, or an
-  /// `Interruption` is asked for.
+  /// before it that reach it, so that L is stored once and A beside it.
+  /// \param lower the lower triangle of A, in the order in which it is to be factored, columns in
+  /// any order of rows
+  /// \param set the fastest instruction set to use; all give the same bits
+  /// \param dissection that gave the order; null: another order did.
+  /// None: A is not positive definite or not finite, or an `Interruption` is asked for.
   [[nodiscard]] static std::optional<Panels> factor(const SparseMatrix& lower,
                                                     InstructionSet set = best_instruction_set(),
                                                     const Dissection* dissection = nullptr);
