@@ -17,6 +17,9 @@ namespace knead {
 inline const double dynamic_stage = 1 - std::sqrt(0.5);
 
 /// The data of a step; all operators on all unknowns, in normalised units.
+///
+/// Made once per setting, shared by all steps and by copies; only `sprung`, a cache with a lock of
+/// its own, changes.
 template <int D>
 struct ActiveSpline<D>::Model {
   ActiveSettings<D> settings;

@@ -23,6 +23,10 @@ struct Anchor {
 };
 
 /// β r + E e.
+///
+/// For two of them (β₁ r + E e₁)ᵀA⁻¹(β₂ r + E e₂) = β₁β₂ rᵀs + β₁ sᵀe₂ + β₂ sᵀe₁ + e₁ᵀ(EᵀA⁻¹E) e₂:
+/// the square rᵀs is known, s = A⁻¹r is needed in the neighbourhood alone, and the last term is a
+/// solve within it. Nothing outside takes part.
 struct Combination {
   double beta = 0;
   Points e;

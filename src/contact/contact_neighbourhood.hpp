@@ -12,6 +12,10 @@ namespace knead {
 /// them. Contact forces are confined to them, and so are the displacements that Newton's iteration
 /// needs: arrays have one row per control point of the neighbourhood, in a fixed order to which
 /// `extend` appends.
+///
+/// An inverse within it uses the columns of L on the way from these points to the root of the
+/// elimination, a part of L that shrinks with the share of the net (docs/factor.md). To grow costs
+/// a new part and all that is known relative to it, hence a ring more than is needed at once.
 class ContactNeighbourhood {
  public:
   ContactNeighbourhood(const ConstrainedCholesky& inverse, const Potential& potential)

@@ -49,6 +49,10 @@ struct Minimum {
 };
 
 /// Minimises, starting from `y` (feasible), which becomes the minimum.
+///
+/// In a neighbourhood of the contacts where A is factored (`Minimisation`), on the whole net where
+/// it is not (`KrylovMinimisation`). Cost: a few solves within the neighbourhood for each
+/// direction, and one whole solve; or as many cycles on the whole net.
 [[nodiscard]] Minimum minimise_step(const StepProblem& problem, Potential& potential, Points& y);
 
 }  // namespace knead

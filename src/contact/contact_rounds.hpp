@@ -20,6 +20,11 @@ inline constexpr double missed_constraint = 1e-9;  // of the size of the model
 
 /// Minimisations in rounds: until no rigid tool is penetrated, at and between Gauss points, and a
 /// limit is kept.
+///
+/// An exterior penalty method: what is forbidden is allowed at a cost that rises until the
+/// violation is below `rigid_gap` or the limit's tolerance. Lagrange multipliers would allow
+/// softer springs, but are a state of each point, to be carried from step to step and over changes
+/// of the grid.
 template <int D>
 class ContactRounds {
  public:

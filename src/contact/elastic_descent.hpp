@@ -22,6 +22,12 @@ struct ElasticStepProblem {
 };
 
 /// Minimises Φ from one minimum to the next, as the potential changes.
+///
+/// ∇Φ = ∇W(start + θ Y) − b + Q Y − F and ∇²Φ = θ ∇²W + Q + ∇²Ψ, over 3N coordinates less those
+/// that constraints determine. W is not convex, as a thin shell buckles, and Ψ neither: hence
+/// descent by a line search, towards a minimum near the start and not any minimum. A Hessian
+/// couples the coordinates, so that every iteration of Newton's method costs a quadrature of ∇²W
+/// and a sparse factor, while one factor of a parabola serves several rounds.
 class ElasticDescent {
  public:
   ElasticDescent(const ElasticStepProblem& problem, Potential& potential);

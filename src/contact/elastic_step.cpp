@@ -69,6 +69,12 @@ Expected<void> check(const ActiveShellSettings& settings) {
 }
 
 /// One step.
+///
+/// The unknown is Y in x = start + Y, N × 3 in lengths of the model; `displaced` + Y is the
+/// displacement from the rest shape, to which constraints apply. `balance` finds Y: one
+/// equilibrium, a fixed point under forces that follow, or a dynamic step. Around each minimisation
+/// `rounds` stiffens rigid tools and tightens the limit. `accept` judges the result and returns it
+/// in units of the file.
 template <int D>
 struct ElasticRun {
   ElasticRun(const ElasticModel<D>& model, const ActiveState& from,

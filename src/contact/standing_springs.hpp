@@ -16,6 +16,9 @@ namespace knead {
 /// A step's operator with springs k/2 |rᵀX − to|² on points in it: A + Σ k r rᵀ, whose inverse
 /// serves wherever they draw to. Conjugate gradients on A⁻¹ need about as many substitutions as
 /// there are springs.
+///
+/// A spring in A acts as an implicit one in any case, as Ψ is taken at the new position: the
+/// minimum is the same, only the preconditioner is better.
 template <int D>
 struct SprungSystem {
   std::vector<PointForce> springs;     ///< of these terms and strengths

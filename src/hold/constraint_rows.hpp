@@ -81,6 +81,9 @@ struct SelectedRows {
 };
 /// None of no rows, nor of rows without unknowns. Errors (numerical): a coefficient is not a finite
 /// number.
+///
+/// Chosen such that every other row r is a combination of them up to a remainder with |r|_1 <=
+/// tolerance: |Σ r X| is then at most that times the largest |X|.
 [[nodiscard]] Expected<SelectedRows> select_rows(const std::vector<Terms>& rows, double tolerance);
 
 [[nodiscard]] Expected<void> check_parameter(const KnotVector& knots, double u, const char* name);

@@ -27,6 +27,9 @@ struct InnerKnot {
     std::span<const InnerKnot> a, std::span<const InnerKnot> b, double agreement);
 
 /// Two univariate spline spaces embedded in a finer one: the higher degree, all knots.
+///
+/// Two splines agree along a seam exactly if their coefficients on a space that contains both do:
+/// finitely many linear conditions, with no sampling between which they could part.
 struct CommonSpace {
   RowMatrix from_a,
       from_b;  ///< coefficients on the common space from those of a, of b (b in its own order)

@@ -27,6 +27,10 @@ struct Sides {
 };
 
 /// One snake on its way.
+///
+/// Iterated are semi-implicit steps (M. Kass, A. Witkin, D. Terzopoulos, 1988): stretch and bend at
+/// the end of the step, the forces of the image at its beginning. The viscosity γ adapts between
+/// them, so that the snake neither creeps nor swings across edges.
 struct MovingSnake {
   SnakeSettings settings;
   SnakeNet net;

@@ -8,6 +8,9 @@
 namespace knead {
 
 /// How a snake moves, curve or surface: whether it rests, and how much its viscosity has grown.
+///
+/// A snake whose forces are no gradient, as those of regions and flow, has no energy that a line
+/// search could lower: what is left to judge a step by is the motion itself.
 class SnakeMotion {
  public:
   /// After an iteration that has brought the unknowns to c. It rests when all are within `rest` of

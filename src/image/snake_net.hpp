@@ -13,6 +13,10 @@ namespace knead {
 
 /// The space of a snake with its matrix. A closed one has periodic knots, and its unknowns are the
 /// control points that differ: function i belongs to unknown i mod N.
+///
+/// An iteration solves (γ M + α G11 + β G22 + springs) c⁺ = ∫ N (γ v + f) ds for both coordinates
+/// at once, of a banded matrix (with corners where the snake is closed) that changes with γ alone:
+/// factored once, O(N p²), each iteration then costs O(N p) and the image at the Gauss points.
 class SnakeNet {
  public:
   /// On spans between these places of the parameter, ascending, at least p + 1 of them for a closed

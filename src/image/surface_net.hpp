@@ -29,6 +29,11 @@ struct SurfaceSpace {
 /// The space of an active surface with its matrices. Its unknowns are the control points that
 /// differ in u, (i, j) in row i counts[1] + j; at a pole those of a column are kept equal, and
 /// those of the next on their polygon.
+///
+/// (γ M + K) c = f has counts[0] · counts[1] unknowns for each coordinate. Around u all its blocks
+/// are circulant, so that a discrete Fourier transform of the rows parts it into one dense
+/// symmetric system in v for each wave number 0 … n/2. Sparse factors would do as well for a torus;
+/// conditions at poles, which tie whole columns, would make them dense.
 class SurfaceNet {
  public:
   /// Errors: those of the knots (input).

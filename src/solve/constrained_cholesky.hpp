@@ -12,6 +12,11 @@ namespace knead {
 
 /// A symmetric system A X = B on the unknowns left by linear constraints: T (Tᵀ A T)⁻¹ Tᵀ, factored
 /// once. Immutable, const is thread-safe.
+///
+/// The null-space method: with X = T y + d the constrained minimum is that of a smaller system,
+/// which is positive definite where A is on the admissible y. Multipliers would make it larger and
+/// indefinite, penalties ill-conditioned. The price is fill: an unknown that depends on k others
+/// couples these k (`CoordinateRestriction` for those that depend on hundreds).
 class ConstrainedCholesky {
  public:
   /// Factors Tᵀ A T and checks that solving for a known displacement, the same at every independent

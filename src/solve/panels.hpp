@@ -25,6 +25,10 @@ struct Dissection;
 /// to unknowns of others it sums up in rows of its own, beyond those of the matrix, which the node
 /// behind it adds to the unknowns: sums do not depend on the number of threads. Without a
 /// dissection there is one task.
+///
+/// Substitution is bound by the memory that L is read from: 8 bytes an entry, twice a solve,
+/// whatever is done with them. Hence three columns at once, and a width of four, for which the
+/// unknowns of a panel and the sums of a row stay in registers.
 class Panels {
  public:
   static constexpr int widest = 4;

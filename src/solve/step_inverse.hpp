@@ -9,6 +9,9 @@ namespace knead {
 
 /// A⁻¹ on what constraints leave free: by a factor, or by iteration. Immutable, const is
 /// thread-safe.
+///
+/// Whoever needs whole solves alone asks this; minimisations, which work in a neighbourhood or with
+/// single cycles, take the engine itself.
 class StepInverse {
  public:
   /// \param rounded of a matrix that had to be raised above the rounding of its entries to be
