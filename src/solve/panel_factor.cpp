@@ -29,7 +29,7 @@ const detail::PanelKernels& panel_kernels_of(InstructionSet set) {
 /// on and nobody asks for them any more.
 ///
 /// With parent(k) the first row below the diagonal of column k of L, rows(j) = rows of A's column j
-/// united with rows(k) \ {j} of all k whose parent is j. Columns further down the elimination tree
+/// united with rows(k) less j of all k whose parent is j. Columns further down the elimination tree
 /// add nothing, as their rows are already in those of their parents. Cost: O(entries of L) times
 /// the comparisons of a union.
 class ColumnRows {
