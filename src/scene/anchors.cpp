@@ -10,6 +10,12 @@
 namespace knead {
 namespace {
 
+// A sphere that is held by nothing but its (absent) edges would fly off under a tool: its energy
+// has rigid translations in the null space and the matrix would be singular under forces. A spring
+// at the centre of area, Σ a_i x_i / Σ a_i with a_i = ∫ N_i dA over the reference shape, holds the
+// place and nothing else: it resists translation alone, adds one rank-one term, and leaves every
+// shape free. Its stiffness is in proportion to that of the stiffest tool, so that tools dent the
+// surface rather than push it away.
 constexpr double usual_stiffness = 1e4;  // of tools
 
 bool holds(const KeptConstraint& kept) {
@@ -26,6 +32,8 @@ bool holds_more_than_edges(const SceneSurface& s) {
 
 }  // namespace
 
+// Only of surfaces without any boundary: in each direction closed, or ending in poles at both
+// sides.
 bool holds_its_place(const SceneSurface& s) {
   if (!s.visible || !s.visible->edges.empty() || !holds_trims(s.constraints) ||
       holds_more_than_edges(s))

@@ -55,6 +55,9 @@ const std::vector<bool>& visible_samples(const DisplayInput& input,
 
 }  // namespace
 
+// Quantiles by area: every third grid line in each direction gives a sample with the area |S_u ×
+// S_v| Δu Δv around it. Extremes are taken over all points of the grid, and a point is as visible
+// as the sample nearest to it, since the test of visibility costs more than everything else here.
 void DisplayRangeFinder::add(const DisplayInput& input, std::span<const double> values) {
   const auto& [us, vs] = input.parameters;
   const std::array lines = {sampled(us.size()), sampled(vs.size())};
@@ -106,6 +109,8 @@ std::optional<DisplayRange> DisplayRangeFinder::range(const Display& display) co
           sorted, [&](const Sample& s) { return (below += s.area) >= share * whole; });
       ends[static_cast<std::size_t>(end)] = (found == sorted.end() ? sorted.back() : *found).value;
     }
+    // Symmetric about 0 for signed quantities, so that the neutral colour is 0; from 0 for the
+    // others.
     const double upper = display.share * std::max(std::abs(ends[0]), std::abs(ends[1]));
     ends = {display.palette == DisplayPalette::diverging ? -upper : 0, upper};
   }

@@ -19,6 +19,9 @@ struct FaceSide {
 };
 
 /// J I⁻¹ II I⁻¹ Jᵀ
+/// The second fundamental form as a symmetric map of space that is zero along the normal: xᵀ W x is
+/// the normal curvature in a tangent direction x. In space, unlike in parameters, the maps of two
+/// surfaces can be subtracted; do Carmo, Differential Geometry of Curves and Surfaces, § 3-2.
 Eigen::Matrix3d shape_operator(const Point& u, const Point& v, const FundamentalForms& forms) {
   Eigen::Matrix<double, 3, 2> dual;  // J I⁻¹: e^i with e^i · S_j = δ_ij
   dual.col(0) = (forms.g * u - forms.f * v) / forms.squared_area();
@@ -57,6 +60,10 @@ struct Meeting {
   std::optional<double> angle, curvature;
 };
 
+// Position, tangent plane and curvature at pairs of feet (G0, G1, G2). Angles by atan2 of cross and
+// dot product: acos loses half of the digits at small angles, the ones that matter here. Curvature
+// only where tangent planes agree: elsewhere the difference of the maps is no difference of normal
+// curvatures. λ_max of the difference is the largest over all directions.
 Expected<void> meet(const FaceSide& a, const FaceSide& b, Meeting& meeting) {
   for (std::size_t k = 0; k < a.points.size(); ++k) {
     meeting.gap = std::max(meeting.gap, (a.points[k] - b.points[k]).norm());

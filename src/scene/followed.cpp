@@ -14,6 +14,12 @@ namespace {
 
 using Sample = SharedEdge::Sample;
 
+// How the shapes of several surfaces stay together along an edge C(t) that their faces share. Where
+// it is sampled, edge.feet[k] are the fractions of surface k at C(t); conditions D_a(u_a(t)) =
+// D_b(u_b(t)) are asked at `coupled_per_span` points in every span that the edge crosses of either
+// surface (`coupled_edges`), and what the step did is measured at `measured_per_span` (`parting`).
+// The two counts have no common divisor, so that most places of measurement lie between those of
+// the conditions, where nothing forces the distance to be small.
 constexpr double least_distance = 1e-6;  // of the size
 constexpr double share_of_uncertainty = 0.1;
 constexpr double most_parts = 256;  // of an interval between samples
@@ -31,6 +37,9 @@ double phase(const KnotVector& knots, double fraction) {
 }
 
 /// The samples of a course, with more between them wherever spans of these surfaces are short.
+/// The phases of two samples differ by the number of spans between them, knots of any spacing
+/// included; an interval is divided into as many parts as the surface asks for that changes most.
+/// Samples given are kept, so that the result is never coarser than the edge's own.
 std::vector<Sample> fine_samples(const SharedEdge& edge, std::span<const Surface* const> surfaces,
                                  int per_span) {
   const std::vector<Sample>& given = edge.samples();
@@ -55,6 +64,8 @@ std::vector<Sample> fine_samples(const SharedEdge& edge, std::span<const Surface
   return result;
 }
 
+// A tenth of the file's uncertainty, so that the displacement spends only a part of what the file
+// allows for the edge as a whole; where the file states none, a millionth of the largest net.
 double tolerance_of(const Scene& scene, const SharedEdge& edge) {
   double size = 0;
   for (const std::string& id : edge.surfaces()) {
@@ -65,6 +76,7 @@ double tolerance_of(const Scene& scene, const SharedEdge& edge) {
 
 }  // namespace
 
+// The last hold that names an edge is the one that counts.
 bool follows(const SceneSurface& surface, const std::string& edge) {
   bool result = false;
   for (const KeptConstraint& kept : surface.constraints) {
@@ -74,6 +86,9 @@ bool follows(const SceneSurface& surface, const std::string& edge) {
   return result;
 }
 
+// An edge follows in a step only if all of its surfaces are selected and let it follow: with one of
+// them missing there would be nobody to share its displacements. O(surfaces + Σ surfaces of edges),
+// by one table of the selection.
 std::vector<FollowedInput> followed_inputs(const Scene& scene) {
   std::vector<FollowedInput> result;
   const std::vector<int> selection = scene.selection();
@@ -113,6 +128,10 @@ bool is_smooth(const SharedEdge& edge) {
   return edge.surfaces().size() > 1 && edge.angle() <= smooth_angle;
 }
 
+// The places of the conditions, in parameters of each patch, and at smooth edges the directions w_k
+// across the edge. Samples have w_k per fraction of the domain; conditions take derivatives by
+// parameters, hence the factor of the domain's length: a change of s by w is one of u by L w. An
+// edge of one surface alone, whose faces lie on that surface, moves with it and needs no condition.
 std::vector<CoupledEdge> coupled_edges(const std::vector<FollowedInput>& followed,
                                        std::span<const Surface* const> patches) {
   std::vector<CoupledEdge> result;
@@ -146,6 +165,12 @@ namespace {
 
 /// Notes the angles between the tangent planes of shapes at a sample, of which the neighbour gives
 /// the edge's direction.
+/// The angle φ between two planes is split by the line about which they turn, n_1 × n_2. Its share
+/// along the edge, |cos|, is the part that conditions on derivatives across the edge must reduce;
+/// the sine is the part that comes from the slope of the distance between both sides, which those
+/// on positions must reduce. Both are in units of what is asked, `may_bend` and twice the angle as
+/// opened at the same sample. A chord to the neighbouring sample is direction enough: it only
+/// weighs the two parts.
 Expected<void> look_for_kink(std::span<const Surface* const> now, const Sample& sample,
                              const Sample& next, double may_bend, Parting& parting) {
   const auto first = normal_at_foot(*now[0], sample.feet[0]);
@@ -176,6 +201,9 @@ Expected<void> look_for_kink(std::span<const Surface* const> now, const Sample& 
 
 }  // namespace
 
+/// Displacements are compared, not positions: the gap that the file has between its surfaces is no
+/// fault of the step. Cost: one evaluation of each surface before and after at each sample, and one
+/// more of first derivatives at smooth edges.
 Expected<Parting> parting(const Scene& scene, const SharedEdge& edge) {
   Parting result;
   std::vector<const Surface*> now, then;
@@ -207,6 +235,8 @@ Expected<Parting> parting(const Scene& scene, const SharedEdge& edge) {
   return result;
 }
 
+// At an end of the edge other edges end too. If one of these does not follow, its curve stays in
+// the file as it is, and the vertex cannot move without parting from it.
 Expected<std::optional<StuckVertex>> stuck_vertex(const Scene& scene, const SharedEdge& edge) {
   const SceneSurface& s = *find_surface(scene, edge.surfaces().front());
   const auto is_followed = [&](const std::string& id) {

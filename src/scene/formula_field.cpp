@@ -73,6 +73,10 @@ double largest_value(FormulaOnSurface& f, const Surface& surface) {
 
 }  // namespace
 
+// A formula in s, t and x, y, z becomes a cubic spline by adaptive fit to a tolerance, so that
+// everything after it is the exact integration of splines. The default tolerance is 1e-6 of the
+// largest value on a grid of 33 × 33; a value outside of the range stops the fit by a not-a-number
+// and is reported with its place.
 Expected<SplineField<2>> formula_field(const std::string& text, const Surface& surface,
                                        std::optional<double> tolerance,
                                        const std::optional<Interval>& range) {

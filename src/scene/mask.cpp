@@ -19,6 +19,9 @@ std::vector<double> greville_of(const KnotVector& knots) {
 }
 
 /// Mean, largest or smallest of the weights within the radius of every sample.
+// The mean is weighted by area times falloff, so that it does not depend on how the net is spaced.
+// Every pair of control points is compared, O(n²): n is a few thousand, and the command is given by
+// hand.
 std::vector<double> spread(const std::vector<double>& mask, const BrushSamples& at,
                            MaskChange change, double radius) {
   std::vector<double> result(mask.size());
@@ -60,6 +63,9 @@ Expected<Surface> mask_field(const SceneSurface& surface) {
   return surface.current->with_control_points(std::move(weights));
 }
 
+// Values at Greville abscissae are taken as coefficients: the variation-diminishing approximation
+// of Schoenberg. It is not interpolation, but it never leaves [0, 1] and reproduces linear masks; a
+// mask that interpolates would overshoot and hold points that nobody masked.
 Expected<std::vector<double>> mask_on(const Surface& field, const Surface& shape) {
   const std::vector<double> us = greville_of(shape.knots(0)), vs = greville_of(shape.knots(1));
   const auto values =
@@ -68,6 +74,7 @@ Expected<std::vector<double>> mask_on(const Surface& field, const Surface& shape
   std::vector<double> mask;
   for (Eigen::Index i = 0; i < values->points().rows(); ++i) {
     const double m = std::clamp(values->points()(i, 0), 0., 1.);
+    // A weight of exactly 1 holds a control point, and must survive the rounding of an insertion.
     mask.push_back(m > 1 - insertion_error ? 1 : m < insertion_error ? 0 : m);
   }
   return mask;

@@ -14,6 +14,15 @@
 namespace knead {
 namespace {
 
+// Whether a file that is to be written is as closed as the one that was read. Along each edge the
+// same points of its curve are looked up on every face that meets there, on the surfaces as opened
+// and as they are. The largest distance between two sides may be
+//   now <= max(uncertainty, 1e-6 size, 1.01 opened),
+// and for edges that follow, whose curve is written anew, `opened` plus the uncertainty, or a
+// hundredth of itself where that is more. A file that is open by itself is thus not refused, and
+// one is not made worse by more than a hundredth of what it was. Otherwise the sides are also
+// compared with the edge's curve, which is written as it stands: two surfaces that leave it
+// together would be open to it.
 constexpr double least_parting = 1e-6;  // of the size
 constexpr double more_than_opened = 1.01;
 constexpr double on_seam = 1e-4;  // of the domain, as in SharedEdge
@@ -74,6 +83,9 @@ class DistanceAtEdge {
     result_.id = contact.id;
   }
 
+  // Faces on planes, cylinders and the like never move, so that the two places of a point are the
+  // same; those on B-splines are evaluated at the feet found as opened, which remain valid since
+  // parameters of material points do not change.
   Expected<void> add(const Scene& scene, const EdgeContactFace& face) {
     result_.faces.push_back(face.id);
     if (face.surface.empty()) {
@@ -91,6 +103,7 @@ class DistanceAtEdge {
     auto side = shown_side(*s, face.feet);
     if (!side) return std::unexpected(side.error());
     sides_.push_back(*std::move(side));
+    // A face that borders on itself has two sides here, and its foot search finds either one.
     const auto across = contact_.seam ? across_seam(face.feet) : std::nullopt;
     if (!across) return {};
     auto other = shown_side(*s, *across);
@@ -145,6 +158,7 @@ std::string place_in_words(const Point& p) {
 
 }  // namespace
 
+/// Cost: two evaluations per surface and edge, of all of the contact's points at once.
 Expected<std::vector<PartedEdge>> parted_edges(const Scene& scene,
                                                const std::vector<EdgeContact>& contacts) {
   std::vector<PartedEdge> result;

@@ -21,6 +21,9 @@ std::vector<Shape2*> shapes_of(SceneSurface& surface) {
   return shapes;
 }
 
+// Several shapes are often one object (reference, rest and the places of constraints before
+// anything moved). Each object is changed once and its copies stay one object: models are compared
+// by these pointers, and a second copy would make a model seem different.
 Expected<void> replace(const std::vector<Shape2*>& shapes, const SurfaceChange& change) {
   std::map<const Surface*, Shape2> changed;
   for (Shape2* shape : shapes) {
@@ -63,6 +66,8 @@ class MaskKept {
 
 }  // namespace
 
+// A mask has one number per control point. It is read as the coefficients of a scalar field and
+// sampled on the new net; where the net keeps its size the numbers stand.
 Expected<void> change_basis(SceneSurface& surface, const SurfaceChange& change) {
   const MaskKept mask(surface);
   const auto net = surface.current->net();
@@ -88,6 +93,11 @@ Expected<void> change_net(SceneSurface& surface, const SurfaceChange& change) {
   return mask.put_on(surface);
 }
 
+// Knots are removed from the present shape and, with the same linear maps, from the shapes beside
+// it (reference, rest, opened, places of constraints), so that all remain on one basis and D = S −
+// S_rest keeps its meaning. The bound is that of the present shape; each direction may use half of
+// the tolerance, as their errors add up. Removal from a velocity has no bound worth having: the
+// motion is stopped instead.
 Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
   if (auto free = check_pins(s); !free) return std::unexpected(free.error());
   Coarsening total;
@@ -150,6 +160,9 @@ Expected<Lattice> lattice_around_selection(const Scene& scene, double margin,
   return lattice_around(surfaces, margin, degree, net);
 }
 
+// A lattice remembers its pull so that a second one starts from the undeformed block. That is valid
+// while nothing else moved the surfaces: compared by object, then by basis and control points,
+// since undo and redo bring back equal shapes as other objects.
 const PulledLattice* lattice_to_pull_on(const Scene& scene, double margin,
                                         const std::array<int, 3>& degree,
                                         const std::array<int, 3>& net) {

@@ -13,6 +13,8 @@ namespace knead {
 namespace {
 
 /// p + 3 places per span, ends included.
+// A displacement that is a polynomial of degree p in a span is described by p + 1 values; two more
+// places come near to the maximum of its norm, which is shown and decides nothing.
 std::vector<double> samples_of(const KnotVector& knots) {
   std::vector<double> places;
   const int count = knots.degree() + 2;
@@ -34,6 +36,7 @@ double largest_norm_at_samples(const Spline<D>& field) {
                 : std::numeric_limits<double>::quiet_NaN();
 }
 
+// One knot at the middle of every span in every direction: exact, and 2^D times the control points.
 template <int D>
 Expected<std::shared_ptr<const Spline<D>>> halved(const Spline<D>& spline) {
   std::array<Interval, D> all;
@@ -43,6 +46,8 @@ Expected<std::shared_ptr<const Spline<D>>> halved(const Spline<D>& spline) {
   return std::make_shared<const Spline<D>>(*std::move(finer));
 }
 
+// As in `change_net` of surfaces: every shape is refined once however many places share it, and the
+// velocity with them.
 template <int D>
 Expected<void> halve(SceneShape<D>& s) {
   if (!s.pins.empty()) {

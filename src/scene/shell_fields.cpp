@@ -87,6 +87,10 @@ Expected<FieldGrid> result_grid(const SceneSurface& s, int samples,
   return grid;
 }
 
+// At equilibrium ∇E(x) − f = Cᵀ λ: what is out of balance at a control point is carried by what
+// holds it. A control point counts once, for the first constraint that contains it, so that the sum
+// of all reactions is the negative of all loads. Where the shape is not in equilibrium the
+// difference includes the forces that would still move it.
 Expected<std::vector<HoldReaction>> hold_reactions(const Scene& scene) {
   const auto problem = shell_problem(scene);
   if (!problem) return std::unexpected(problem.error());

@@ -28,6 +28,8 @@ bool closes(const Surface& s, int direction) {
 
 /// Σ N_i(u) N_j(v) P_ij over the control points of a span, rational where there are weights, at all
 /// u and v given by their basis functions.
+/// One direction after the other, in homogeneous coordinates: (n_u (p + 1) + n_u n_v) (q + 1)
+/// products of four numbers instead of n_u n_v (p + 1) (q + 1).
 std::vector<Point> contracted(const Surface& s, std::array<int, 2> first,
                               const std::array<Eigen::MatrixXd, 2>& basis) {
   const Eigen::Index a = basis[0].cols(), b = basis[1].cols();
@@ -54,6 +56,10 @@ std::vector<Point> contracted(const Surface& s, std::array<int, 2> first,
 
 /// By which the triangles of a grid of points may miss the surface: h²/8 of the second derivative
 /// in each direction, and the twist of a square between its two diagonals.
+//   second differences over 8 bound the chord error of a function that is quadratic over two cells;
+//   the mixed difference over 4 bounds the distance between both diagonals of a bilinear cell.
+// Differences stand for derivatives, so this estimates the error and does not bound it; searches
+// that use it widen by it, and what they find is then solved on the surface itself.
 double sag_of(const std::vector<Point>& p) {
   constexpr int n = SpanGrid::cells + 1;
   std::array<double, 3> most = {0, 0, 0};
@@ -79,6 +85,7 @@ double sag_of(const std::vector<Point>& p) {
 
 std::optional<SpanGrid> SpanGrid::create(Motion motion) {
   assert(same_basis(*motion.from, *motion.to));
+  // The boxes of control points contain a rational span only with positive weights (convex hull).
   if (std::ranges::any_of(motion.from->weights(), [](double w) { return !(w > 0); }))
     return std::nullopt;
   SpanGrid result(std::move(motion));
@@ -91,6 +98,11 @@ std::optional<SpanGrid> SpanGrid::create(Motion motion) {
 }
 
 /// One direction after the other.
+/// For each row of the net first the boxes of q + 1 neighbours in it, then of p + 1 such boxes:
+/// O(net (p + q)) instead of O(spans (p + 1)(q + 1)) points. Both ends of the motion are in a box;
+/// between them each point goes straight, so that the box contains the way (S(u, t) is a convex
+/// combination of both ends at every t). A span moves if one of its control points differs in any
+/// bit: then it alone is looked at as something that may run into a wall.
 void SpanGrid::make_boxes() {
   const Surface &from = *motion_.from, &to = *motion_.to;
   const int m = from.net()[0], n = from.net()[1], p = from.knots(0).degree(),
@@ -123,6 +135,7 @@ void SpanGrid::make_boxes() {
       }
     }
   }
+  // Of a surface that moves only what moves is compared with others; of one that stays, all of it.
   const bool any = std::ranges::any_of(moves_, [](char c) { return c != 0; });
   for (std::size_t k = 0; k < boxes_.size(); ++k) {
     if (!any || moves(k)) box_.extend(boxes_[k]);
@@ -139,6 +152,8 @@ const Patch& SpanGrid::patch(std::size_t span) {
   return *patches_[span];
 }
 
+// (cells + 1)² points of a span before and after, with 2 cells² triangles between them, made when
+// the span is first met: most spans never are.
 Patch SpanGrid::made_patch(std::size_t span) const {
   const Surface& from = *motion_.from;
   const std::array<std::size_t, 2> of = {span / spans_[1].size(), span % spans_[1].size()};
@@ -152,6 +167,8 @@ Patch SpanGrid::made_patch(std::size_t span) const {
     basis[d].resize(cells + 1, p + 1);
     std::vector<double> row(static_cast<std::size_t>(p + 1));
     for (int k = 0; k <= cells; ++k) {
+      // The last one is the knot itself, so that neighbouring spans have the same corner to the
+      // bit.
       const double u = k == cells ? knots[s + 1] : knots[s] + (knots[s + 1] - knots[s]) * k / cells;
       parameters[d][static_cast<std::size_t>(k)] = u;
       basis_values(knots, s, u, row.data());
@@ -175,6 +192,7 @@ Patch SpanGrid::made_patch(std::size_t span) const {
   return result;
 }
 
+// A continuous count of cells from the start of the domain, the same for spans of any length.
 double SpanGrid::cell_of(int direction, double u) const {
   const KnotVector& knots = motion_.from->knots(direction);
   const std::vector<int>& spans = spans_[static_cast<std::size_t>(direction)];
@@ -183,6 +201,7 @@ double SpanGrid::cell_of(int direction, double u) const {
   return cells * (static_cast<double>(k) + (u - knots[s]) / (knots[s + 1] - knots[s]));
 }
 
+// The larger of both directions; around a closed one the shorter way counts.
 double SpanGrid::cells_between(const std::array<double, 2>& a,
                                const std::array<double, 2>& b) const {
   double most = 0;
@@ -195,6 +214,11 @@ double SpanGrid::cells_between(const std::array<double, 2>& a,
   return most;
 }
 
+// A surface that is a graph over a plane cannot meet itself. Sufficient for that: all facets of the
+// net, before and after, look to the same side of the sum of all, n_ij · Σ n >= 0, n_ij being the
+// cross product of the diagonals of a facet. This is a cheap filter (O(net)) that spares nearly all
+// surfaces a comparison of every span with every other. It judges by the facets alone, and so takes
+// a surface between control points to be like its net.
 bool SpanGrid::may_meet_itself() const {
   const auto [m, n] = motion_.from->net();
   std::vector<Point> normals;

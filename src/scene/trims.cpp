@@ -55,6 +55,8 @@ bool touches_visible(const Scene& scene) {
                              [](const Tool& t) { return t.touches == ToolTouch::visible; });
 }
 
+// Two passes, since a hold of one edge overrules that of all edges wherever it stands in the list;
+// among holds of the same kind the last one counts.
 std::vector<int> trim_orders(const std::vector<KeptConstraint>& constraints,
                              const VisibleRegion& region) {
   int all = -1;
@@ -83,6 +85,10 @@ Expected<TrimHold> hold_face_edges(const Surface& reference,
   return hold_trims(reference, region, orders, trim_tolerance(reference, region), list);
 }
 
+// Where a tool touches the visible part, and how far that is from the nearest held edge: the two
+// numbers that decide how fine the net must be there. Cost: at most two searches by `visible_least`
+// (41² evaluations, then 8 rounds of 9²), which need no derivative of the tool and miss only minima
+// narrower than 1/41 of the visible extent.
 Expected<std::optional<TrimContact>> trim_contact(const SceneSurface& s, const Tool& tool) {
   const ModelTool probe(tool, Point::Zero(), 1);
   const Points& net = s.current->control_points();
@@ -94,6 +100,8 @@ Expected<std::optional<TrimContact>> trim_contact(const SceneSurface& s, const T
   const std::vector<int> orders = trim_orders(s.constraints, region);
   std::vector<bool> held;
   for (const int order : orders) held.push_back(order >= 0);
+  // Negative where the tool acts: inside of one that collides, within its range of one that does
+  // not.
   const double reach = tool.collides() ? 0 : tool.range;
   const auto entry = [&](const Point& p) {
     return tool.collides() ? probe.distance(p) : std::abs(probe.distance(p)) - reach;
@@ -107,6 +115,9 @@ Expected<std::optional<TrimContact>> trim_contact(const SceneSurface& s, const T
     return then ? region.distance(*then, held) : 0;
   };
   TrimContact contact{parameters_of(*s.current, (*best)->at), distance((*best)->at)};
+  // The deepest point may lie right on a held edge, where nothing moves whatever the net.
+  // max(entry, −distance) is least where depth and distance balance, the point at which the tool
+  // will press hardest against what can give way.
   if (contact.distance < -(*best)->distance) {
     best = visible_least(*s.current, region, [&](const Point& p) {
       return std::max(entry(p), -region.distance(p, held));
@@ -117,6 +128,11 @@ Expected<std::optional<TrimContact>> trim_contact(const SceneSurface& s, const T
   return contact;
 }
 
+// A fold: n_before · n_after < 0 at a visible point, n = S_u × S_v not normalised, as only the sign
+// counts. Each span is looked at in 4 × 4 points at the middles of its cells, not at knots, where a
+// crease has no normal of its own. Points that have not moved by more than rounding are passed
+// over: at poles and degenerate corners the sign of n is noise. The test of visibility, the most
+// expensive, comes last.
 Expected<std::optional<Eigen::Vector2d>> first_fold(const Surface& before, const Surface& after,
                                                     const VisibleRegion& region) {
   constexpr int per_span = 4;
@@ -134,6 +150,8 @@ Expected<std::optional<Eigen::Vector2d>> first_fold(const Surface& before, const
   const auto b = evaluate_grid<2>(after, {std::span<const double>(grid[0]), grid[1]}, 1);
   if (!a) return std::unexpected(a.error());
   if (!b) return std::unexpected(b.error());
+  // Rounding of the evaluation is about 1e-15 of the net's size; what moves less than 1e-9 cannot
+  // fold a span.
   const double apart = 1e-9 * net_size(before);
   const auto normal = [](const Evaluation<2>& jet, Eigen::Index row) -> Point {
     return Point(jet.at({1, 0}).row(row)).cross(Point(jet.at({0, 1}).row(row)));
@@ -169,6 +187,8 @@ Parameters<2> places_along(const TrimEdge& edge, const Surface& surface) {
 
 /// The angle between the normals of two evaluations at a row; 0 where one has none, as at a pole.
 double turn_at(const Evaluation<2>& before, const Evaluation<2>& after, Eigen::Index row) {
+  // |n| against |S_u|² + |S_v|² is at most half the sine of their angle; below this the direction
+  // of n is rounding.
   constexpr double least_sine = 1e-9;
   const auto normal = [&](const Evaluation<2>& jet) -> Point {
     const Point u = jet.at({1, 0}).row(row), v = jet.at({0, 1}).row(row);
@@ -181,6 +201,10 @@ double turn_at(const Evaluation<2>& before, const Evaluation<2>& after, Eigen::I
 
 }  // namespace
 
+// What edges that are held did in fact: the distance |S_after − S_before|, and from order 1 the
+// turn of the normal, at the corners of each course and midway between. Orders above 1 are measured
+// as order 1, since curvature has no tolerance in a file. The place reported is that of the
+// distance, or of the turn where only that is too large.
 Expected<std::vector<MovedTrim>> moved_trims(const Surface& before, const Surface& after,
                                              const std::vector<int>& orders,
                                              const VisibleRegion& region) {
@@ -213,6 +237,8 @@ Expected<std::vector<MovedTrim>> moved_trims(const Surface& before, const Surfac
   return result;
 }
 
+// The hold is computed anew into a list of its own, which is thrown away: only its numbers of free
+// and visible control points and what it holds of each edge are reported.
 Expected<TrimReport> trim_report(const SceneSurface& s) {
   TrimReport report;
   report.net = s.current->net();

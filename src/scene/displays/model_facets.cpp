@@ -96,6 +96,8 @@ Expected<ModelFacets::Part> ModelFacets::part_of(std::shared_ptr<const Surface> 
   return part;
 }
 
+// A surface is cut into triangles again only if its shape, its trims, its side, its part or the
+// diagonal changed, compared by object. The tree over the boxes of all is cheap and made anew.
 Expected<void> ModelFacets::refresh(const Scene& scene, bool opened,
                                     std::shared_ptr<const Surroundings> around) {
   const double diagonal = diagonal_of(scene, around.get());
@@ -152,6 +154,11 @@ double ModelFacets::outward(int surface) const {
   return parts_[static_cast<std::size_t>(surface)].shown.sense < 0 ? -1 : 1;
 }
 
+// The nearest face along the inward normal at which the ray leaves material: that is, which looks
+// along the ray, facet · inward > 0. Orientation excludes the start itself, whose face looks
+// against the ray, without an offset that thin walls would not allow. A face whose side is not
+// known counts from `near` on, twice what triangles may be off. Barycentric interpolation of the
+// corners' fractions gives the parameters of a hit, by which trims decide whether it counts.
 std::optional<double> ModelFacets::thickness(int surface, const Point& from,
                                              const Point& inward) const {
   const Ray ray{from, inward};
