@@ -25,6 +25,8 @@ constexpr double symmetry_angle = 1e-3;
 
 /// Appends the conditions of `from` for these coordinates only. One on a single control point
 /// leaves its coordinate its bits, as a held flag does.
+// A held control point has no equation of its own: its row leaves the unknowns. One of which only
+// some coordinates are held becomes an equation n · D = value per coordinate instead.
 void append_components(const ConstraintList& from, const Components& components,
                        ConstraintList& to) {
   const auto append = [&](LinearConstraint condition) {
@@ -236,6 +238,11 @@ Expected<void> keep_smooth_places(const ShapeInput<3>&, ConstraintList&,
 
 }  // namespace
 
+// All conditions on one shape, in the order in which the elimination will see them: control points
+// by number, the mask, edges of faces (all of one surface at once, as they share rows), what
+// commands asked for, and smoothness last, so that a contradiction is reported at what was asked
+// for. Edges and smoothness are measured on the reference shape, everything else on the shape at
+// rest; D = 0 is rest in either case.
 template <int D>
 Expected<ConstraintList> constraints_of(const ShapeInput<D>& s, std::vector<std::string>& notes) {
   ConstraintList list(s.reference->size());
@@ -276,6 +283,8 @@ HeldInput held_input(const SceneSurface& s) {
           masked_points(s)};
 }
 
+//   0: free, 1: held, 2: in some condition with others.
+// Without smoothness and symmetries: these bind nearly every control point and would hide the rest.
 Expected<std::vector<std::uint8_t>> held_points(const HeldInput& input) {
   ConstraintList list(input.net[0] * input.net[1]);
   hold_numbered(input.net, input.hold_rows, input.pins, list);

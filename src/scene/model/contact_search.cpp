@@ -48,6 +48,8 @@ Point point_of(const Surface& s, const std::array<double, 2>& at) {
 }  // namespace
 
 /// Those of which triangles tell the side come first, then the earlier ones.
+/// A point that begins nearer to a face than the triangles are exact may already lie behind it;
+/// such a candidate must not crowd out one that certainly arrives.
 bool ContactSearch::before(const Candidate& a, const Candidate& b) {
   return a.sure != b.sure ? a.sure : a.time < b.time;
 }
@@ -63,6 +65,7 @@ std::optional<FaceContact> ContactSearch::first() {
 
 /// The candidates that come to a face indeed, or may between the corners, by the time at which they
 /// do.
+/// The limits hold for sure and unsure ones separately.
 std::vector<ContactSearch::Candidate> ContactSearch::solved() const {
   std::array<int, 2> tried = {0, 0}, some = {0, 0};
   std::vector<Candidate> result;
@@ -84,6 +87,8 @@ std::vector<ContactSearch::Candidate> ContactSearch::solved() const {
 
 /// The first contact near some of them. A dent may have several deepest places: each is looked for
 /// once.
+/// Candidates are sorted by time. One that could not beat the contact already found, even if its
+/// own time is too late by what triangles are off, is passed over.
 std::optional<FaceContact> ContactSearch::earliest(std::span<const Candidate> solved) const {
   std::optional<FaceContact> first;
   std::vector<const Candidate*> looked_for;
@@ -102,6 +107,7 @@ std::optional<FaceContact> ContactSearch::earliest(std::span<const Candidate> so
   return first;
 }
 
+// Walls in other parts of an assembly do not count: parts may overlap as they are placed.
 void ContactSearch::look(std::size_t surface) {
   const WallMotion& stored = motions_[surface];
   SpanGrid* const grid = walls_.grid_of(stored);
@@ -131,6 +137,8 @@ void ContactSearch::look(std::size_t surface) {
 
 /// Whether the net of a span lies on one side of a triangle that stays, all along its way, and
 /// comes no nearer; or stays farther from its plane than the tolerance.
+/// By the convex hull: if all control points of a span are on one side of a plane before and after,
+/// so is the span on all of its way.
 bool ContactSearch::separated(const SpanGrid& grid, std::size_t span, const Patch& wall,
                               std::uint32_t triangle) const {
   const auto& corners = wall.triangles[triangle];
@@ -197,6 +205,7 @@ void ContactSearch::look_at(std::size_t surface, SpanGrid& grid, std::size_t spa
 void ContactSearch::compare(const Patch& patch, const Patch& wall,
                             std::span<const std::uint32_t> triangles, Candidate like) {
   like.margin += patch.sag;
+  // Of faces around, triangles are the face: what they are off is never corrected by a later stage.
   const double exact = like.met ? 0 : like.margin - patch.sag;
   // Beside a point its own face has no side that triangles could tell.
   const bool own_face = like.met == like.surface;
@@ -244,6 +253,7 @@ void ContactSearch::compare(const Patch& patch, const Patch& wall,
       }
     }
   }
+  // A dent gives dozens of vertices of one pair, which all lead stage 3 to the same place.
   if (candidates_.size() <= static_cast<std::size_t>(first) + most_of_a_pair) return;
   std::partial_sort(candidates_.begin() + first, candidates_.begin() + first + most_of_a_pair,
                     candidates_.end(), before);
@@ -251,6 +261,8 @@ void ContactSearch::compare(const Patch& patch, const Patch& wall,
 }
 
 /// Whether a point is visible, and goes farther from the surface as opened.
+/// What returns towards the shape as opened may pass a wall: so a surface that is already behind
+/// one can be brought back.
 bool ContactSearch::counts(const Candidate& c, const std::array<double, 2>& at) const {
   const WallMotion& stored = motions_[c.surface];
   if (!is_visible(stored, at)) return false;
@@ -286,6 +298,12 @@ std::optional<ContactSearch::Passage> ContactSearch::passage_around(
 }
 
 /// Newton's method for W(u', v', t) = S(t), from where triangles met.
+/// Three equations in three unknowns. With W = (1 − t) W_0 + t W_1 and r the velocity of the wall
+/// relative to the point, the Jacobian is (r, W_u, W_v), solved by Cramer's rule: its determinant
+/// is r · (W_u × W_v), the speed of approach along the normal times the cell's area, and vanishes
+/// only for grazing motion, which is no contact. Convergence is quadratic from triangles that are
+/// right to a fraction of a cell. |determinant| / |W_u × W_v| is how far the two come nearer along
+/// the normal during the whole motion.
 std::optional<ContactSearch::Passage> ContactSearch::passage_of(const Candidate& c,
                                                                 const std::array<double, 2>& at,
                                                                 const std::array<Point, 2>& way,
@@ -332,6 +350,9 @@ std::optional<ContactSearch::Passage> ContactSearch::passage_of(const Candidate&
 }
 
 /// The first point of the neighbourhood to come to the face, by a compass search.
+/// The time of arrival is a function of two parameters that need not be smooth: it ends at trims
+/// and changes wall. A compass search needs no derivative and always descends (Kolda, Lewis and
+/// Torczon, SIAM Review 45, 2003). Steps are halved thirteen times, from a cell to 1e-4 of it.
 std::optional<FaceContact> ContactSearch::refined(const Candidate& c) const {
   constexpr int halvings = 13, most_rounds = 60;
   const Surface& shape = *motions_[c.surface].motion.from;
@@ -363,6 +384,8 @@ std::optional<FaceContact> ContactSearch::refined(const Candidate& c) const {
   FaceContact result;
   result.share = best->share(tolerance_);
   if (result.share > 1) return std::nullopt;
+  // The share of the motion that leaves twice the tolerance: the next step then begins outside of
+  // the tolerance, and a wall that was stopped at is not met at once again.
   result.room = std::clamp(best->share(2 * tolerance_), 0.0, 1.0);
   result.surface = c.surface;
   result.met = c.met;

@@ -9,6 +9,18 @@
 namespace knead {
 
 /// One search of `ModelWalls::first_contact`.
+///
+/// In three stages, each of which discards most of what is left:
+/// 1. Boxes: spans that move against triangles around and spans of other surfaces (`look`), by
+/// trees of boxes that contain the whole way of a span.
+/// 2. Triangles: vertices of either side against triangles of the other, both moving in a straight
+/// line (`compare`). Meetings of edges with edges are not sought: the third stage searches the
+/// neighbourhood of what vertices find.
+/// 3. Newton's method on the surfaces themselves (`passage`), and a search among neighbouring
+/// points for the one that arrives first (`refined`). Stage 2 can be wrong by the sag of both
+/// triangulations; that margin widens its tests, so that what it discards does not meet. Limits on
+/// numbers bound the cost of one step: what exceeds them is a wall that is run into at hundreds of
+/// places, of which the earliest few suffice.
 class ContactSearch {
  public:
   ContactSearch(ModelWalls& walls, std::span<const WallMotion> motions, double tolerance)

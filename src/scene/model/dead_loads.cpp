@@ -20,6 +20,9 @@ Expected<std::array<Point, 2>> tangents_at(const Surface& rest, const std::array
 
 }  // namespace
 
+// F_i = ∫ R_i f |S_t| dt along a side of the rest shape, by Gauss's rule in every span. |S_t| is no
+// polynomial, so that the rule is not exact: p + 4 points are exact for a polynomial of degree 2p +
+// 7. The sum of all F_i is f times the length that the same rule gives, since Σ R_i = 1.
 Expected<Points> line_forces(const Surface& rest, SurfaceEdge edge, const Point& per_length) {
   const int along = edge_along(edge), across = edge_across(edge);
   const KnotVector& knots = rest.knots(along);
@@ -47,6 +50,7 @@ Expected<Points> line_forces(const Surface& rest, SurfaceEdge edge, const Point&
 Expected<Points> area_forces(const Surface& rest, const DomainScaling<2>& scaling,
                              const Point& per_area) {
   // `load_forces` integrates over the scaled domain.
+  // Area per unit of the scaled domain, in lengths of the model.
   const double unit = scaling.factors[0] * scaling.factors[1] * scaling.length * scaling.length;
   return load_forces<2>(rest, scaling, [&](const std::array<double, 2>& u) -> Point {
     const auto tangents = tangents_at(rest, u);
@@ -82,6 +86,9 @@ Expected<void> add_line_force(const Surface& rest, SurfaceEdge edge, const Point
 
 }  // namespace
 
+// With a mirror symmetry a force also acts at its mirror image, reflected in the plane. Without it,
+// the half that is pulled would share the force with the half that only follows. What lies on the
+// plane (at 0.5, or an edge that is its own image) acts once.
 Expected<Points> dead_forces(const SceneSurface& surface, const SceneForce& force, double length) {
   const Surface& rest = *surface.rest;
   const auto* line = std::get_if<LineForce>(&force.force);

@@ -40,6 +40,9 @@ Expected<Points> dead_forces_on(const Spline<D>& rest, const ActiveLoads& loads)
   return forces + *spread;
 }
 
+// Curves that keep their metric and curvature, volumes that keep their metric. The energy is that
+// of the shape, not of a displacement field, so that rotations are free of it; the price is a
+// nonlinear problem in each step, and conditions that are measured from the present place.
 template <int D>
 class FormModel final : public Model {
  public:
@@ -67,6 +70,8 @@ class FormModel final : public Model {
                                                 std::move(notes)));
   }
 
+  // Conditions contain places and can change where nothing in the input does; comparing them is
+  // cheap against a model, whose structure and ordering are made anew otherwise.
   [[nodiscard]] bool serves(const Scene& scene, const EvolutionPolicy& evolution) const override {
     if (!(input_ == model_input<D>(scene, evolution))) return false;
     std::vector<std::string> notes;

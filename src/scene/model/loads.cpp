@@ -27,6 +27,8 @@ auto with_selected(const Scene& scene, const F& f) {
              : f(selected_shapes<3>(scene));
 }
 
+// One vector of unknowns for all selected shapes, the control points of one after the other.
+// Velocities are there if any of them moves.
 template <int D>
 ActiveState stacked(const Selected<D>& shapes) {
   Eigen::Index size = 0, at = 0;
@@ -102,6 +104,8 @@ namespace {
 
 /// Σ over the selected surfaces of the loads that keep their direction, but the one per parameter
 /// domain.
+// Loads per area of the rest shape, and forces at points and lines. Loads per parameter domain are
+// left to the model, which integrates a constant by its Gramians.
 Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
   Points nodal = Points::Zero(model.rows().back(), 3);
   const std::vector<int> selection = scene.selection();
@@ -125,6 +129,8 @@ Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
 }
 
 /// A spring or volcano and its mirror images. \param first row of the surface's first control point
+// Σ_i R_i(u) X_i is the point that is pulled; the image under a mirror symmetry is pulled to the
+// reflected target. At 0.5 both are one point.
 template <PullsAPoint F>
 Expected<void> append_point_force(const SceneSurface& s, const F& f, int first,
                                   std::vector<PointForce>& points) {

@@ -11,6 +11,10 @@ namespace knead {
 namespace {
 
 /// Whether a surface has the conditions that it had, and perhaps further pins.
+// Whether conditions that were asked for can be met is known once they are eliminated: a row that
+// reduces to 0 = value ≠ 0 contradicts those before. A gesture that adds one pin after the other
+// would eliminate all of them each time, O(n) eliminations of n rows; instead the elimination is
+// kept, and the new rows alone are reduced against it.
 bool only_pins_added(const SurfaceInput& was, const SurfaceInput& is) {
   const auto same = [](const SurfaceInput& a, const SurfaceInput& b) {
     return a.id == b.id && a.reference == b.reference && a.rest == b.rest && a.mode == b.mode &&
@@ -45,11 +49,14 @@ Expected<void> MetConditions::check(const ModelInput& input) {
   if (!asks_for_motion(input)) return {};
   std::vector<LinearConstraint>& conditions = joined->settings.constraints;
   const double size = size_of(input);
+  // In units of the model's size: the elimination judges values by a fixed threshold.
   for (LinearConstraint& c : conditions) c.value /= size;
   eliminated_ += static_cast<long long>(conditions.size());
   auto elimination =
       ConstraintSpace::eliminated(joined->rows.back(), conditions, joined->settings.held);
   if (!elimination) return std::unexpected(elimination.error());
+  // Conditions along edges are chosen from the whole set (a QR decomposition with pivoting), so
+  // that further pins change which of them are taken: nothing can be added to those.
   if (joined->entwined) return {};
   met_.emplace(input, joined->rows, size, std::ranges::any_of(conditions, has_normal),
                std::move(*elimination));
@@ -88,6 +95,8 @@ bool MetConditions::meets(std::size_t surface, std::span<const KeptConstraint> p
   // Of a point that is a control point, that is held: whatever was eliminated may contain it.
   if (!list || std::ranges::find(list->held, true) != list->held.end()) return false;
   for (LinearConstraint& c : list->constraints) {
+    // Conditions on single coordinates treble the unknowns; an elimination made for whole points
+    // has no room for them.
     if (c.normal && !met_->along_normals) return false;
     for (auto& term : c.terms) term.first += met_->rows[surface];
     c.value /= met_->size;

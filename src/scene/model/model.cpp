@@ -19,6 +19,10 @@
 namespace knead {
 namespace {
 
+// A model is a function of its input alone: `model_input` collects whatever the matrix and its
+// factor depend on (shapes, constraints, material, seams, evolution), and two equal inputs may
+// share a model. What only changes right-hand sides (tools, forces, velocities, the present shape)
+// stays out, and so does the rest shape unless a constraint is measured from it.
 constexpr CouplingTolerance smooth_tolerance{.position = 1e-3, .tangent = 1e-6};
 constexpr double exact_ratio = 1e-7;  // radians that derivatives at a seam may be off a fixed ratio
 constexpr SeamOptions along_edges{.rigid = false},
@@ -43,6 +47,8 @@ bool measures_from_rest(const std::vector<KeptConstraint>& constraints) {
 }
 
 /// Coefficients as constants if all shapes have the same material, else as fields.
+// Constants are worth telling apart: with them K is a sum of few Kronecker products of banded
+// Gramians, else it is assembled entry by entry from triple Gramians.
 template <int D>
 void set_material(const std::vector<ShapeInput<D>>& shapes, ActiveSettings<D>& settings) {
   const MaterialFieldOf<D>& material = shapes.front().material;
@@ -59,6 +65,7 @@ void set_material(const std::vector<ShapeInput<D>>& shapes, ActiveSettings<D>& s
 }
 
 /// Appends the constraints of every shape, and the rows.
+// Control points are numbered through all shapes: those of shape k begin at rows[k].
 template <int D>
 Expected<void> hold_shapes(const std::vector<ShapeInput<D>>& shapes, JoinedShapes<D>& joined) {
   auto& [rows, settings, held_by, seams, notes, entwined] = joined;
@@ -100,6 +107,9 @@ Expected<void> couple_followed(const ModelInput& input, std::span<const Surface*
 
 /// Appends the conditions that keep tangent planes common at smooth seams whose sides are in no
 /// fixed ratio.
+// `couple_seams` keeps tangent planes where the derivatives across both sides are in a fixed ratio:
+// one condition per row of control points. Elsewhere the ratio varies along the seam; conditions at
+// points are chosen as for edges of faces, but once, to a fixed tolerance.
 Expected<void> keep_smooth(std::span<const Surface* const> patches, std::span<const int> rows,
                            std::span<SeamReport> reports, ActiveSettings<2>& settings) {
   std::vector<CoupledEdge> edges;
@@ -152,6 +162,7 @@ double detail_of(const std::vector<Tool>& tools) {
   return detail;
 }
 
+// λ so large that a step hardly moves: conditions are all that is tried.
 EvolutionPolicy trial_evolution() {
   EvolutionPolicy evolution;
   evolution.lambda = 1e6;
@@ -231,6 +242,9 @@ Expected<JoinedShapes<2>> join_shapes(const ModelInput& input) {
   if (auto held = hold_shapes(input.shapes, joined); !held) return std::unexpected(held.error());
   std::vector<const Surface*> pointers;
   for (const SurfaceInput& s : input.shapes) pointers.push_back(s.reference.get());
+  // Order matters: conditions along edges that follow are chosen last, in the unknowns that holds,
+  // seams and smooth seams leave, since a QR decomposition decides how many of them there is room
+  // for; the others have no such choice.
   std::vector<SeamReport>& reports = joined.seams;
   if (input.seams.couple) {
     const auto found = seams_between(input.seams, pointers);
@@ -289,6 +303,8 @@ ModelInput part_of(const ModelInput& input, std::span<const int> surfaces) {
   return part;
 }
 
+// Conditions with value 0 can always be met, by D = 0. Only those with targets, or that hold a
+// place other than that at rest, may contradict one another, and need a check before a step.
 bool asks_for_motion(const ModelInput& input) {
   const auto asks = [](const SurfaceInput& s) {
     return std::ranges::any_of(s.constraints, [&](const KeptConstraint& kept) {

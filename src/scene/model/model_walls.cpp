@@ -51,6 +51,8 @@ ModelWalls::ModelWalls(std::shared_ptr<const Surroundings> around) : around_(std
 
 ModelWalls::~ModelWalls() = default;
 
+// Grids of surfaces that stay are kept from step to step, under their name and the shape they were
+// made of; those of surfaces that move serve one comparison.
 SpanGrid* ModelWalls::grid_of(const WallMotion& wall) {
   const Motion& motion = wall.motion;
   if (!motion.from || !motion.to) return nullptr;
@@ -67,6 +69,9 @@ SpanGrid* ModelWalls::grid_of(const WallMotion& wall) {
 namespace {
 
 /// A span shows something if its middle is visible or a chord of an edge may enter it.
+/// A chord counts for all spans that its box meets, so that no visible span is missed and some
+/// hidden ones are taken; O(spans + chords · spans met). What is then found is tested for
+/// visibility at its own point.
 std::vector<char> spans_shown(const VisibleRegion& region, const Surface& surface) {
   if (region.faces.empty()) return {};
   std::array<std::vector<Interval>, 2> spans;  // in fractions
@@ -126,6 +131,7 @@ double ModelWalls::diagonal(std::span<const WallMotion> motions) {
     if (!wall.motion.moves()) {
       if (const SpanGrid* grid = grid_of(wall)) box.extend(grid->box());
     } else {
+      // Of the shape as opened, so that tolerances do not grow with what is pulled out.
       const Points& net = wall.opened->control_points();
       box.extend(Point(net.colwise().minCoeff().transpose()))
           .extend(Point(net.colwise().maxCoeff().transpose()));

@@ -65,6 +65,9 @@ Expected<std::unique_ptr<Model>> linear_model(const Scene& scene,
   return std::make_unique<LinearModel<D>>(*std::move(made));
 }
 
+// A few models are kept, the last one used first: a gesture often alternates between two of them,
+// and a model keeps its factor. All but the last one are bounded by the sum of their control
+// points, which bounds the memory.
 constexpr std::size_t most_models = 3;
 constexpr Eigen::Index most_kept_points = 10000;  // of all but the last one
 

@@ -26,6 +26,10 @@ Expected<void> check_scope(const SceneSurface& s) {
 }
 
 /// Whether all forces are known before the shape is.
+// Pressure and wind turn with the surface, springs and the limit depend on where it is. Without
+// them the equilibrium ∇E(x) = f is sought by Newton's method along an increasing load from the
+// rest shape, and need not be stable (`equilibrium_of`); with them, or with tools, steps lead to it
+// from the present shape (`press`).
 bool keep_direction(const ActiveLoads& loads) {
   return loads.limit == 0 && loads.pressure == 0 && loads.wind == Point::Zero() &&
          loads.points.empty();
@@ -92,6 +96,9 @@ Expected<void> append_moments(const Scene& scene, int surface, int first, int si
 
 /// What keeps the angle at a seam that constraints join in position only; none where it cannot have
 /// one.
+// Seams with common positions and no common derivatives are hinges for a shell whose energy ends at
+// its boundary. A spring on the angle, per length of the seam, replaces the stiffness of the
+// material there. Rigid seams and those that coincide along a part only have no angle of their own.
 Expected<std::optional<ShellCrease>> crease_at(const SeamReport& report,
                                                std::span<const SceneSurface* const> surfaces,
                                                std::span<const ShellEnergy> shells,
@@ -109,6 +116,8 @@ Expected<std::optional<ShellCrease>> crease_at(const SeamReport& report,
   };
   const auto stiffness = [&](const PatchEdge& edge) {
     const ShellEnergy& shell = shells[static_cast<std::size_t>(edge.patch)];
+    // D / h is the stiffness, per length, of a strip as long as the shell is thick: the natural
+    // unit of an angle's spring.
     return shell.bending_stiffness() / shell.effective_thickness();
   };
   auto crease = ShellCrease::create(side(seam.a), side(seam.b), seam.reversed,
@@ -282,6 +291,8 @@ Expected<ActiveShell> ShellModel::pressed() const {
   const MaterialFieldOf<2>& material = input.shapes.front().material;
   const auto *mass = std::get_if<double>(&material.mass),
              *damping = std::get_if<double>(&material.damping);
+  // A shell has a mass by its density; a surface that keeps its fundamental forms has the linear
+  // model's. Damping there is per mass.
   const bool forms = std::ranges::none_of(input.shapes, [](const SurfaceInput& s) {
     return std::holds_alternative<ShellMaterial>(s.elasticity);
   });
@@ -311,6 +322,8 @@ Expected<ActiveStep> ShellModel::press(const ActiveState& from, std::span<const 
   ActiveState state = from;
   ActiveStep step;
   std::vector<int> iterations;
+  // Loads are put on in equal parts, each from the equilibrium of the one before: Newton's method
+  // for a shell converges from near by only. Tools are where they are in all parts.
   for (int part = 1; part <= increments; ++part) {
     const double share = static_cast<double>(part) / increments;
     ActiveLoads put_on = loads;
@@ -354,6 +367,10 @@ Expected<std::unique_ptr<Model>> shell_model(const Scene& scene, const Evolution
   return std::make_unique<ShellModel>(*std::move(setup));
 }
 
+// A coordinate that one condition on one control point determines is x = rest + value, which
+// rounding may put one bit beside where it stands. Where that is all the difference, it keeps its
+// bits: what is held does not move, and files keep their bytes there. Two roundings of a sum are
+// bounded by 1e-15 of its terms.
 Points with_held_bits(Points solved, const Points& present, const Points& rest,
                       std::span<const LinearConstraint> conditions) {
   constexpr double rounding = 1e-15;

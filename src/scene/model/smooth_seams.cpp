@@ -62,6 +62,12 @@ bool may_crease(const SeamReport& report) {
          report.seam.kind == SeamKind::whole && report.angle <= smooth_seam;
 }
 
+// At points of a seam: the direction d across side a (a unit of its own parameter) and the w with
+// dS_b w = dS_a d in the least-squares sense, so that dD_a d = dD_b w keeps the tangent planes
+// common. Where dS_a d leaves the tangent plane of b by more than `on_plane` of its length, planes
+// are not common at rest, and the point gives no condition. Spans of both sides are divided, so
+// that between two points both are polynomials: four intervals leave no room for a cubic that
+// vanishes at all points and not between.
 Expected<CoupledEdge> smooth_seam_edge(std::span<const Surface* const> patches, const Seam& seam) {
   CoupledEdge edge{"seam " + to_string(seam.a) + " – " + to_string(seam.b), {}};
   const Surface &a = *patches[static_cast<std::size_t>(seam.a.patch)],
