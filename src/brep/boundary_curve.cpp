@@ -15,6 +15,9 @@ Expected<Curve> boundary_curve(const Surface& surface, int direction, int end) {
                   : isocurve(surface, direction, domain.upper, Side::left);
 }
 
+// S(u, v) at fixed u is the curve with the control points Σ_i N_i(u) w_ij P_ij / w_j and the
+// weights w_j = Σ_i N_i(u) w_ij, on the other direction's knots: exact, in O(n (p + 1)). At a knot
+// of multiplicity p + 1 the surface may jump; `side` says which limit is meant.
 Expected<Curve> isocurve(const Surface& surface, int direction, double at, Side side) {
   const auto& across = surface.knots(direction);
   const auto& along = surface.knots(1 - direction);
@@ -40,12 +43,15 @@ Expected<Curve> isocurve(const Surface& surface, int direction, double at, Side 
     }
     if (!surface.rational()) continue;
     weights[static_cast<std::size_t>(j)] = denominator;
+    // A weight of 0 is legal, as a point at infinity or one that a file repeats; its place means
+    // nothing.
     points.row(j) = denominator == 0 ? Points::RowXpr::PlainObject::Zero().eval()
                                      : (points.row(j) / denominator).eval();
   }
   return Curve::create({along}, std::move(points), std::move(weights));
 }
 
+// t → t_first + t_last − t, so that both directions have the same domain.
 Curve turned(const Curve& curve) {
   const auto knot_values = curve.knots(0).knots();
   const double sum = knot_values.front() + knot_values.back();
@@ -61,6 +67,10 @@ double net_diagonal(const Points& points) {
                             : (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
+// Closed: both boundary curves of a direction coincide, compared by their control points and
+// weights, since both are on the same knots and B-splines are independent there. 1e-9 of the size
+// is far below any file's tolerance and far above the rounding of an evaluation at the ends of
+// unclamped knots.
 std::array<bool, 2> closed_directions(const Surface& surface) {
   constexpr double relative = 1e-9;
   const double tolerance = relative * net_diagonal(surface.control_points());

@@ -10,6 +10,12 @@
 namespace knead::brep {
 namespace {
 
+// Makes edges and vertices of boundaries that a file gives as loose curves, face by face (IGES
+// entities 141 and 143, STEP curve-bounded surfaces): a curve becomes an edge once, and what runs
+// along it again, within the same distance, is another use of that edge.
+// Candidates are found by the x coordinate of a vertex, or of the middle of an edge, in an ordered
+// map: O(log n) each if the model is not flat in x. For one that is, `most_compared` bounds the
+// work; what is not found in time becomes an edge of its own, and the faces stay unconnected there.
 constexpr std::size_t most_compared = 4000;  // edges or vertices with about the same x
 constexpr double least_length = 4;   // of sewn pieces, in distances within which points are one
 constexpr double least_same = 1e-6;  // of the size of a boundary
@@ -29,6 +35,9 @@ void BoundaryPiece::set(std::shared_ptr<const Curve> curve, const Interval& rang
 /// Turns pieces, and returns the distance within which their points are one. A piece that is closed
 /// to this begins and ends there both ways: it keeps its direction, in which roundings of its ends
 /// say nothing.
+/// Formats differ in whether directions of pieces mean anything. The first piece is turned so that
+/// it ends nearer to the second, each other one so that it begins nearer to the end of the one
+/// before.
 double BoundaryEdges::chain(const std::vector<BoundaryPiece*>& pieces, double resolution) {
   Eigen::AlignedBox3d box;
   for (const BoundaryPiece* piece : pieces) box.extend(piece->from()).extend(piece->at(0.5));
@@ -76,6 +85,8 @@ Index BoundaryEdges::vertex(const Point& p) {
 std::optional<bool> BoundaryEdges::against(const Known& known, const BoundaryPiece& piece) const {
   const BoundaryPiece& other = known.piece;
   const auto run = [&](double t) { return piece.at(piece.reversed ? 1 - t : t); };
+  // Within one loop only a seam counts, traversed there and back: two sides of a narrow face may be
+  // as near to each other, and run the same way.
   if (known.loop == loop_) {  // there and back
     if (!meet(other.from(), piece.to()) || !meet(other.to(), piece.from()) ||
         !meet(other.at(0.5), piece.at(0.5)))
@@ -83,8 +94,11 @@ std::optional<bool> BoundaryEdges::against(const Known& known, const BoundaryPie
     return !other.reversed;
   }
   if (!sews(known.group)) return std::nullopt;
+  // Pieces shorter than a few resolutions would match whatever is beside them.
   const auto far = [&](double t) { return (run(t) - run(0)).norm() > least_length * same_; };
   if (!std::ranges::any_of(quarters, far)) return std::nullopt;
+  // Ends, middle and quarters: five points tell curves apart that files do give, such as both
+  // halves of a circle, which share their ends.
   for (const bool back : {true, false}) {
     const auto same = [&](double t) { return meet(other.at(back ? 1 - t : t), run(t)); };
     if (same(0) && same(1) && std::ranges::all_of(quarters, same)) return back;

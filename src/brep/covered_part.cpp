@@ -13,6 +13,16 @@ namespace {
 
 using Eigen::Vector2d;
 
+// The exact B-spline form of what faces cover of a plane, cylinder, cone, sphere, torus or swept
+// surface. Those are unbounded or closed, and a net is a rectangle of the parameters: the problem
+// is to find the smallest that contains all faces and whose ends lie well.
+// 1. Edges are followed, and each face is made a region of the parameters (`charted_face`), whose
+// extents in u and v are parts that are covered.
+// 2. In a closed direction the rectangle begins and ends in the largest gap between these parts;
+// where none is left, a whole turn is taken, from a line along which an edge runs.
+// 3. An end along which an edge runs is taken as it is, so that the edge becomes a side of the net.
+// Any other end is moved outwards by 2 %, as chords lie inside of a curve that bulges.
+// 4. At poles the rectangle ends; it neither passes one nor ends a little before it.
 constexpr double fine_chord = 2e-4;    // at which edges are followed
 constexpr double beyond_edges = 0.02;  // of the extent, where no edge runs along an end
 constexpr double least_gap = 0.02;     // of a turn: what is left open is not worth two ends
@@ -43,6 +53,8 @@ Interval hull(const std::vector<Interval>& parts) {
 }
 
 /// The direction of a straight edge to which most others, by length, are parallel or perpendicular.
+/// Only of planes, whose axes a file may choose at random: a rectangle along the edges is covered
+/// best. O(n²) in the straight edges of one plane.
 std::optional<Point> main_direction(const std::vector<CoveredEdge>& edges) {
   std::vector<Point> sides;
   for (const CoveredEdge& edge : edges) {
@@ -97,6 +109,9 @@ Interval with_ends(const Direction& direction, Interval covered, double beyond) 
 }
 
 /// All but the largest gap between the covered parts; a whole turn where that is small.
+/// Parts are brought into one period by their lower ends, sorted, and swept; `reached` begins with
+/// what the last parts cover beyond the period. The gap is left out where it is more than 2 % of a
+/// turn.
 Interval covered_of_turn(const Direction& direction) {
   const double period = direction.period;
   std::vector<Interval> parts;
@@ -118,6 +133,7 @@ Interval covered_of_turn(const Direction& direction) {
   }
   if (gap > least_gap * period) {
     const Interval open{after, before + period};
+    // Both ends may take a third of the gap: they must not meet.
     return with_ends(direction, open, std::min(beyond_edges * open.length(), gap / 3));
   }
   double start = 0;
@@ -221,6 +237,7 @@ class CoveredPart {
     Eigen::AlignedBox3d box;
     for (const Point& p : points_) box.extend(p);
     const double size = points_.empty() ? 0 : box.diagonal().norm();
+    // The file's uncertainty, a length, divided by the largest |∂S| becomes one of parameters.
     const double near = std::clamp(support_.uncertainty, on_line * size, most_on_line * size);
     for (int d = 0; d < 2; ++d) {
       Direction& direction = directions_[std::size_t(d)];
@@ -231,6 +248,8 @@ class CoveredPart {
       for (const CoveredEdge& edge : edges_) {
         const auto line = line_along(*surface_, *edge.points, d, direction);
         if (line)
+          // An edge that one face uses twice is the seam of a closed surface: the best place to cut
+          // it open.
           (edge.uses > 1 && faces_.size() == 1 ? direction.seams : direction.lines)
               .push_back(*line);
       }

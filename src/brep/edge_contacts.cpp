@@ -19,6 +19,9 @@ namespace {
 using Eigen::Vector2d;
 
 /// Follows edges over the surfaces of the faces around them.
+/// Feet of an edge's points on all faces at it, in parameters where the surface may be sculpted
+/// (they are evaluated again later), else as points, normals and shape operators, which are final.
+/// Searches of B-spline surfaces are made once for each, as they tabulate the surface.
 class Follower {
  public:
   explicit Follower(const Model& model)
@@ -69,6 +72,7 @@ class Follower {
       result.bending.emplace_back(Eigen::Matrix3d::Zero());
       const auto curvature = surface->curvature(at);
       for (std::size_t k = 0; curvature && k < 2; ++k) {
+        // W = Σ κ_k e_k e_kᵀ over both principal directions, of the face's own orientation.
         const Point& along = curvature->directions[k];
         result.bending.back() +=
             (face.same_sense ? 1 : -1) * curvature->principal[k] * along * along.transpose();

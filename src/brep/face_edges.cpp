@@ -15,6 +15,9 @@ namespace {
 
 using Eigen::Vector2d;
 
+// The edges of faces as polygons in the parameters of their surface, with a bound on how far each
+// polygon is from its edge. `VisibleRegion` is made of them; holds use the bound to find all spans
+// that an edge meets. A file's own parameter curves are not used.
 constexpr double edge_chord = 2e-4;  // of edges in space
 constexpr double straight = 2e-4;    // of an edge's extent: how far a chord may be from its course
 constexpr int max_halvings = 7;
@@ -58,6 +61,9 @@ VisibleRegion within_sides(const Surface& surface, const ParameterSpace& space) 
 }
 
 /// Follows edges over a surface.
+/// Follows the foot of a point along an edge. The foot before is the start of the next search,
+/// which keeps to one sheet where others are near, and halves the time; a foot that is farther away
+/// than `near` is looked for on all of the surface.
 class Course {
  public:
   Course(const SurfaceFoot& feet, double size) : feet_(feet), near_(on_surface * size) {}
@@ -122,6 +128,8 @@ class Course {
     unwrap(m.at, a);
     const double off = (m.at - 0.5 * (a + b)).cwiseAbs().maxCoeff();
     if (off <= straight * extent_ || depth == max_halvings) {
+      // The polygon's own deviation from the course, at the middle, plus what the chord in space is
+      // off the edge.
       edge.deviation = std::max(edge.deviation, off + edge_chord * extent_);
       return;
     }
@@ -162,6 +170,8 @@ struct VisibleRegions::Faces {
 };
 
 /// Of the surface with this position in the file.
+/// Cost: one foot search per point of an edge, which exceeds all else. An edge that a face uses
+/// twice, or that several faces on this surface share, is followed once.
 Expected<VisibleRegion> VisibleRegions::Faces::of(Index k) const {
   const SplineSurface& surface = model.surfaces[k];
   const double size = net_diagonal(surface.surface.control_points());

@@ -13,6 +13,10 @@ Expected<Point> vertex_place(const Vertex& vertex) {
 
 }  // namespace
 
+// The parameters of an edge's ends are those of its vertices on the curve (ISO 10303-42,
+// clause 5.5, edge_curve: it has no parameters of its own). `backwards` is the edge's sense against
+// the curve as it is parametrised here. A closed curve may start anywhere: the end is then one
+// period further, at most.
 Expected<EdgePiece> edge_piece(const Model& model, Index edge) {
   const Edge& stored = model.edges[edge];
   if (stored.start == none || stored.end == none) return std::unexpected(*stored.wrong);
@@ -52,6 +56,8 @@ Expected<EdgeSampler::Sampled> EdgeSampler::sample(Index edge) const {
   result.parameters = result.curve.subdivided(piece->from, piece->to, chord_);
   if (piece->backwards) std::reverse(result.parameters.begin(), result.parameters.end());
   for (const double t : result.parameters) result.points.push_back(result.curve.at(t));
+  // The vertices themselves, so that the edges that meet in one share its bits, and triangles of
+  // neighbouring faces close.
   result.points.front() = piece->start;
   result.points.back() = piece->end;
   return result;
@@ -113,6 +119,8 @@ Expected<Loop> EdgeSampler::loop(const Bound& bound) {
                   piece.end() - 1);  // the last one begins the next piece
   }
   if (bound.wrong) return std::unexpected(*bound.wrong);
+  // A loop that goes back along every edge it came by encloses nothing: the boundary of a whole
+  // closed surface, such as the seam of a sphere. It is no bound of its region.
   const bool seams = std::all_of(ways.begin(), ways.end(),
                                  [](const auto& edge) { return edge.second[0] == edge.second[1]; });
   if (seams) result.clear();

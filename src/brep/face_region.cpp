@@ -22,6 +22,8 @@ double extent_of(std::span<const Loop> loops) {
 
 }  // namespace
 
+// A wrong digit in one coordinate makes a surface so large that all tolerances in proportion to it
+// exceed the face; what follows would be accepted anywhere.
 Expected<void> check_extent(const Model& model, const Face& face, std::span<const Loop> loops,
                             double size) {
   const double extent = extent_of(loops);
@@ -61,6 +63,8 @@ Expected<std::vector<RegionPart>> region_of(const Model& model, const Face& face
   return parts;
 }
 
+// A region of a closed surface is unwrapped and may lie across the ends of the domain. It is
+// repeated at every turn that meets [0, 1], so that a test of a point needs no periods.
 void add_turns(const RegionPart& part, const ParameterSpace& space, std::vector<TrimFace>& faces) {
   Vector2d lower = part.outer.front().at, upper = lower;
   for (const auto& p : part.outer) {

@@ -10,6 +10,13 @@
 namespace knead::brep {
 namespace {
 
+// A cubic spline through a path that can be evaluated at any parameter, to a tolerance, in the
+// path's own parameter (pairs of curves and surfaces of a file stay matched). Interpolation at the
+// Greville abscissae is a banded system that is never singular (Schoenberg and Whitney: every
+// abscissa lies inside its function's support) and stable for cubics; spans are halved until four
+// points in each are within the tolerance. The error falls by 16 with each halving where the path
+// has four derivatives. At corners of the path triple knots let the curve turn. Errors are measured
+// between the abscissae, not at them.
 constexpr std::size_t most_spans = 4096;
 constexpr int per_span = 5;
 constexpr int first_spans = 8;
@@ -28,6 +35,8 @@ std::vector<double> first_breaks(const Interval& range, const std::vector<double
   const std::vector<double> corners(breaks.begin() + 1, breaks.end());
   for (int k = 1; k < first_spans; ++k) {
     const double t = std::lerp(from, to, static_cast<double>(k) / first_spans);
+    // A division right beside a corner would make the abscissae of two functions nearly equal, and
+    // the system nearly singular.
     const auto beside = [&](double corner) { return std::abs(corner - t) < beside_corner * span; };
     if (std::ranges::none_of(corners, beside)) breaks.push_back(t);
   }

@@ -13,6 +13,10 @@
 namespace knead::brep {
 namespace {
 
+// With feet u_k(t) of the edge C(t) on the surfaces, S_k before and S'_k after:
+//   C' = (1 − w) (C + mean_k (S'_k − S_k)(u_k)) + w mean_k S'_k(u_k).
+// Displacements alone would keep the gap that the file has between curve and surfaces; the mean of
+// the surfaces alone would leave the vertices, where other edges expect the old distance.
 constexpr double margin = 0.125;            // of the edge, at its ends
 constexpr double share_of_tolerance = 0.1;  // for the fit of a curve
 constexpr double least_tolerance = 1e-7;    // of the size, as for held edges
@@ -70,6 +74,8 @@ class Path {
   [[nodiscard]] double inner(double t) const {
     const double from = edge_.samples().front().parameter, to = edge_.samples().back().parameter;
     const double x = std::min(1.0, std::min(t - from, to - t) / (margin * (to - from)));
+    // The quintic with w = w' = w'' = 0 at 0 and 1 − w = w' = w'' = 0 at 1: a cubic fit needs two
+    // continuous derivatives of the path to converge quickly.
     return x * x * x * (x * (6 * x - 15) + 10);
   }
 
@@ -152,6 +158,9 @@ Expected<Curve> moved_curve(const SharedEdge& edge, std::span<const Surface* con
   return recorded(edge, *curve);
 }
 
+// Edges along which surfaces have parted stay where they were, as there is no one place for them.
+// The first edge that ends in a vertex decides where it goes: others agree to the tolerance at
+// which they are closed.
 Expected<MovedEdges> moved_edges(const Model& model, std::span<const Replacement> replacements,
                                  std::span<const std::string> ids) {
   MovedEdges result;

@@ -24,6 +24,7 @@ double unit_ratio(const LengthUnit& child, const LengthUnit& parent) {
   return child.metres > 0 && parent.metres > 0 ? child.metres / parent.metres : 1.0;
 }
 
+// M = s Q with Q orthogonal, exactly if MᵀM = s² I with s³ = |det M|.
 std::optional<double> scale_of(const Eigen::Matrix3d& matrix) {
   constexpr double most_shear = 1e-9;
   const double length = std::cbrt(std::abs(matrix.determinant()));
@@ -76,6 +77,10 @@ std::vector<Index> PartGraph::roots(const std::string& unit, Assembly& result) {
   return found;
 }
 
+// Kahn's topological order: a part is placed when all its uses by parents are, so that its list of
+// places is complete before its children inherit it. The number of places multiplies at each level
+// and may grow exponentially in a short file, hence `max_places`. Parts in a cycle never become
+// ready, and are placed once by themselves.
 Expected<void> PartGraph::place(const std::string& unit, Assembly& result) {
   mark();
   const auto first = roots(unit, result);

@@ -70,6 +70,8 @@ Expected<std::vector<BoundaryPiece>> rectangle_sides(const Model& model, const S
     int across, end;
     bool reversed;
   };
+  // Counter-clockwise in (u, v): v lower, u upper, v upper backwards, u lower backwards. Sides that
+  // are points, as at poles, are left out.
   for (const Side& side :
        {Side{1, 0, false}, Side{0, 1, false}, Side{1, 1, true}, Side{0, 0, true}}) {
     const Interval& across = range[static_cast<std::size_t>(side.across)];

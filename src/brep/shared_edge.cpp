@@ -17,6 +17,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+// 64 intervals at least resolve what nets of usual density do
+// along an edge; `at` finds feet between samples from an interpolated start.
 constexpr double sampling_chord = 2e-3;  // of the edge in space, between samples
 constexpr int least_samples = 64;        // intervals
 constexpr double least_speed = 1e-5;     // of a derivative, as a share of the other one
@@ -80,6 +82,8 @@ Expected<Tangents> tangents_at(const Surface& surface, const Vector2d& foot) {
 }
 
 Point normal_of(const Tangents& tangents) {
+  // Near a pole one tangent vanishes and its direction is rounding: no normal is better than a
+  // wrong one.
   const double u = tangents.col(0).norm(), v = tangents.col(1).norm();
   const Point n = tangents.col(0).cross(tangents.col(1));
   if (!(std::min(u, v) > least_speed * std::max(u, v) && n.norm() > least_sine * u * v))
@@ -98,12 +102,15 @@ void look_across(std::span<const Surface> surfaces, const Point& along,
     if (n.isZero()) return;
     if (k == 0) first = n;
     sample.angle = std::max(sample.angle, angle_between_planes(first, n));
+    // Orientations of parametrisations differ; planes have none.
     mean += first.dot(n) < 0 ? Point(-n) : n;
     tangents.push_back(*at);
   }
   const Point across = mean.cross(along);
   if (!(across.norm() > least_sine * mean.norm() * along.norm())) return;
   for (const Tangents& t : tangents) {
+    // The least-squares solution of dS w = c by the metric of the surface. Regular: `normal_of` has
+    // found tangents that are neither parallel nor of very different length.
     const Eigen::Matrix2d gramian = t.transpose() * t;
     sample.across.push_back(gramian.inverse() * (t.transpose() * across.normalized()));
   }
@@ -171,6 +178,8 @@ struct SharedEdge::Data {
       surfaces.push_back(s.id);
       shapes.push_back(s.surface);
       feet.push_back(search);
+      // A foot between samples may be as far away as those at samples are; twice that is still the
+      // right sheet.
       near.push_back(std::max(within, 2 * gap));
       sides.push_back(closed ? std::optional(ClosingSide{*closed, end}) : std::nullopt);
       for (std::size_t k = 0; k < samples.size(); ++k)

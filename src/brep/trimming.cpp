@@ -17,6 +17,12 @@ namespace knead::brep {
 namespace {
 
 // One of the four boundary isocurves, and how much of it the edges of a face cover.
+// Whether a face shows all of its surface: each of its edges lies on the boundary of the domain,
+// and together they cover all four sides that are neither seams nor points. Compared in space, by
+// sampled points against the boundary's isocurves, since parameter curves are often missing. The
+// tolerance is twice the file's uncertainty (edge and vertex may each be off by one), bounded from
+// below by 1e-5 and from above by 1e-4 of the surface's size: what differs less is a smaller error
+// than taking a whole surface for a trimmed one, with all of its holds.
 struct BoundarySide {
   CurveTable table;
   bool required = false;  // to be covered: neither a seam nor a single point
@@ -59,6 +65,8 @@ class NaturalBoundary {
     for (Eigen::Index k = 0; k < edge.rows(); ++k) {
       bool on = false;
       for (std::size_t s = 0; s < sides_.size(); ++s) {
+        // Two consecutive points on one side cover the interval between their parameters. A point
+        // at a corner is on two sides, so that both intervals begin there.
         const auto foot = sides_[s].table.closest(edge.row(k).transpose(), tolerance_);
         const auto now = foot.distance <= tolerance_ ? std::optional(foot.parameter) : std::nullopt;
         on = on || now.has_value();
@@ -243,6 +251,7 @@ void use_surface(const Model& model, std::span<const Index> faces, SplineSurface
 
 }  // namespace
 
+// Surfaces are independent, and are looked at in parallel.
 void find_trimming(Model& model) {
   constexpr double work_per_surface = 2e5;  // multiplications
   std::vector<std::vector<Index>> faces(model.surfaces.size());

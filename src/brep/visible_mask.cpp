@@ -36,6 +36,8 @@ double signed_area(const Loop& loop) {
 }
 
 /// 1 if the loop, as it runs, has what it adds on its left, else −1.
+/// Files do not agree on the directions of loops: nesting and the signed area give the sign with
+/// which chords count.
 double sense(const std::vector<Loop>& face, std::size_t which) {
   bool within = false;
   for (std::size_t k = 0; k < face.size(); ++k) {
@@ -114,6 +116,9 @@ class Crossings {
     }
   }
 
+  // Moments of a trapezoid with heights h_a and h_b at a_x and b_x, h linear between them: ∫ h dx,
+  // ∫ x h dx and ∫ (H² − y²)/2 dx, H the height of the cell. Coordinates are those from the cell's
+  // own corner, which keeps the digits of small cells far from the origin.
   void in_cell(int i, int j, const Vector2d& a, const Vector2d& b, double sign) {
     const double x0 = xs_[static_cast<std::size_t>(i)], y0 = ys_[static_cast<std::size_t>(j)];
     const double height = ys_[static_cast<std::size_t>(j) + 1] - y0, dx = sign * (b.x() - a.x());
@@ -153,6 +158,8 @@ VisibleMask::VisibleMask(const VisibleRegion& region,
     std::ranges::sort(found, {}, &Crossing::cell);
     const int strip = static_cast<int>(i);
     const double width = xs[i + 1] - xs[i];
+    // Cells are passed upwards with the sum of Δx of all chords below: a chord far down counts for
+    // the whole column above it by one number, and cells that no chord meets need no work.
     double below = 0, below_x = 0;  // of all chords in cells passed
     int next = 0;
     for (std::size_t k = 0; k < found.size();) {
@@ -170,6 +177,7 @@ VisibleMask::VisibleMask(const VisibleRegion& region,
       }
       next = j + 1;
       const double share = sum.area / (width * height);
+      // Slivers of rounding are no part of their own: their centroid is noise.
       if (share <= negligible || share >= 1 - negligible) {
         append(strip, next, share > 0.5 ? full : hidden);
         continue;

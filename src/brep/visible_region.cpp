@@ -20,6 +20,8 @@ double distance_to_chord(const Point& p, const Point& a, const Point& b) {
 
 }  // namespace
 
+// The rule of even and odd crossings of a ray along x. Half-open comparisons in y count a corner
+// once. O(chords): callers that ask for many points make a `VisibleMask`.
 bool VisibleRegion::contains(const Vector2d& at) const {
   if (faces.empty()) return at.minCoeff() >= 0 && at.maxCoeff() <= 1;
   for (const auto& face : faces) {
@@ -75,6 +77,11 @@ std::array<double, 2> parameters_of(const Surface& surface, const Vector2d& at) 
   return result;
 }
 
+// The visible point of least cost by grids that shrink: 41 × 41 cells over the visible extent, then
+// eight times 9 × 9 over 1.2 steps around the best so far, each with steps of about a quarter of
+// those before: below 1e-6 of the extent in the end. Costs are distances with kinks (edges, tools),
+// where a method of descent would stop; 2300 evaluations are acceptable, as this is asked once for
+// each command.
 Expected<std::optional<VisiblePoint>> visible_least(
     const Surface& surface, const VisibleRegion& region,
     const std::function<double(const Point&)>& cost) {

@@ -12,6 +12,8 @@ constexpr double full_turn = 2 * std::numbers::pi;
 // Of angles, and of a radius: what is nearer to the axis is on it.
 constexpr double on_axis = 1e-12;
 
+// Of pieces of at most a quarter turn all weights cos(δ/2) are at least √½, and control points stay
+// near the curve. The tolerance keeps a quarter that rounding made longer from becoming two pieces.
 int quarter_turns(double angle) {
   return std::max(1, static_cast<int>(std::ceil(angle / (full_turn / 4) - on_axis)));
 }
@@ -21,6 +23,8 @@ double part_end(const Interval& range, int pieces, int k) {
   return k == pieces ? range.upper : range.lower + range.length() * k / pieces;
 }
 
+// Degree 2 and double knots: Bézier pieces that join. Since they are equally long their derivatives
+// agree there as well.
 Expected<KnotVector> double_knots(const Interval& range, int pieces) {
   std::vector<double> knots(3, range.lower);
   for (int k = 1; k < pieces; ++k) knots.insert(knots.end(), 2, part_end(range, pieces, k));
@@ -76,6 +80,8 @@ Expected<Surface> swept_about(const Curve& profile, const Point& origin, const P
       (profile.control_points().rowwise() - origin.transpose()).rowwise().norm().maxCoeff();
   for (int i = 0; i <= 2 * pieces; ++i) {
     const double from = part_end(angles, pieces, i / 2), to = part_end(angles, pieces, (i + 1) / 2);
+    // Even i are ends of pieces (`from` is `to`, weight 1), odd i corners at their middles, farther
+    // from the axis by 1/cos(δ/2).
     const double angle = closed && i == 2 * pieces ? angles.lower : (from + to) / 2;
     const double weight = std::cos((to - from) / 2);
     for (int j = 0; j < n; ++j) {

@@ -39,6 +39,11 @@ Expected<FaceSurface> FaceSurface::under(const Model& model, const Face& face,
   return *std::move(plane);
 }
 
+// Planes, cylinders, cones, spheres and tori in the parametrisations of ISO 10303-42 (clause 4.5,
+// elementary_surface): u is the angle around the axis; v the height (of cones along the axis, not
+// along the ruling), the latitude, or the angle around the tube. Points of a face say which sheet
+// it is on: a cone has two nappes, and a torus with r > R an inner and an outer part
+// (degenerate_toroidal_surface).
 Expected<FaceSurface> FaceSurface::elementary(const Model& model, const Support& support,
                                               std::span<const Point> on_it) {
   const auto& form = std::get<ElementarySurface>(support.form);
@@ -70,6 +75,7 @@ Expected<FaceSurface> FaceSurface::swept(const Model& model, const Support& supp
   return surface;
 }
 
+// The largest radius that the face can have around its axis, by which chords around it are divided.
 void FaceSurface::set_reach(std::span<const Point> on_it) {
   reach_ = kind_ == Kind::torus ? radius_ + std::abs(minor_) : radius_;
   for (const auto& q : samples_) reach_ = std::max(reach_, std::abs(q.x()));
@@ -80,6 +86,8 @@ void FaceSurface::set_reach(std::span<const Point> on_it) {
   }
 }
 
+// Newell's normal: the area vector of a polygon, which is exact for a plane one and an average for
+// one that is not quite.
 std::optional<FaceSurface> FaceSurface::plane_of(std::span<const Point> loop) {
   const Point normal = newell_normal(loop);
   if (!(normal.norm() > 0)) return std::nullopt;
@@ -92,6 +100,8 @@ std::optional<FaceSurface> FaceSurface::plane_of(std::span<const Point> loop) {
   return FaceSurface(Kind::plane, frame);
 }
 
+// Where parallels shrink to points: a sphere's at ±π/2, a cone's apex at v = −R/tan α, the
+// crossings of a spindle torus with its axis at cos v = −R/r, ends of a profile on the axis.
 void FaceSurface::set_poles() {
   constexpr double quarter = turn / 4;
   if (kind_ == Kind::sphere) poles_ = {-quarter, quarter};
@@ -183,6 +193,9 @@ ParameterSpace FaceSurface::space() const {
   return space;
 }
 
+// The parameters of a point on the surface. Closed formulas, but for profiles (`nearest`); they are
+// those of points on the surface, and of others near the nearest. On a cone v is the height of p
+// itself, not of its foot. Where p is on the axis u is free.
 Foot FaceSurface::foot(const Point& p, const std::optional<Eigen::Vector2d>& /*near*/) const {
   const Point d = p - frame_.origin;
   const double x = d.dot(frame_.x), y = d.dot(frame_.y), z = d.dot(frame_.z);
@@ -207,6 +220,7 @@ Foot FaceSurface::foot(const Point& p, const std::optional<Eigen::Vector2d>& /*n
   } else if (kind_ == Kind::revolution) {
     v = nearest({rho, z});
     const Point q = profile_->at(v) - frame_.origin;
+    // u counts from the profile, which need not lie in the plane of x and z.
     u -= std::atan2(q.dot(frame_.y), q.dot(frame_.x));
     size = std::max(rho, std::hypot(q.dot(frame_.x), q.dot(frame_.y)));
     for (const auto& s : samples_) size = std::max(size, std::abs(s.x()));
@@ -235,6 +249,9 @@ std::array<bool, 2> FaceSurface::straight() const {
   return {false, false};
 }
 
+// A step is a length of the parameter over which a chord misses the surface by the limit at most:
+// along u an angle, evenly, along profiles wherever they are divided. Charts count these steps: in
+// them a unit square is a cell that may be two triangles.
 void FaceSurface::set_steps(ChordLimit chord) {
   const auto step = [chord](double radius) {
     return turn / std::ceil(turn / chord_angle(chord.of(radius)));

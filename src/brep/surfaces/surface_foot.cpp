@@ -82,6 +82,7 @@ SurfaceFoot::Result SurfaceFoot::result_of(const ClosestPoint<2>& closest) const
   return result;
 }
 
+// A descent from the hint costs a few evaluations, a search of the whole surface many more.
 SurfaceFoot::Result SurfaceFoot::nearest(const Point& p, const std::optional<Eigen::Vector2d>& hint,
                                          double tolerance) const {
   if (hint) {
@@ -96,6 +97,8 @@ SurfaceFoot::Result SurfaceFoot::nearest(const Point& p, const std::optional<Eig
   return result_of(search_.nearest(p));
 }
 
+// Three passes after the feet: a free parameter takes that of the foot before, then of the foot
+// after, and turns are unwrapped. A path that is free everywhere keeps what the search gave.
 SurfaceFoot::Path SurfaceFoot::along(std::span<const Point> points, double tolerance) const {
   Path result;
   std::vector<Foot> found;

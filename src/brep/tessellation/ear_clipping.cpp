@@ -12,6 +12,9 @@ class Clipper {
  public:
   explicit Clipper(std::span<const Vector2d> points) : points_(points) {}
 
+  // The ring is a linked list; k goes round it. Corners without area are cut only when a whole
+  // round has found none with area: cut earlier, they would leave slivers that a later ear could
+  // have contained. If a round finds not even these, sides cross.
   std::optional<std::vector<Triangle>> clip(Ring ring) const {
     std::vector<Triangle> triangles;
     const auto n = ring.size();

@@ -11,6 +11,9 @@ namespace knead::brep {
 
 using Eigen::Vector2d;
 
+// Coordinates in which the face is about as wide as it is in steps of its surface; straight
+// directions, in which no step is needed, are scaled to the face's extent, so that they do not
+// stretch the triangles that Delaunay's criterion prefers.
 Chart::Chart(std::shared_ptr<const ChartedSurface> surface, std::span<const Foot> feet)
     : surface_(std::move(surface)) {
   const auto straight = surface_->straight();

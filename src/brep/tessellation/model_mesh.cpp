@@ -215,6 +215,8 @@ Expected<FaceMeshes> model_faces(const Model& model, double tolerance) {
                                              least_tolerance_share * diagonal)});
   }
   FaceMeshes result;
+  // Faces of parts that are placed smaller or larger need another tolerance in their own units;
+  // those of one scale are made together, as neighbours must share their edges' points.
   std::map<float, std::vector<const Face*>> by_scale;
   for (const Face& face : model.faces) by_scale[standing.scale(face.id)].push_back(&face);
   for (const auto& [scale, faces] : by_scale)
@@ -234,6 +236,8 @@ Expected<FaceMeshes> model_faces(const Model& model, double tolerance) {
   return result;
 }
 
+// Every side must be met by its opposite, compared by the bits of both ends: a closed shell has
+// none left. O(n log n).
 std::size_t open_sides(std::span<const FaceMesh> faces) {
   using Ends = std::array<double, 6>;
   std::vector<Ends> forth, back;

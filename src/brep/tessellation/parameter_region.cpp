@@ -106,6 +106,8 @@ std::optional<Polygon> strip(const Unwrapped& below, const Unwrapped& above, int
   };
   std::vector<Cut> cuts;
   const auto m = below.points.size(), n = above.points.size();
+  // All pairs of points, shortest first: the first pair in sight of each other is cut along. Long
+  // loops are thinned on one side, which bounds memory and the sort.
   const auto stride = std::max<std::size_t>(1, m * n / 60'000);
   for (std::size_t i = 0; i < m; i += stride) {
     for (std::size_t j = 0; j < n; ++j) {
@@ -274,6 +276,8 @@ Expected<void> between_round_loops(const ParameterSpace& space, std::vector<Unwr
     return mean_height(a, d) < mean_height(b, d);
   });
   const bool lower_open = upwards(round.front(), d) || !(ends[0] || other > 0);
+  // In a torus there is no lowest loop: one that faces downwards goes above all others, one turn
+  // further.
   if (!lower_open && other > 0) {
     shift(round.front().points, 1 - d, other);
     std::rotate(round.begin(), round.begin() + 1, round.end());

@@ -131,6 +131,9 @@ class Mesh {
     }
   }
 
+  // Only if both new triangles have an area: then the quadrilateral is convex. One without area is
+  // flipped away whatever the circles say. Predicates are in doubles, so a flip needs a gain above
+  // rounding; without it two sides with a common circle could flip in turn for ever.
   bool should_flip(std::uint32_t t, int i, std::uint32_t s, int j) const {
     const Vector2d &a = place(t, i), &b = place(t, i + 1), &c = place(t, i + 2),
                    &d = place(s, j + 2);

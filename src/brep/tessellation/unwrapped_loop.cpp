@@ -17,6 +17,8 @@ void add_between(Polygon& polygon, Eigen::Vector2d from, Eigen::Vector2d to) {
   for (int k = 1; k < pieces; ++k) polygon.push_back({from + (to - from) * k / pieces});
 }
 
+// Starts at a point with both parameters, so that poles are always between two known ones, and
+// returns to it at k = n: how far that image is from the first is the winding.
 Unwrapped unwrap(const ParameterSpace& space, std::span<const LoopPoint> loop, int number) {
   Unwrapped result;
   const auto n = loop.size();
