@@ -19,6 +19,7 @@ struct Kink {
 
 /// The largest angle between tangent planes at the points of a seam, whichever way their normals
 /// point.
+/// At the same points that `smooth_seam_edge` would put conditions on.
 Expected<Kink> kink_along(std::span<const Surface* const> shapes, const CoupledEdge& edge) {
   Kink kink;
   for (const SharedPoint& point : edge.points) {

@@ -22,6 +22,12 @@
 namespace knead {
 namespace {
 
+// How tightly edges are coupled is found by trial: a step is solved with a tolerance τ
+// (`CouplingTolerance`), the distance between both sides is measured, and where it is too large the
+// step is solved again with a smaller τ. The error is about proportional to τ; the next τ aims at
+// half of what is allowed. It is 0.4 times the last one or less, to end soon, and no less than 0.03
+// times, since a τ that is too small takes freedom for nothing. The τ that was found is kept, so
+// that most steps are solved once.
 constexpr double least_coupling = 1e-9;
 constexpr double tighter = 0.4, much_tighter = 0.03, half = 0.5;
 // Of their motion that edges keep when they are coupled more tightly than they must.
@@ -80,6 +86,7 @@ double share_of(const std::vector<Point>& first, const std::vector<Point>& other
 }
 
 /// The angle up to which faces may meet at a smooth edge.
+/// Twice the angle as opened: a file's own angle is not held against the step.
 double accepted_bend(const Parting& parting) {
   return std::max(accepted_angle, 2 * parting.angle_before);
 }
@@ -135,6 +142,9 @@ Expected<void> unite_followed(Act& act) {
   return refine_seams(act, true);
 }
 
+// The last word on every command that moved a surface, whatever moved it: distance first, then the
+// angle at smooth edges, then vertices that other edges hold. Only edges of which some surface
+// changed are measured.
 Expected<void> check_followed(const Scene& scene, const Scene& before) {
   if (std::ranges::equal(
           scene.surfaces, before.surfaces,
@@ -217,6 +227,13 @@ Expected<void> append_motion(const Scene& scene, const SharedEdge& edge,
 
 }  // namespace
 
+// All edges share the two tolerances of the scene, so that the worst of each measure decides. Two
+// outcomes end the attempts. Either everything is as asked; or some attempt could be accepted
+// (`best_`, closed, with angles up to `accepted_angle`), and a tighter one keeps less than 90 % of
+// its motion: then two nets have too little in common there, and the accepted one is taken and its
+// angle asked for from here on. Otherwise the tolerances are reduced, `along` counting for
+// positions and `across` for tangents (`look_for_kink`); if they are at their least, what is left
+// is for `check_followed` to refuse.
 Expected<bool> Attempts::together(SessionState& state) {
   double excess = 0, across = 0, along = 0, angle = 0;
   std::vector<Point> motion;
@@ -246,6 +263,7 @@ Expected<bool> Attempts::together(SessionState& state) {
   }
   const CouplingTolerance was = state.coupling;
   if (excess <= 1 && angle <= 1) {
+    // The larger angle has been granted before: there is nothing better to try for.
     if (state.bend > asked_angle) return true;
     best_ = {state.surfaces, was, best_ ? std::move(best_->motion) : std::move(motion)};
   }

@@ -96,6 +96,8 @@ Expected<void> keep(Act& act, const Constraint& constraint) {
   return check_constraints(act);
 }
 
+// Whether conditions contradict one another shows in their elimination alone. Of curves and
+// volumes, which are small, the whole model is made.
 Expected<void> check_constraints(Act& act) {
   if (act.state.body) {
     const auto check = [&]<int D>(const SceneShape<D>&) -> Expected<void> {
@@ -135,6 +137,9 @@ void hold_likewise(Act& act) {
   }
 }
 
+// A step holds edges by leaving control points out of the unknowns; commands that place control
+// points do not, and are measured. The error lists all edges, and names the one that moved
+// farthest.
 Expected<void> check_held_edges(Act& act, const Scene& before) {
   std::vector<std::string> ids;
   MovedTrim worst;

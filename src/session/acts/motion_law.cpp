@@ -140,6 +140,10 @@ void MotionLaw::ask_of_brush(const OpenBrush& brush, double asked) {
   from_ = brush.before;
 }
 
+// A step that goes beyond the reach is solved once more with that as a limit on displacements,
+// which costs a second solve; half of the tolerance is left for what is measured at samples.
+// Surfaces with free sides swing as levers and are not limited (`share_allowed` judges them by the
+// static solution), and shells have no limit in their steps.
 bool MotionLaw::shortens(const Scene& scene, const ActiveStep& step, ActiveLoads& loads,
                          const Model& model) {
   if (!bounds() || loads.limit > 0 || has_shells(scene) ||
@@ -191,6 +195,10 @@ double MotionLaw::static_motion(Scene scene) const {
   return largest;
 }
 
+// Bounds are computed from the cheapest to the dearest, and only while the motion exceeds what is
+// known: the reach of the command, the depth of tools in the shapes between samples, how far tools
+// stand in them, and, with free sides, the static solution, which costs a model of its own. Most
+// commands end at the first.
 std::optional<double> MotionLaw::share_allowed(SessionState& state) {
   constexpr double most = 1 + law_tolerance;
   const double moved = motion(state, most * reach_);
@@ -218,6 +226,7 @@ std::optional<double> MotionLaw::share_allowed(SessionState& state) {
   return bound / moved;
 }
 
+// Everything held is linear in displacements: a share of a motion that keeps it keeps it too.
 Expected<void> MotionLaw::make_smaller(Scene& scene, double share) const {
   const std::vector<int> selection = scene.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {

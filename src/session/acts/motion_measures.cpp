@@ -124,6 +124,9 @@ bool is_joined(const std::vector<SeamReport>& seams, int surface, SurfaceEdge ed
 
 }  // namespace
 
+// From coarse to fine: the largest displacement of a control point bounds that of the surface
+// (convex hull, positive weights); then samples in the spans whose control points exceed `enough`;
+// then the branch and bound of `largest_distance`, where samples come within a tenth of it.
 double largest_motion(const Surface& a, const Surface& b, double enough) {
   if (&a == &b) return 0;
   if (!same_basis(a, b) || std::ranges::any_of(a.weights(), [](double w) { return !(w > 0); })) {
@@ -152,6 +155,10 @@ Expected<std::shared_ptr<const Surface>> part_of_way(const Surface& from,
   return std::make_shared<const Surface>(std::move(*made));
 }
 
+// Reduces a displacement field where it is longer than `reach`, in rounds: at each sample that is
+// too long the excess along its own direction is given to the control points in proportion to their
+// basis functions and averaged, Σ R_i e / Σ R_i. It converges as smoothing does, slowly in the end;
+// what twelve rounds leave is within the tolerance of the law, or judged by it.
 Points within_reach(const Surface& shape, Points way, double reach) {
   constexpr int most_rounds = 12;
   for (int round = 0; round < most_rounds && way.rowwise().norm().maxCoeff() > reach; ++round) {

@@ -25,6 +25,7 @@ constexpr double limit_tolerance = 1e-6;     // relative, as for steps
 constexpr double frozen_tolerance = 1e-7;    // of the size, on another basis
 constexpr double seam_tolerance = 1e-6;      // of the size, beyond what a seam was open
 
+// By bits, so that 0 and −0 differ: a file that is written keeps the sign.
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
@@ -93,6 +94,8 @@ struct Placed {
   }
 
   template <class Symmetry>
+  // The conditions of a symmetry are applied to the motion alone: what the file was asymmetric by
+  // is no fault of the command.
   [[nodiscard]] Expected<void> check_symmetry(const Symmetry& symmetry) const {
     const auto base = onto_net(before, *now.current);
     // Where the net is no finer one the constraints were tried again.
@@ -145,6 +148,8 @@ struct Placed {
 };
 
 /// Seams between the selected surfaces, and of each with itself.
+/// Seams are those of the shapes before, so that surfaces which a command brought together are
+/// none. A seam may open by 1 % of what it was open, or by rounding.
 Expected<void> check_seams(const Scene& scene, const Scene& before, std::string_view command) {
   std::vector<const Surface*> then, now;
   std::vector<std::string> ids;
@@ -186,6 +191,9 @@ Expected<void> check_seams(const Scene& scene, const Scene& before, std::string_
 
 }  // namespace
 
+// Places of constraints and rest shapes are often equal to the shape, row by row. Such rows take
+// the new bits; adding the motion to them would give others, and what was equal would differ by
+// rounding. If all rows are equal the shape itself is shared.
 template <int D>
 Expected<std::shared_ptr<const Spline<D>>> moved_along(
     const std::shared_ptr<const Spline<D>>& shape, const Spline<D>& before,

@@ -30,6 +30,8 @@ constexpr int least_limit = 40'000,
 
 /// The rectangle of parameters of all spans whose control points come near the tool; none if there
 /// are none.
+/// By the box of each span's control points, which contains the span. The net is a grid: knots of a
+/// rectangle go through all of the surface, so that only its two intervals matter.
 std::optional<std::array<Interval, 2>> reach_of(const Surface& surface, const Tool& tool) {
   const ModelTool probe(tool, Point::Zero(), 1);
   const std::vector<int> us = surface.knots(0).spans(), vs = surface.knots(1).spans();
@@ -107,6 +109,8 @@ Expected<void> change_net(Act& act, SceneSurface& s, const SurfaceChange& change
   return {};
 }
 
+// Each call halves the spans, and quadruples the control points under the tool at most. A limit
+// counts only where nobody asked to refine: a small tool would otherwise fill the memory.
 Expected<bool> refine_under(Act& act, const Tool& tool, bool limited) {
   bool any = false;
   for (SceneSurface& s : selected_surfaces(act.state)) {
@@ -196,6 +200,8 @@ Expected<void> unite_restricted(Act& act, std::span<const SeamReport> reports, c
   return refine_as(act, seam_refinements(patches, near));
 }
 
+// Degree elevation and knot insertion: exact, so that shapes from before a refinement can be
+// compared and shared with those after it, control point by control point.
 Expected<Surface> onto_net(Surface shape, const Surface& like) {
   std::array<std::vector<double>, 2> more;
   for (std::size_t d = 0; d < 2; ++d) {
@@ -237,6 +243,9 @@ Expected<void> refine_round(Act& act, SceneSurface& s, const TrimContact& contac
   return change_net(act, s, [&](const Surface& shape) { return refinement->apply(shape); });
 }
 
+// An edge that follows moves on all of its surfaces: a net that is fine on one side and coarse on
+// the other has too few displacements in common along it. Other sides are refined about the nearest
+// point of the edge, if that is nearer than what is held.
 Expected<void> refine_followed(Act& act, const SceneSurface& touched, const TrimContact& contact,
                                double size) {
   const auto place = evaluate_point<2>(*touched.opened, contact.at);

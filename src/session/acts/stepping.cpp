@@ -186,6 +186,10 @@ class Stepping {
  public:
   Stepping(Act& act, const Steps& asked) : act_(act), state_(act.state), asked_(asked) {}
 
+  // A step is made again, and does not count, where the nets were refined under it or edges that
+  // follow parted. Then nothing of it has been taken: a step begins from the same state until it is
+  // accepted. The order of checks is that of their claims: what holds, then what follows, folds,
+  // walls, and the limit, each on what the one before has left.
   Expected<StepsMade> run() {
     if (auto ready = prepare(); !ready) return std::unexpected(ready.error());
     while (made_.count < asked_.count) {
@@ -279,6 +283,8 @@ class Stepping {
 
   /// Finer nets under tools that the present ones cannot follow. Whether there are any: then the
   /// step is made again.
+  /// The step itself says how long spans are in units of the tool (`coarseness`); it is measured
+  /// where contact was, which is not known before.
   Expected<bool> refine_nets(const ActiveStep& step) {
     if (step.coarseness <= coarse || state_.permission != RefinePermission::automatic ||
         refinements_ >= max_refinements || !asked_.grips.empty()) {

@@ -31,6 +31,7 @@ bool same_points(const Surface& a, const Surface& b) {
 }
 
 /// The way of a surface, both ends on the present net; null where there is no such net.
+/// Two shapes are a motion only on one net, where each control point has one straight way.
 Motion motion_of(const std::shared_ptr<const Surface>& from,
                  const std::shared_ptr<const Surface>& to) {
   if (from == to || !from) return {to, to};
@@ -173,6 +174,9 @@ Expected<void> stop_at_face(Act& act, std::span<const WallMotion> motions, doubl
 
 }  // namespace
 
+// A command of n steps that may stop is compared n times, one that only notes is compared once,
+// over all of its way. That way is not the steps' own path: what went through a face and came back
+// is not noted.
 Expected<void> FaceMeeting::after_step(Act& act,
                                        std::span<const std::shared_ptr<const Surface>> before) {
   if (through_ != Through::stop) return {};
@@ -185,6 +189,9 @@ Expected<void> FaceMeeting::at_end(Act& act, const Scene& before) {
   return meet(act, shapes_before(act.state, before));
 }
 
+// Finds the first contact of the whole scene, moved from `before` to now; if the command stops,
+// everything is led back to the share of the motion at which twice the tolerance is left
+// (`FaceContact::room`).
 Expected<void> FaceMeeting::meet(Act& act, std::span<const std::shared_ptr<const Surface>> before) {
   std::vector<WallMotion> motions;
   bool any = false;

@@ -9,6 +9,10 @@
 namespace knead {
 namespace {
 
+// How deep a tool is in a surface: the yardstick for what it may move. `deepest` is the largest
+// −d(S(u)), d the tool's signed distance; `standing` is more where a tool has passed through. Both
+// take the best of a grid of samples and refine it by a compass search with halved steps. Distances
+// have kinks, and a tool's deepest place may be a ridge, so that no derivative is used.
 constexpr int halvings = 10;  // of the distance of samples, by the search for the deepest place
 
 /// A surface as one tool meets it.
@@ -150,6 +154,9 @@ struct Meeting {
 
   /// How far along a ray the tool is left for good; found from beyond it, by steps as long as the
   /// distance from it.
+  /// Sphere tracing (Hart, 1996) backwards from where the ray leaves the tool's box: a step as long
+  /// as the distance from the tool cannot cross its side. 64 steps; a ray that runs along the side
+  /// needs more, and ends a little too far out, which errs to the side of more room.
   [[nodiscard]] double last_inside(const Point& from, const Point& direction) const {
     constexpr int most_steps = 64;
     constexpr double touching = 1e-3;  // of the tool's size
@@ -216,6 +223,8 @@ struct Meeting {
 
 }  // namespace
 
+// A tool between samples has depth 0 at all of them: it is looked for again with more samples, as
+// many per span as a spline of this degree may have extremes.
 double depth_in(const Surface& shape, std::span<const Tool> tools, const VisibleRegion* visible) {
   double deepest = 0;
   for (const Tool& tool : tools) {

@@ -146,6 +146,9 @@ Expected<void> check_folds(const Scene& scene) {
   return {};
 }
 
+// Bisection for the largest share that folds nothing: six halvings give it to 1/64, and 90 % of
+// that is taken, since at the very last share normals of the fold are nearly perpendicular. A share
+// of less than a tenth would hardly be what was asked for: that is refused.
 Expected<std::string> keep_unfolded(const Scene& scene, std::string_view what, double whole,
                                     const std::function<Expected<void>(double)>& shows) {
   constexpr int halvings = 6;
@@ -165,6 +168,7 @@ Expected<std::string> keep_unfolded(const Scene& scene, std::string_view what, d
                      100 * safe * flat);
 }
 
+// An equilibrium that folds is refused rather than shortened: a share of it is no equilibrium.
 Expected<std::string> keep_step_unfolded(Scene& scene,
                                          std::span<const std::shared_ptr<const Surface>> from,
                                          bool first, const EvolutionPolicy& evolution) {

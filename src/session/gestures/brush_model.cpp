@@ -19,6 +19,11 @@ namespace knead {
 namespace {
 
 // How far held points are felt, and what smoothing evens out, in radii.
+// The model of a brush presses nothing. It projects what a brush asks for onto what constraints
+// allow, in the norm of a plate on an elastic bed, D_uu² + 2 D_uv² + D_vv² + λ D²: the nearest
+// displacement then differs from the one asked for near what is held and fades over the bed's
+// length, a quarter of the radius. A projection in the norm of coefficients would end abruptly at
+// the first free row.
 constexpr double felt_radii = 0.25;
 // Longest spans under a brush where nets may be refined, in radii.
 constexpr double spans_wanted = 0.25;
@@ -29,6 +34,8 @@ constexpr int most_control_points = 25000;  // of a surface that is refined unde
 
 /// Midpoints of the spans within the radius of a place that are longer than wanted, both in space
 /// as they are there.
+/// Lengths by the first derivatives at the place: exact enough for spans within a radius, and no
+/// search.
 Expected<std::array<std::vector<double>, 2>> halving(const Surface& s, const Fractions& at,
                                                      double radius, double wanted,
                                                      double& longest) {

@@ -41,6 +41,9 @@ struct Foot {
   Fractions at = {};
   double distance = 0;
 };
+// A local search from the Greville abscissae of the nearest control point. A brush asks for
+// thousands of feet near the surface, where that finds the nearest one; a global search for each
+// would take longer than the brush.
 Foot foot_on(const Surface& shape, const std::array<bool, 2>& closed, const Point& x) {
   Eigen::Index nearest = 0;
   (shape.control_points().rowwise() - x.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
@@ -111,6 +114,7 @@ Expected<BrushPoint> BrushPath::towards(const BrushPoint& from, const BrushPoint
   BrushPoint best;
   double least = std::numeric_limits<double>::infinity();
   for (const Sheet& on : sheets_) {
+    // The box of the net contains the surface: no foot on it is nearer than the box.
     if (distance_from_box(x, on.lower, on.upper) >= least) continue;
     const Foot foot = foot_on(*on.shape, on.closed, x);
     if (foot.distance >= least) continue;
@@ -157,6 +161,8 @@ Expected<std::vector<BrushPoint>> BrushPath::places(const BrushPoint& from, cons
       if (!q) return std::unexpected(q.error());
       const double distance = (*p - *q).norm();
       if (distance <= rope_) continue;
+      // A brush on a rope moves straight towards the pointer until they are a rope's length apart:
+      // a tractrix, which smooths the path of the hand.
       const auto drawn = towards(here, *pointer, 1 - rope_ / distance);
       if (!drawn) return std::unexpected(drawn.error());
       here = *drawn;

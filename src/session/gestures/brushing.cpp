@@ -20,6 +20,11 @@
 namespace knead {
 namespace {
 
+// A brush along a path, in four parts. Each place adds to a history at Chebyshev abscissae what the
+// brush asks for there (`BrushHistory`); the history is interpolated by a spline on the present net
+// (`local_coefficients`); masks and the reach lessen it; and it is projected onto what constraints
+// allow (`brushed`). Histories depend on the path and not on the number of its places, and one that
+// is led on needs its new places only.
 constexpr double places_per_radius = 16;
 // Of the largest displacement: what misses the constraints by less is allowed.
 constexpr double feasible_share = 1e-9;
@@ -56,6 +61,10 @@ bool goes_on(const OpenBrush& from, const OpenBrush& to) {
 
 /// Coefficients of what is zero at an abscissa are zero: what lies outside of a brush keeps its
 /// bits. Of high degree that is so only of small ones.
+/// Interpolation at n abscissae is global: coefficients away from the brush decay but do not
+/// vanish, and would change control points everywhere by rounding or little more. Those at whose
+/// abscissa nothing is asked are set to zero if they are less than a thousandth of the largest
+/// displacement.
 Points local_coefficients(const StrokeModel& model, const Points& values) {
   Points result = model.control_points(values);
   const auto untouched = [&](Eigen::Index i) { return (values.row(i).array() == 0).all(); };
@@ -211,6 +220,9 @@ Expected<Points> brushed(Act& act) {
     // falloff
     const auto share = share_of_grab(act, c);
     if (!share) return std::unexpected(share.error());
+    // The interpolant of a steep falloff passes below its peak; asking for more makes the grabbed
+    // point arrive. Below one half the net is too coarse for the brush, and scaling would blow up
+    // what is beside.
     if (*share > least_share) asked /= *share;
   }
   const bool some = (asked.array() != 0).any();
@@ -227,6 +239,9 @@ Expected<Points> brushed(Act& act) {
   run.stuck = some && largest == 0;
   Points allowed = model.allowed(c);
   if ((allowed - c).cwiseAbs().maxCoeff() <= feasible_share * largest) return allowed;
+  // Corrections far from the brush that are small are dropped, and the rest is checked against the
+  // conditions again; if dropping them would cost more than `amplified` times their size, all are
+  // kept.
   Points nearest = model.nearest_allowed(c), whole = nearest;
   for (Eigen::Index i = 0; i < nearest.rows(); ++i) {
     if ((c.row(i).array() == 0).all() && nearest.row(i).norm() < dropped_share * largest)

@@ -42,6 +42,8 @@ Points StrokeModel::allowed(const Points& x) const {
   return coupled ? scene.model.nearest_allowed(x) : scene.model.allowed(x);
 }
 
+// The model and the interpolation at Chebyshev abscissae are kept as long as the input is the same:
+// a gesture asks for both at every place.
 Expected<void> keep_stroke_model(std::optional<StrokeModel>& kept, ModelInput input,
                                  std::span<const OpenStroke::Before> before) {
   if (kept && kept->scene.input == input) return {};

@@ -36,6 +36,9 @@ Points stacked(const std::vector<OpenStroke::Before>& shapes,
 
 }  // namespace
 
+// A stroke presses a plate on a bed: stiffness K as the material has it, with the stroke's tension
+// added to both α, plus λ M, which pulls to the shapes from before. So a dent is felt over the
+// bed's length alone (`locality_of`), and the groove does not depend on how large the surface is.
 Expected<void> prepare_stroke_model(Act& act) {
   if (auto known = know_trims(act); !known) return known;
   if (auto known = know_followed(act); !known) return known;
@@ -97,6 +100,7 @@ Expected<ActiveStep> press_shell_on_bed(Act& act, const std::vector<Tool>& tools
 /// The displacement of a place of a stroke, made again where it goes further than these tools stand
 /// in the shapes from before the stroke: beside what is held inside a tool a surface swings out,
 /// far beyond the tool where that is large.
+/// Measured at the abscissae first, which are known, and only if that is exceeded on the surface.
 Expected<ActiveStep> within_depth(const Act& act, ActiveStep step, const ActiveState& from,
                                   std::span<const Tool> tools, ActiveLoads loads) {
   const StrokeModel& model = *act.cache.stroke;

@@ -21,6 +21,11 @@
 namespace knead {
 namespace {
 
+// A stroke that leaves its groove as it goes. At every place the tool is pressed into the shapes
+// from before the stroke, a step u_k from rest; m = the largest of all u_k point by point, at
+// Chebyshev abscissae, is what it remembers, and the plastic part of m is what stays. Each place is
+// solved independently, with the dent of the place before moved along as first guess: the result
+// depends on the path alone, not on how many events drew it, and no errors add up.
 constexpr double places_per_size = 8;  // of a stroke, along its path
 // Sizes of the tool from its centre within which seams have to bend.
 constexpr double near_seam = 2;
@@ -126,6 +131,8 @@ Expected<void> Stroke::begin(const Begin& begin) {
   }
   // The further a dent is felt, the more a tool has to bear.
   const double felt = felt_area(act_.state, scalings.at(*act_.state.selected), stroke);
+  // The bed alone resists with λ per area of the tool; the plate spreads the dent over the area
+  // that it is felt in, and brings as much more of the bed to bear.
   stroke.stiffness = hard * stroke.lambda * std::max(1.0, 16 * felt / (size * size));
   Eigen::Index rows = 0;
   for (const SceneSurface& s : selected_surfaces(act_.state)) {
@@ -162,6 +169,8 @@ Expected<void> unite_under_stroke(Act& act) {
 
 /// Finer nets where held edges of faces need them (before a step), or where the spans under the
 /// tool are too long for it (after one) and may be refined; what the stroke remembers follows.
+/// The history is values at abscissae, which move with the net: it is made a spline on the old net,
+/// refined exactly, and evaluated at the new abscissae.
 Expected<bool> refine_stroke(Act& act, const ActiveStep* step) {
   OpenStroke& stroke = *act.state.stroke;
   if (step == nullptr) {
@@ -375,6 +384,7 @@ Expected<void> Stroke::lead(const std::vector<Point>& path) {
   return press_along(places);
 }
 
+// The path is finished first: its last places come only when it is known to end.
 Expected<void> Stroke::lift() {
   if (!is_open()) return {};
   std::vector<Point> places;
