@@ -9,6 +9,9 @@ namespace {
 using cbor::Major;
 
 /// How many doubles, one beside the other, a value consists of; 0: not of these alone.
+/// Values are written by their descriptions (`Type`), so that a field that is added to a state is
+/// kept without a line here. Lists of doubles, at any depth of fixed arrays, are one string of
+/// bytes: control points take a copy, not a call per number.
 std::size_t doubles_in(const Type& type) {
   if (type.kind == Kind::number) return 1;
   return type.kind == Kind::array ? type.length * doubles_in(*type.element) : 0;
@@ -215,6 +218,9 @@ void StateWriter::write(const Type& type, const void* value, const void* other) 
   }
 }
 
+//   [k, item, undefined, item, …]
+// The first k items are as in the value before, and so is each `undefined`. Lists of a history
+// mostly grow at their end.
 void StateWriter::write_list(const Type& type, const void* value, const void* other) {
   const Type& element = *type.element;
   const std::size_t count = type.count(value), known = std::min(count, type.count(other));
@@ -311,6 +317,7 @@ void StateReader::read_list(const Type& type, void* value) {
   if (fixed && all != type.length) return static_cast<void>(fail());
   for (std::size_t k = first; k < all && !bad(); ++k) {
     if (k < known && takes(cbor::undefined)) continue;
+    // Before the list is resized: a length that is a lie must not take the memory first.
     if (k >= known) takes_memory(type.weight);
     if (bad()) return;
     if (k >= known) type.resize(value, k + 1);

@@ -79,6 +79,9 @@ std::optional<C> one_of(const Command& first, const Command& second, const Scene
 
 }  // namespace
 
+// The last two entries become one, and the state between them goes. Commands become one where that
+// is the same by construction: steps with equal settings add their counts, strokes and brushes that
+// go on join their paths. Others stand one after the other in the entry.
 void Session::join() {
   if (position_ < floor_ + 2 || can_redo()) return;
   std::vector<Command> last = std::move(entries_.back());

@@ -87,6 +87,12 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
   return interrupted_error();
 }
 
+// A command acts on a copy of the present state, in which shapes are shared, and the copy becomes
+// the present one only if every check passes: an error leaves nothing behind. Checks come in the
+// order in which one may change what the next sees: the law of motion and faces in the way make
+// motions smaller, then edges that follow are measured, then what was placed without a model. The
+// entry of the history is the command as it came out, so that replaying the journal needs no option
+// of the session.
 Expected<void> Session::carry_out(const Command& command, const Progress& progress) {
   if (fields_of<UndoCommand>(command)) {
     if (!can_undo()) return input_error("there is nothing to undo");
@@ -102,6 +108,7 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   auto next = std::make_shared<SessionState>(state());
   if (cache_->faces.document != state().document) cache_->faces = {state().document};
   Act act{document(), *next, *cache_, progress};
+  // An open stroke or brush ends with whatever command comes next that does not go on with it.
   if (!fields_of<StrokeCommand>(command)) {
     if (auto lifted = Stroke(act).lift(); !lifted) return lifted;
     if (auto kept = keep_law(act); !kept) return kept;
@@ -136,6 +143,8 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   return {};
 }
 
+// The history is set aside and put back by a destructor, whatever way the loop is left; what the
+// cache has learned stays.
 Expected<void> Session::rehearse(std::span<const Command> commands, const GoOn& go_on) {
   /// What stands now, which comes back whatever happens.
   struct Kept {
@@ -166,6 +175,8 @@ std::vector<Command> Session::journal() const {
   return commands;
 }
 
+// What follows from the file alone is not in a snapshot: regions and courses are made again, once
+// for each surface and edge of a document, and shared by all states.
 void Session::know_faces() {
   std::map<std::string, std::shared_ptr<const VisibleRegion>> known;
   std::map<std::string, std::shared_ptr<const SharedEdge>> courses;

@@ -47,6 +47,8 @@ std::vector<std::string> converted_in(const SessionState& state) {
 // --- what is read fits together
 // --------------------------------------------------------------------------------------
 
+// Bytes that pass the checksum may still be made by hand: whatever code later relies on without a
+// test is tested here, once.
 bool fits(const SceneSurface& s) {
   if (!s.mask.empty() && s.mask.size() != static_cast<std::size_t>(s.current->size())) return false;
   for (std::size_t d = 0; d < 2; ++d) {  // shapes are compared at equal parameters
@@ -185,6 +187,8 @@ std::unexpected<Error> damaged(const std::string& what) {
 
 }  // namespace
 
+// Each state is written as its difference from the one before, and a spline that several states
+// share once: the size grows with what changed, not with the length of the history.
 std::string Session::snapshot(std::size_t history_bytes) const {
   // How far back: the newest states that fit.
   std::size_t first = position_, bytes = 0;

@@ -67,6 +67,8 @@ Expected<std::vector<BrushImage>> images_of(const BrushCommand& c, const SceneSu
       add(BrushImage::turn(axis->at, axis->normal, 2 * std::numbers::pi * k / c.radial), 1);
     }
   }
+  // Each mirror doubles what is there, turns and earlier mirrors included: the group that they
+  // generate, if planes are perpendicular to each other and contain the axis.
   for (const BrushImage& mirror : mirrors) add(mirror, images.size());
   images.erase(images.begin());
   return images;

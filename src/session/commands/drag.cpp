@@ -21,6 +21,8 @@ constexpr int footprint_samples = 13;  // in either direction
 
 /// The points of a footprint: all samples of the domain within `radius` of the centre in space,
 /// each with its share of the force. Control points are numbered from `first`.
+/// Springs at 13 × 13 samples with weights (1 − ρ²/r²)², in sum `strength`: a single spring would
+/// pull out a spike whose height depends on the net.
 Expected<std::vector<PointForce>> footprint(const Surface& surface, int first, const Fractions& at,
                                             double radius, double strength) {
   const auto centre_at = parameters_at(surface, at);

@@ -38,6 +38,8 @@ void forget(SceneSurface& s, const std::string& id) {
 /// Holds or frees one edge of the faces on those selected surfaces that have it.
 Expected<void> hold_face_edge(Act& act, const EdgeCommand& c) {
   const bool follow = c.hold == EdgeCondition::follow || c.hold == EdgeCondition::free;
+  // The order of derivatives that are held is the condition's own number; beyond curvature nothing
+  // is.
   const int order = c.hold > EdgeCondition::curvature ? -1 : static_cast<int>(c.hold);
   bool follows = false;
   std::string known;

@@ -94,6 +94,9 @@ Expected<Points> moved_by_hand(const LatticeCommand& c, Points points) {
 
 }  // namespace
 
+// Free-form deformation (Sederberg and Parry, SIGGRAPH 1986): control points of surfaces are moved
+// as points of the block, which deforms a surface as its net, not as its points. Finer nets come
+// closer to the latter.
 Expected<void> execute(const LatticeCommand& c, Act& act) {
   auto surface = selected(act);
   if (!surface) return std::unexpected(surface.error());

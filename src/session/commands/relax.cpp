@@ -89,6 +89,10 @@ void describe(RelaxCommand& c, Fields& fields) {
   describe_allowance(c.allow, fields);
 }
 
+// One implicit step of α |∇S|² + β |∇²S|² + λ |S − S_before|² on the control points near a place,
+// all others pinned. A component that the plate resists with μ times its square is reduced to λ/(μ
+// + λ). Of the bump above μ = `resistance` α/r², hence λ = μ (1 − share)/share for the share that
+// is to be removed.
 Expected<void> execute(const RelaxCommand& c, Act& act) {
   const auto chosen = selected_surface(act, c.surface);
   if (!chosen) return std::unexpected(chosen.error());
@@ -134,6 +138,8 @@ Expected<void> execute(const RelaxCommand& c, Act& act) {
   EvolutionPolicy plate;
   const double share = std::min(c.strength, 0.999);  // 1 would be the static solution
   plate.lambda = resistance / (unit_radius * unit_radius) * (1 - share) / share;
+  // A state of its own: tools, forces and the rest shape of the scene take no part, and if the step
+  // fails nothing has changed.
   Act trial_act{act.document, trial, act.cache, act.progress};
   Models of_steps = std::exchange(act.cache.models, {});  // they stay
   const auto status = run(trial_act, {.evolution = plate});
