@@ -14,6 +14,15 @@
 namespace knead::iges {
 namespace {
 
+// Curves by their entities of IGES 5.3, whose parameters are
+//   100 circular arc      ZT, X1, Y1 (centre), X2, Y2 (start), X3, Y3 (end), counter-clockwise
+//   102 composite curve   N, N pointers
+//   106 copious data      IP, N, then pairs with a common z, triples, or sextuples with directions
+//   110 line              X1, Y1, Z1, X2, Y2, Z2
+//   126 B-spline curve    K, M, PROP1-4, K + M + 2 knots, K + 1 weights, K + 1 points, V0, V1,
+//   normal
+// in the coordinates of the entity, which its transformation matrix (124) moves, as does that of
+// each composite curve around it. K is the upper index of the control points.
 constexpr int max_composite_nesting = 8;
 constexpr double least_bytes_per_point = 1.5;  // of a file, and 10 kB beside it
 constexpr std::size_t free_bytes = 10'000;
@@ -99,6 +108,7 @@ Expected<Piece> CurveReader::arc(int number, const Eigen::Affine3d& move) const 
   if (!(radius > 0) || !std::isfinite(radius)) return file_.error(number, "its radius is 0");
   const double first = std::atan2(p[4] - p[2], p[3] - p[1]);
   double turn = std::atan2(p[6] - p[2], p[5] - p[1]) - first;
+  // Equal ends, digit by digit, are a whole circle.
   if (p[3] == p[5] && p[4] == p[6])
     turn = 2 * std::numbers::pi;
   else if (turn <= 0)

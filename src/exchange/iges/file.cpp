@@ -12,6 +12,11 @@
 namespace knead::iges {
 namespace {
 
+// Five sections of records with 80 columns: start, global, directory, parameters, terminate; the
+// letter is in column 73, the number of the record behind it. An entity has two records in the
+// directory, each of ten fields of eight columns, and is known by the number of the first of them,
+// which is odd. Its parameters are text in free format in columns 1 to 64 of its parameter records,
+// and columns 66 to 72 point back at it.
 constexpr std::string_view letters = "SGDPT";
 
 std::string_view trimmed(std::string_view text) {
@@ -23,6 +28,8 @@ std::string_view trimmed(std::string_view text) {
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
 
 /// The length of "5H" if a string begins there, and of what it counts.
+/// A string may contain separators, terminators and the ends of records: only its count tells where
+/// it ends.
 std::optional<std::pair<std::size_t, std::size_t>> hollerith(std::string_view text) {
   std::size_t at = 0, count = 0;
   while (at < text.size() && is_digit(text[at]) && at < 9)
@@ -288,6 +295,8 @@ Expected<void> File::read_directory() {
     }
     Entity entity{*type, *form, std::max(*transform, 0), *first - 1, *count, false, {}};
     const std::string_view status = field(0, 8);
+    // The status number is four pairs of digits; the third is how the entity is used, and 05 is a
+    // curve in the parameters of a surface.
     entity.parametric = status.size() == 8 && status.substr(4, 2) == "05";
     entity.label = std::string(trimmed(field(1, 7)));
     entities_.push_back(std::move(entity));

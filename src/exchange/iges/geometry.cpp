@@ -91,6 +91,8 @@ Expected<std::vector<double>> numbers(const File& file, int number, const Parame
                         "a number that a double can hold");
 }
 
+// Entity 128: K1, K2, M1, M2, PROP1-5, K1 + M1 + 2 and K2 + M2 + 2 knots, weights, points, U0, U1,
+// V0, V1. The flags (closed, polynomial, periodic) are not believed: all follow from the numbers.
 Expected<SplineLayout> surface_layout(const File& file, int number, const Parameters& parameters) {
   const auto head = integers(file, number, parameters, 1, 4);  // K1, K2, M1, M2
   if (!head) return std::unexpected(head.error());
@@ -135,6 +137,9 @@ Expected<SplineLayout> curve_layout(const File& file, int number, const Paramete
   return at;
 }
 
+// Entity 124: R11, R12, R13, T1, R21, …; a matrix may have one of its own, which is applied after
+// it. The standard asks for rotations and reflections (forms 0 and 1); files scale by them, too, so
+// that only singular ones are refused.
 Expected<Eigen::Affine3d> transform_of(const File& file, int number) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
   const Entity* entity = file.find(number);

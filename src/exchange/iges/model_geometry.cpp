@@ -18,6 +18,11 @@ std::string pointer(int number) { return std::to_string(number); }
 
 }  // namespace
 
+// IGES limits a curve by V0 < V1 within its knots, so that an edge across the start of a closed
+// curve needs another start. Knots are inserted there up to multiplicity p, and the two parts
+// change places: control points and weights of the first go behind those of the second, its knots a
+// period further. Where the weights at both ends differ, one part is multiplied by their ratio,
+// which does not change it.
 Expected<Curve> starting_at(const Curve& curve, double start) {
   const int p = curve.knots(0).degree();
   const int missing = p - curve.knots(0).multiplicity(start);

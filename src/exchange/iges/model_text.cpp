@@ -86,6 +86,8 @@ class PartWriter {
   }
 
   /// The lists of vertices (502) and edges (504). An edge runs along its curve.
+  /// Edges name their vertices by a list and a place in it, and loops their edges likewise: both
+  /// lists are complete before the first loop is written.
   Expected<void> add_lists() {
     std::vector<std::array<std::string, 3>> entries;  // curve, start, end
     std::string failed;

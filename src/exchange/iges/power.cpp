@@ -9,6 +9,11 @@
 namespace knead::iges {
 namespace {
 
+// Entity 114: CTYPE, PTYPE, M, N, M + 1 and N + 1 breakpoints, and for each patch 16 coefficients
+// of x, of y and of z, Σ p_ab s^a t^b with s and t from the patch's lower breakpoints. Each patch
+// becomes Bézier, of degree 3 × 3, and patches share the control points at their common sides: a
+// surface of 3 M + 1 by 3 N + 1 control points with triple knots. That is exact but for rounding
+// whatever the smoothness between them; fewer knots would assume what the file does not say.
 constexpr int most_patches = 1 << 22;
 constexpr std::size_t coefficients = 16, per_patch = 3 * coefficients;
 
@@ -82,6 +87,8 @@ Expected<Surface> read_power_surface(const File& file, int number, const Eigen::
           const auto row = static_cast<Eigen::Index>(3 * i + k % 4) * across +
                            static_cast<Eigen::Index>(3 * j + k / 4);
           double& x = points(row, static_cast<Eigen::Index>(c));
+          // Up to four patches give the same point; the first is kept, and the distance of the
+          // others is tested in the end.
           if (!std::isnan(x)) apart = std::max(apart, std::abs(x - corner[k]));
           if (std::isnan(x)) x = corner[k];
         }

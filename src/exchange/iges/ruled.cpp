@@ -13,6 +13,10 @@ namespace {
 
 // Of knots moved to 0 … 1, and of weights.
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+// Entity 118: S(u, v) = (1 − v) C_1(u) + v C_2(u), both curves over 0 … 1. On a common basis that
+// is a B-spline surface of degree p × 1 with their control points: degrees are elevated, knots
+// united, and weights compared, since curves with different weights have a ruled surface of higher
+// degree.
 constexpr const char* remedy =
     "convert it to a B-spline surface in the program that wrote the file";
 

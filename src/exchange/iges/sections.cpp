@@ -25,6 +25,9 @@ std::string ascii(std::string_view text) {
 
 }  // namespace
 
+// An entity's directory number is known before its records are, so that pointers can be written as
+// entities are added; whatever an entity points to is added before it. A label has eight columns:
+// longer names are a property 406, form 15.
 int Sections::add(int type, Values values, const Entry& entry) {
   const std::string name = ascii(entry.name);
   if (name.size() > label_columns) {

@@ -28,6 +28,9 @@ class Subfigures {
   }
 
  private:
+  // Entities 308 (DEPTH, NAME, N, N pointers) and 408 (definition, X, Y, Z, S). Definitions are
+  // parts of a graph, and instances its uses; instances in no definition are uses of a root that
+  // holds nothing else.
   Expected<brep::Assembly> assembly() {
     for (std::size_t k = 0; k < file_.entities().size(); ++k) {
       if (file_.entities()[k].type == 308) read_definition(File::number(k));

@@ -43,6 +43,9 @@ class SurfaceReader {
         brep::frame_of(move * Point(n * (*v)[3] / n.squaredNorm()), z, z.unitOrthogonal()));
   }
 
+  // Location (116), axis (123), lengths, and in form 1 a reference direction (123); of spheres the
+  // radius comes before the axis. The half angle of a cone is in degrees, whatever the units of the
+  // file.
   Expected<ElementarySurface> elementary(const Parameters& parameters, const Eigen::Affine3d& move,
                                          const KnownSurface& known) {
     const auto& values = parameters.values;

@@ -157,6 +157,8 @@ class Surgeon {
     return {};
   }
 
+  // In the order of the file: where parameter records grow or shrink, all that follow get other
+  // numbers, the directory points to these, and the terminate section counts them.
   std::string bytes() {
     parameters();
     directory();

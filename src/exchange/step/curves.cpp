@@ -37,6 +37,8 @@ void leave_out_empty(std::size_t degree, std::vector<double>& knots, Points& poi
 
 }  // namespace
 
+// B_SPLINE_CURVE(degree, control_points_list, curve_form, closed_curve, self_intersect), then
+// B_SPLINE_CURVE_WITH_KNOTS(knot_multiplicities, knots, knot_spec); weights as of surfaces.
 Expected<Curve> read_b_spline_curve(const Reader& reader, std::uint32_t instance) {
   constexpr std::size_t attributes_of_curve = 6;
   std::optional<ImpliedKnots> form;

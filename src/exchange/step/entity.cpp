@@ -44,6 +44,8 @@ std::optional<double> Reader::real(std::uint32_t value) const {
   return parse_real(file_->text(value));
 }
 
+// Larger numbers are refused here, once: squares and products of three, as in normals and volumes,
+// would overflow everywhere else.
 std::optional<double> Reader::length(std::uint32_t value) const {
   const auto read = real(value);
   return read && std::abs(*read) <= largest_number ? read : std::nullopt;
@@ -84,6 +86,8 @@ std::string Reader::item_name(std::uint32_t instance) const {
   return values.empty() ? std::string() : string(values[0]);
 }
 
+// Without a list of the children: most records of a file are points, and this is the inner loop of
+// reading.
 Expected<std::array<std::uint32_t, 3>> Reader::coordinate_values(std::uint32_t instance) const {
   if (!is(instance, "CARTESIAN_POINT")) return error(instance, "a CARTESIAN_POINT is needed here");
   const auto& record = file_->instance(instance);
@@ -129,8 +133,6 @@ Expected<double> Reader::angle_unit(std::uint32_t instance) const {
   return error(instance, "its angles may be in several units", "give the file one unit of angles");
 }
 
-/// CYLINDRICAL_POINT(name, *, r, theta, z) and SPHERICAL_POINT(name, *, r, theta, phi): the
-/// coordinates are derived.
 Expected<double> Reader::coordinate(std::uint32_t instance, std::uint32_t value,
                                     std::size_t k) const {
   const auto read = real(value);
@@ -142,6 +144,8 @@ Expected<double> Reader::coordinate(std::uint32_t instance, std::uint32_t value,
       fmt::format("correct it, or use a unit of length in which it is at most {}", largest_number));
 }
 
+/// CYLINDRICAL_POINT(name, *, r, theta, z) and SPHERICAL_POINT(name, *, r, theta, phi): the
+/// coordinates are derived.
 Expected<Point> Reader::curved_point(std::uint32_t instance) const {
   const bool cylindrical = is(instance, "CYLINDRICAL_POINT");
   const auto values =

@@ -19,6 +19,20 @@ std::optional<brep::Frame> frame_of(const brep::AxisPlacement& placement) {
 
 namespace {
 
+// Curves and surfaces that are no B-splines, by the entities of ISO 10303-42 (clause 4.5) whose
+// attributes are
+//   LINE(pnt, dir)                              VECTOR(orientation, magnitude)
+//   CIRCLE(position, radius)                    ELLIPSE(position, semi_axis_1, semi_axis_2)
+//   HYPERBOLA(position, semi_axis, semi_imag_axis)   PARABOLA(position, focal_dist)
+//   TRIMMED_CURVE(basis_curve, trim_1, trim_2, sense_agreement, master_representation)
+//   PLANE(position)                             CYLINDRICAL_SURFACE(position, radius)
+//   CONICAL_SURFACE(position, radius, semi_angle)
+//   SPHERICAL_SURFACE(position, radius)         TOROIDAL_SURFACE(position, major, minor)
+//   DEGENERATE_TOROIDAL_SURFACE(position, major, minor, select_outer)
+//   SURFACE_OF_REVOLUTION(swept_curve, axis_position)
+//   SURFACE_OF_LINEAR_EXTRUSION(swept_curve, extrusion_axis)
+// each behind the name of its REPRESENTATION_ITEM. `inherited` counts the attributes before those
+// that an entity declares itself: 1 is that name, 2 is also the position, or the swept curve.
 constexpr int max_curve_nesting = 8;  // nested curves; more is a loop
 
 std::optional<std::uint32_t> reference_at(const Reader& reader, std::uint32_t instance,
@@ -149,6 +163,8 @@ Expected<brep::ElementarySurface> read_elementary(const Reader& reader, std::uin
       reader, instance,
       brep::elementary_of(form.kind, position_of(reader, instance), length(0), length(1)));
   if (!surface) return surface;
+  // select_outer F is the part inside, the lemon, which exists only where the minor radius is the
+  // larger one.
   surface->inner = form.lengths == 3 && reader.enumeration(attributes[2]) == "F" &&
                    surface->second > surface->radius;
   return surface;
@@ -215,6 +231,9 @@ void read_form(const Reader& reader, std::uint32_t instance, brep::Support& supp
   }
 }
 
+// Files mix contexts in degrees and in radians, and a conical surface does not say in which it
+// stands. All units are collected, and the edges of a face tell which one brings the cone to them
+// (`FaceSurface::create`).
 std::vector<double> plane_angle_units(const Reader& reader) {
   std::vector<double> result;
   const auto add = [&](double unit) {

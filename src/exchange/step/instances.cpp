@@ -77,6 +77,15 @@ std::optional<Eigen::Affine3d> read_frame(const Reader& reader, Index instance) 
 
 class Assemblies {
  public:
+  // Where a part stands is said by four records that lead to one another:
+  //   NEXT_ASSEMBLY_USAGE_OCCURRENCE(…, relating, related)   this product within that one
+  //   (10303-44) PRODUCT_DEFINITION_SHAPE(…, usage)
+  //   CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(relation, shape)
+  //   REPRESENTATION_RELATIONSHIP(…, rep_1, rep_2) + …_WITH_TRANSFORMATION(operator)  (10303-43)
+  // with ITEM_DEFINED_TRANSFORMATION(…, item_1, item_2): the frame item_1 of the component goes to
+  // the frame item_2 of the assembly. A SHAPE_DEFINITION_REPRESENTATION joins a product to its
+  // representation. MAPPED_ITEM(mapping_source, mapping_target) does the same without products. All
+  // tables are filled in one pass, since records may come in any order.
   explicit Assemblies(const Reader& reader) : reader_(reader) {
     for (const Index k : reader.file().named(
              {"SHAPE_DEFINITION_REPRESENTATION", "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION",
@@ -259,6 +268,7 @@ class Assemblies {
 };
 
 // For each mapped item, the representation that lists it.
+/// One pass over all references of the file, in place of a search for each item.
 std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector<Index>& mapped) {
   std::unordered_map<Index, Index> result;
   for (const auto k : mapped) result.emplace(k, no_instance);

@@ -67,6 +67,8 @@ Expected<std::vector<double>> read_knot_list(const Reader& reader, std::uint32_t
       return reader.error(instance, "the multiplicity of " + where + " is not a positive integer");
     if (!value) return reader.error(instance, where + " is not a number a double can hold");
     sum += *times;
+    // A multiplicity of a damaged file may be two thousand million: nothing is stored beyond what
+    // can be right, and the sum that is reported is still the file's.
     if (sum <= needed) knots.insert(knots.end(), static_cast<std::size_t>(*times), *value);
   }
   if (sum != needed) {

@@ -15,6 +15,13 @@ constexpr std::array<std::string_view, 6> forms = {
     "B_SPLINE_SURFACE_WITH_KNOTS", "BEZIER_SURFACE",  "UNIFORM_SURFACE", "QUASI_UNIFORM_SURFACE",
     "RATIONAL_B_SPLINE_SURFACE",   "B_SPLINE_SURFACE"};
 
+// B_SPLINE_SURFACE(u_degree, v_degree, control_points_list, surface_form, u_closed, v_closed,
+// self_intersect) (ISO 10303-42, clause 4.5). control_points_list is a list of rows, u the slow
+// direction, as in `Surface`. The flags u_closed and v_closed, and the form, are not believed:
+// closedness is found from control points. Knots follow in
+// B_SPLINE_SURFACE_WITH_KNOTS(u_multiplicities, v_multiplicities, u_knots, v_knots, knot_spec), or
+// are implied by the subtype; weights in RATIONAL_B_SPLINE_SURFACE(weights_data), which makes the
+// record complex.
 struct Net {
   int rows = 0;
   int columns = 0;

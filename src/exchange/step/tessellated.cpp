@@ -206,6 +206,7 @@ class MeshBuilder {
       }
       mesh.triangles.push_back(corners);
     }
+    // Some writers list corners clockwise; the normals of the file are the better witness.
     if (seen >= 0) return;
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   }

@@ -27,6 +27,11 @@ class TopologyReader {
       splines_.emplace(surfaces[k], static_cast<Index>(k));
   }
 
+  // ADVANCED_FACE or FACE_SURFACE → FACE_BOUND → EDGE_LOOP → ORIENTED_EDGE → EDGE_CURVE →
+  // VERTEX_POINT (ISO 10303-42, clause 5.5), bottom up, so that what is shared is one object.
+  // ORIENTED_EDGE(name, *, *, edge_element, orientation): its own ends are derived, and written as
+  // asterisks. A flag counts as true unless it is .F., and a part that cannot be read is kept with
+  // its fault: a face with one bad edge still has its surface.
   std::vector<std::uint32_t> read(const std::vector<FaceRecord>& faces) {
     read_edges();
     for (const FaceRecord& face : faces) add_face(face);

@@ -37,6 +37,9 @@ constexpr std::array<Prefix, 16> prefixes = {{{"EXA", "E", 1e18},
                                               {"FEMTO", "f", 1e-15},
                                               {"ATTO", "a", 1e-18}}};
 
+// A length unit is SI_UNIT(prefix, .METRE.) or CONVERSION_BASED_UNIT(name, measure) with
+// LENGTH_UNIT, the measure in another unit; both are complex records with NAMED_UNIT (ISO
+// 10303-41). Names of the latter are free text, so that lengths decide.
 constexpr int max_conversions = 8;  // inch of cm of m; more is a loop
 
 std::optional<brep::LengthUnit> si_unit(const Reader& reader, std::uint32_t unit) {

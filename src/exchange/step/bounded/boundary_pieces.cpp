@@ -47,6 +47,8 @@ std::optional<double> limit_of(const Reader& reader, std::uint32_t list, const R
       by_parameter = *t * (line != nullptr ? line->magnitude : angle ? angle_unit : 1);
     }
   }
+  // master_representation says which to prefer where both are given; points are the better ones
+  // where it does not, as parameters of lines and circles are often in the wrong unit.
   return prefer_parameter && by_parameter ? by_parameter : by_point ? by_point : by_parameter;
 }
 
@@ -74,6 +76,8 @@ Expected<Range> range_of(const Reader& reader, std::uint32_t instance) {
   range.to = limit_of(reader, attributes[2], range, by_parameter, *unit);
   if (!range.from || !range.to || !range.curve->closed()) return range;
   const double period = range.curve->domain()->length(), near = 1e-9 * period;
+  // A closed curve is run through from trim_1 to trim_2 in the direction of sense_agreement: across
+  // its start, if need be.
   if (forward && *range.to <= *range.from + near) *range.to += period;
   if (!forward && *range.from <= *range.to + near) *range.from += period;
   return range;
@@ -274,6 +278,8 @@ Expected<SurfacePiece> PieceReader::lifted(std::uint32_t pcurve, const Surface& 
   const auto at = [&](double t) { return on.at(model_, range->curve->at(std::lerp(from, to, t))); };
   std::vector<double> corners = range->curve->corners();
   for (double& t : corners) t = (t - from) / (to - from);
+  // A curve in parameters has no curve in space: it is interpolated through the surface, to 1e-8 of
+  // its size. Corners in parameters are corners in space unless the surface is singular there.
   auto fitted = brep::lifted_curve(at, std::move(corners));
   if (!fitted) return std::unexpected(std::move(fitted.error()));
   SurfacePiece piece;

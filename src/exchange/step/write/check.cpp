@@ -28,6 +28,8 @@ class Check {
         k < surface_count() ? before_.of.surfaces[k] : before_.of.curves[k - surface_count()];
     return before_.records.instance(instance).id;
   }
+  // Read back by the code that reads files, and compared bit for bit: a mistake in the surgery must
+  // not reach a file, and one in printing numbers would show here as well.
   [[nodiscard]] bool right(const Part21File& parsed, std::size_t k) const {
     const Reader reader(parsed);
     const auto instance = parsed.find(id(k));
@@ -58,6 +60,9 @@ class Check {
 };
 
 /// A record and those that it refers to itself, unless they are there already.
+/// A surface's record and its points are enough to read it, unless angles need the contexts of the
+/// file or SCOPEs hide names. So large files are checked by some megabytes at a time, not parsed a
+/// second time as a whole.
 void gather(const Part21Names& names, std::uint64_t id, std::unordered_set<std::uint64_t>& there,
             std::string& text) {
   const auto record = names.record(id);

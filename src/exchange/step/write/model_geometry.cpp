@@ -39,6 +39,7 @@ std::string ModelGeometry::conic(const brep::Conic& conic, bool turned) {
   const double a = conic.a.norm(), b = conic.b.norm();
   brep::Frame frame{conic.centre};
   frame.x = conic.a / a;
+  // The placement of a conic has no other freedom: x along a, and z such that y = z × x is along b.
   frame.z = conic.a.cross(turned ? Point(-conic.b) : conic.b).normalized();
   const auto position = placement(frame);
   switch (conic.form) {

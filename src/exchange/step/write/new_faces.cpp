@@ -66,6 +66,8 @@ Expected<NewFaces> add_faces(std::span<const NewSurface> surfaces,
   return result;
 }
 
+// The chain that ISO 10303-46 demands from an item to a colour, one style for each colour; a file
+// without the representation at its end shows none of them in most programs.
 void add_colours(std::span<const Coloured> all, const std::string& context, const AddRecord& add) {
   std::map<std::array<double, 3>, std::string> styles;
   std::string items;

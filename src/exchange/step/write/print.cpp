@@ -43,6 +43,9 @@ std::string print_point(std::string_view name, const double* coordinates) {
   return text + "));";
 }
 
+// Shortest decimals that read back as the same double for knots and weights, 17 digits for points.
+// Rational ones are complex records, their parts in alphabetical order (ISO 10303-21, external
+// mapping).
 std::string print_surface(const Surface& surface, std::string_view label,
                           const std::function<std::string(int)>& point,
                           std::string_view line_break) {

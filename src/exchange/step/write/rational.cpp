@@ -25,6 +25,8 @@ std::uint32_t comma_between(const std::string& bytes, std::uint32_t from) {
 //    GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(weights)
 //    REPRESENTATION_ITEM(name)SURFACE()),
 // parts by the alphabet (ISO 10303-21, 11.2.5.3); a complex one gets the part it lacks.
+// A simple record cannot have weights: RATIONAL_B_SPLINE_SURFACE is a subtype beside
+// B_SPLINE_SURFACE_WITH_KNOTS, and an instance of both is written as a complex one.
 Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& before,
                                         const Surface& after) {
   const auto net = after.net();

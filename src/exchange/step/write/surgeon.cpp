@@ -44,6 +44,10 @@ bool same_bits(std::span<const double> a, std::span<const double> b) {
   });
 }
 
+// Control points are references to CARTESIAN_POINTs, and one record may be several control points
+// (poles, seams), or a point of something else. A record whose users all move to one place is
+// rewritten in place; otherwise what moves gets a copy of it under a new name, and what stays keeps
+// the old one.
 Expected<void> Surgeon::move_points(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
                                     const Points& old_points, const Points& new_points) {
   // The control points grouped by their record, in order.
@@ -70,6 +74,9 @@ Expected<void> Surgeon::move_points(std::uint32_t instance, const std::vector<st
   return {};
 }
 
+// Changes are ranges of the old bytes with new text. They never overlap, so that one sorted pass
+// joins them; insertions at one place keep their order. What is not changed keeps every byte,
+// comments and spacing included.
 std::string Surgeon::result() {
   std::ranges::stable_sort(changes_, {}, [](const Change& change) { return change.range.begin; });
   std::string out;
@@ -307,6 +314,7 @@ Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& befor
   return {};
 }
 
+// Numbers that stay keep their own text, 1.0 or .1E1, found by their bits.
 std::function<std::string(double)> Surgeon::texts(std::uint32_t list) const {
   std::unordered_map<std::uint64_t, std::string> known;
   for (auto k = list + 1; k < file_.value(list).next; ++k) {

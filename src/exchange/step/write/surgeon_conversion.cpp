@@ -28,6 +28,9 @@ std::optional<std::uint32_t> surface_under(const Reader& reader, std::uint32_t p
 
 }  // namespace
 
+// The record keeps its name, so that faces find the new surface; whatever speaks of the parameters
+// of the old one (curves in them, limits, offsets) is led to a copy of the old record, as its
+// numbers mean something else on the new one.
 void Surgeon::become_spline(std::uint32_t instance, const Surface& surface,
                             const std::set<std::uint32_t>& bounded) {
   const Part21Instance& record = file_.instance(instance);
@@ -87,6 +90,8 @@ void Surgeon::limit(std::uint32_t bounded, const std::array<Interval, 2>& limits
   }
 }
 
+// SEAM_CURVE and INTERSECTION_CURVE demand two PCURVEs (ISO 10303-42, clause 4.5); without them
+// only the supertype is valid, and its master is the curve in space.
 void Surgeon::lie_on_these(std::uint32_t curve, const std::vector<std::uint32_t>& parts,
                            const std::string& list) {
   change(parts[1], "(" + list + ")");

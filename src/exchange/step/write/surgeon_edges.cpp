@@ -34,6 +34,8 @@ std::string Surgeon::curve_records(const Curve& curve, const std::string& name) 
          print_curve(curve, "''", [&](int k) { return names[static_cast<std::size_t>(k)]; }) + ";";
 }
 
+// The old curve stays in the file, since others may refer to it; the edge, or its SURFACE_CURVE if
+// no other edge has that, refers to the new one.
 Expected<void> Surgeon::replace_curve(std::uint32_t edge, const Curve& curve) {
   const auto attributes = reader_.attributes(edge, "EDGE_CURVE", 3, 2);
   const std::uint32_t geometry =

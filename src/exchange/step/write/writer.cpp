@@ -122,6 +122,9 @@ Expected<WantedCurves> write_curves(const File::Data& data,
 
 }  // namespace
 
+// On the same knots and weights only points change, which leaves the record of the surface alone;
+// on others its lists are written anew. Surfaces that are equal to the last bit are not touched,
+// and if nothing is, the file's own bytes come back.
 Expected<std::string> File::with_surfaces(std::span<const brep::Replacement> replacements,
                                           const brep::MovedEdges& moved,
                                           std::span<const CurveReplacement> curves) const {
