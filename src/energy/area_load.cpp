@@ -54,6 +54,11 @@ class AreaLoad {
 
   /// Adds the forces of a piece, halved in both directions until two rules agree to `allowed` of
   /// its size.
+  /// |S_u × S_v| is a root: no rule is exact, and near folds it has a kink. Two Gauss rules, n and
+  /// n
+  /// + 4 points, judge each other; where they differ a piece is quartered, each quarter with half
+  /// of the tolerance (errors of quarters do not add up with one sign). Flat pieces, whose area
+  /// element is a polynomial, end at once. Twenty halvings end a fold, with an error.
   [[nodiscard]] Expected<void> add(const Piece& piece, double allowed, int halvings,
                                    Points& to) const {
     const auto coarse = by_rule(piece, 0), fine = by_rule(piece, more_points);

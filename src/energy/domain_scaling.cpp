@@ -20,6 +20,10 @@ constexpr const char* measure_name[] = {"length", "area", "volume"};
 
 }  // namespace
 
+// Energies of derivatives by parameters depend on how long the parameters are: a strip of 10 : 1
+// over [0, 1]² would stretch a dent 10 : 1. Each direction is scaled by the mean length of its
+// isocurves, in units of the root of the area, so that α and β mean the same on every surface and
+// in every unit. Norms of tangents are no polynomials: p + 4 Gauss points per span.
 template <int D>
 Expected<DomainScaling<D>> normalised_scaling(const Spline<D>& rest) {
   std::array<BasisQuadrature, D> q;

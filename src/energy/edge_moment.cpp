@@ -19,6 +19,10 @@ struct PointMoment {
   Eigen::Matrix<double, 6, 6>
       derivative{};  // rows of F_1, then of F_2; columns of a_1, then of a_2
 
+  // A moment M per length about the edge works M δω, δω = t·(n × δn), on the turn of the normal;
+  // with δn = −a^α (n·δa_α) that is F_α·δa_α. It follows the edge, so that forces depend on the
+  // shape; their derivative is found column by column, by the product rule along each of the six
+  // components of the tangents.
   PointMoment(const Tangents& a, int along) {
     const Eigen::Vector3d cross = a.col(0).cross(a.col(1));
     const double area = cross.norm(), speed = a.col(along).norm();
@@ -130,6 +134,8 @@ Points EdgeMoment::forces(const Points& x) const {
   return result;
 }
 
+// The symmetric part: a moment that turns with its edge has no potential in general, and Newton's
+// method for a symmetric system uses what there is of one.
 SparseMatrix EdgeMoment::stiffness(const Points& x) const {
   std::vector<Eigen::Triplet<double>> entries;
   for (const Data::Gauss& point : data_->points) {

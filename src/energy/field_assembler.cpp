@@ -8,6 +8,13 @@ namespace knead {
 namespace {
 
 /// Adds one term to the entries on and above the diagonal, direction by direction.
+/// K_IJ = Σ_kl α_kl T_u[k, i, j] T_v[l, i', j'] with the triple Gramians T[k, i, j] = ∫ B_k N_i^(a)
+/// N_j^(b). Direction by direction (sum factorisation): for each pair (i, j) of the first direction
+/// the coefficients are contracted along k, over the few k with supports in common, and the shorter
+/// array goes on to the next direction. For degree p and coefficients of degree q that is O(N p^D
+/// (p + q)) in all, against O(N p^3D) of plain loops over Gauss points. Entries on and above the
+/// diagonal alone are formed; an entry is below it only if the first direction whose indices differ
+/// says so.
 template <int D>
 class TermWriter {
  public:
@@ -83,6 +90,8 @@ void mirror(SparseMatrix& matrix) {
 
 }  // namespace
 
+// Triple Gramians depend on knots and orders, not on coefficients: they serve the next material on
+// the same knots.
 template <int D>
 Expected<const TripleGramian*> FieldAssembler<D>::triple(std::size_t direction,
                                                          const KnotVector& knots, int a, int b) {

@@ -10,6 +10,12 @@
 namespace knead {
 namespace {
 
+// Interpolation on a net that is refined where it is wrong. Errors are measured on 2 p + 3 samples
+// per span and direction at least; an element that exceeds the tolerance marks the directions to
+// halve by their differences of order p + 1, which are h^{p+1} f^{(p+1)}, the term that
+// interpolation of degree p leaves out. So a function of one variable is refined in that one.
+// Tensor nets refine whole rows: only the worst directions are marked. 0.9 of the tolerance leaves
+// room for what lies between samples.
 constexpr double headroom = 0.9;
 
 template <int D>

@@ -87,6 +87,10 @@ struct FormPoint {
   }
 
   /// w Σ e_ij², e_ij = S_i·S_j − S⁰_i·S⁰_j.
+  ///   ∂/∂S_i = 4 w Σ_j e_ij S_j,
+  ///   ∂²/∂S_i ∂S_k = 4 w (S_k S_iᵀ + δ_ik Σ_j S_j S_jᵀ) + 4 w e_ik I.
+  /// The first part, of products of first derivatives, is positive semidefinite; the second is the
+  /// geometric stiffness, negative where e is a compression.
   void add_metric(const FormDerivatives<D>& a, const FormRest<D>& rest, double w) {
     const auto tangents = a.template leftCols<D>();
     const Eigen::Matrix<double, D, D> e = strain(a, rest);
@@ -104,6 +108,10 @@ struct FormPoint {
   }
 
   /// w (κ − κ⁰)² = w φ(κ²), φ(k) = k − 2 κ⁰ √k + κ⁰².
+  /// With s, t, r as in `SquaredCurvature` the chain rule gives both derivatives through three
+  /// scalars. φ has no second derivative at k = 0 unless κ⁰ = 0, where w κ² is smooth: there the
+  /// part of products is that of the vector c with |c| = κ, elsewhere that of κ itself. What
+  /// remains is what `hessian` has beyond it.
   void add_curvature(const FormDerivatives<D>& a, double at_rest, double w) {
     const SquaredCurvature k(a);
     const double curvature = std::sqrt(k.value);

@@ -93,6 +93,7 @@ Expected<Points> weighted_load(const Spline<D>& shape, const Spline<D>& load) {
     }
     std::ranges::sort(breaks);
     breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+    // A load with weights has no bound here; eight points more than its polynomial would need.
     const GaussRule rule = gauss_legendre(std::max(a.degree(), b.degree()) + 8);
     std::vector<double> at;
     for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
@@ -144,6 +145,8 @@ Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& sca
   for (std::size_t d = 0; d < D; ++d) {
     const auto m = static_cast<std::size_t>(load.knots()[d].count()),
                n = static_cast<std::size_t>(shape.knots()[d].count());
+    // F = (G_u ⊗ G_v ⊗ G_w) f with the mixed Gramians ∫ N_i M_j of both bases: exact for
+    // polynomials, O(N p) per direction.
     const auto gramian = mixed_gramian(shape.knots()[d], 0, load.knots()[d], 0);
     if (!gramian) return std::unexpected(gramian.error());
     inner /= m;

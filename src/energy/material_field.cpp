@@ -50,6 +50,10 @@ Expected<void> check_positive(const Coefficient<D>& coefficient, const std::stri
       "use values >= 0, or finer knots where the values are");
 }
 
+// The energy is convex where the matrix α(u) is positive semidefinite. With all α on one basis,
+// α(u) is a combination of matrices of coefficients with factors N_k(u) >= 0: it suffices that each
+// of those is (and is not necessary: finer knots come closer). Where bases had to be united by knot
+// insertion a little is allowed for its rounding.
 template <int D>
 Expected<void> check_alpha_matrix(const MaterialFieldOf<D>& material) {
   std::vector<std::array<KnotVector, D>> knots;

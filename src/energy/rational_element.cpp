@@ -16,6 +16,11 @@ namespace {
 
 /// How many points, at least, have their products made together; it leaves both factors in the
 /// cache.
+/// ∫ Σ_ab C_ab ∂^a R_I ∂^b R_J is the matrix product XᵀY over points and derivatives, X the
+/// derivatives and Y those times weights and C. Collected over several lines of points, it is done
+/// by a kernel that keeps a block of the result in registers; point by point it would be bound by
+/// memory. Of a sum of squares (C diagonal and nowhere negative) X = Y with the root of both
+/// factors, half of the memory and a symmetric result.
 constexpr Eigen::Index chunk = 48;
 
 }  // namespace
@@ -52,6 +57,7 @@ int RationalCoefficients<D>::position(const MultiIndex<D>& order) const {
   return static_cast<int>(std::ranges::find(used_, at) - used_.begin());
 }
 
+// A spline is bounded by its coefficients; on one span, by the (q + 1)^D that belong to it.
 template <int D>
 void RationalCoefficients<D>::enter(const std::array<const RationalAxis*, D>& axes) {
   for (Varying& v : varying_) {

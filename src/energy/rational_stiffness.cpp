@@ -28,6 +28,11 @@ class RationalAssembly {
     for (std::size_t d = 0; d < D; ++d) pattern_.degree[d] = spline.knots()[d].degree();
   }
 
+  // No finite rule is exact for rational functions. `RationalRule` chooses points, and halves
+  // elements, until a proven bound of the error is below the tolerance, relative to the diagonal of
+  // K: |δK_ij| <= tol √(K_ii K_jj). The diagonal is not known before K is; a first pass estimates
+  // it by few points, and the second replaces it. If the estimate was too large by so much that the
+  // bound then fails, a pass is repeated with the better one.
   [[nodiscard]] Expected<RationalStiffness> run() {
     RationalStiffness result{pattern_.allocate(), std::numeric_limits<double>::infinity()};
     const bool certified =
@@ -192,6 +197,8 @@ class RationalAssembly {
                            "stiffness", "use weights that differ less, or a larger tolerance");
   }
 
+  // One element after the other in one order: sums have the same bits whatever the number of
+  // threads.
   void add(const RationalElement<D>& sums, SparseMatrix& matrix) {
     for (std::size_t r = 0; r < functions(); ++r) {
       diagonal_[elements_.rows()[r]] += sums.diagonal()[static_cast<Eigen::Index>(r)];

@@ -20,6 +20,12 @@ std::size_t lanewise(std::ptrdiff_t numbers) {
 
 }  // namespace
 
+// The unit of work is a block of four elements whose numbers lie side by side, number k of element
+// l at `lanes` · k + l: one vector instruction does the same to four elements, whatever the degree,
+// with no shuffles and no remainders inside of an element. The last block repeats its last element
+// with weights of zero. A block has the one-dimensional basis tables of both directions, (p + 1)
+// numbers per point each, from which kernels form the tensor products: tables of all functions at
+// all points would be that squared.
 ShellBlocks::ShellBlocks(const Surface& surface, const std::array<BasisQuadrature, 2>& quadrature,
                          const std::array<int, 2>& points,
                          const std::vector<ShellElement>& elements, std::vector<ShellRest>& rest)
@@ -46,6 +52,8 @@ ShellBlocks::ShellBlocks(const Surface& surface, const std::array<BasisQuadratur
 
 /// Against forms of zero and with a stiffness of one the stresses are half the metric and minus the
 /// curvature.
+/// They are taken from the kernels themselves and not from `ShellPoint`, whose sums are in another
+/// order: differences by rounding would leave strains at rest.
 void ShellBlocks::measure_rest(const Points& x, std::vector<ShellRest>& rest) {
   const ShellRest unit{0,
                        0,
@@ -105,6 +113,11 @@ void ShellBlocks::pack_rest(Block& block, const std::vector<ShellRest>& rest) co
 
 /// With W = Σ w N at every point: 1/W and by what the numerator p contributes to S_u, S_v, S_uu,
 /// S_vv, S_uv.
+/// R = w N / W, so that S = A / W with the numerator A = Σ w N x. The kernels sum derivatives of A
+/// as for a polynomial surface and combine them:
+///   S_u  = c A_u + c_u A,                        c = 1/W, c_u = −c² W_u,
+///   S_uu = c A_uu + 2 c_u A_u + c_uu A,          c_uu = c² (2 c W_u² − W_uu),
+/// and likewise for v and uv: six numbers per point in place of tables of rational functions.
 void ShellBlocks::pack_weights(Block& block, const Surface& surface,
                                const std::array<BasisQuadrature, 2>& quadrature) const {
   block.weight.resize(lanewise(shape_.local()));
@@ -247,6 +260,8 @@ void ShellBlocks::add_entries(const Block& block, const double* numbers, const O
       for (std::ptrdiff_t k = j; k < q; ++k) {
         if (!owns(node[j]) && !owns(node[k])) continue;
         for (std::ptrdiff_t i = 0; i < p; ++i) {
+          // Kernels give each pair of functions once; its mirror image is added at the same time,
+          // so that the matrix is symmetric to the last bit and needs no pass of its own.
           for (std::ptrdiff_t n = j == k ? i : 0; n < p; ++n) {
             const double* from = numbers + lanewise(9 * ((shape_.pair(j, k) * p + i) * p + n)) + l;
             const std::ptrdiff_t a = i * q + j, b = n * q + k;

@@ -21,6 +21,9 @@ struct PointAngle {
   double c, s;
   Gradient dc, ds;
 
+  // δn = (δ(a_1 × a_2) − n n·δ(a_1 × a_2)) / |a_1 × a_2|: for a vector y, y·δn = ŷ·(δa_1 × a_2 +
+  // a_1 × δa_2) with ŷ = (y − n n·y) / |a_1 × a_2|, whose derivatives are a_2 × ŷ by a_1 and ŷ ×
+  // a_1 by a_2.
   PointAngle(const SideTangents& a, int along) {
     const Eigen::Vector3d cross[2] = {a.col(0).cross(a.col(1)), a.col(2).cross(a.col(3))};
     const double area[2] = {cross[0].norm(), cross[1].norm()}, speed = a.col(along).norm();
@@ -111,6 +114,7 @@ class SideBasis {
 };
 
 /// Shares of the domain at which spans of either side end, ascending.
+/// Gauss rules must not cross a knot of either side: derivatives across may jump there.
 std::vector<double> breaks_of(const KnotVector& a, const KnotVector& b, bool reversed) {
   std::vector<double> breaks;
   const auto append = [&](const KnotVector& knots, bool turned) {
@@ -247,6 +251,8 @@ void ShellCrease::add_gradient(const Points& x, Points& gradient) const {
   }
 }
 
+// Gauss and Newton's part is positive semidefinite, which the minimisation needs; the rest is
+// proportional to c − c_0 and s − s_0, small wherever the spring does its work.
 void ShellCrease::append_hessian(const Points& x,
                                  std::vector<Eigen::Triplet<double>>& entries) const {
   for (const Data::Gauss& point : data_->points) {

@@ -70,6 +70,9 @@ Expected<ShellElement> make_element(const Surface& rational, const RationalBasis
 }
 
 /// The 3N × 3N pattern of zeros: every entry of the scalar one as a 3 × 3 block.
+/// Coordinates of a control point are adjacent unknowns, 3 i + c, and each row of the matrix lists
+/// its blocks one after the other: entry (3 a + c, 3 b + e) is found from that of (a, b) without a
+/// search.
 SparseMatrix three_fold(const SparseMatrix& scalar) {
   SparseMatrix result(3 * scalar.rows(), 3 * scalar.cols());
   result.resizeNonZeros(9 * scalar.nonZeros());
@@ -172,6 +175,11 @@ Expected<ShellEnergy> ShellEnergy::of_forms(const Surface& rest,
   return with_law(rest, std::move(data), gauss_points);
 }
 
+// The energy of Kirchhoff and Love, W = ½ ∫ n·ε + m·κ dA over the rest shape, with the membrane
+// strain ε = (a − A)/2, the change of curvature κ = B − b (A and B the forms of the rest shape), n
+// = C_n ε and m = C_m κ; degree 2 at least, as b has second derivatives. Everything that depends on
+// the rest shape alone is found here, once: the basis at the Gauss points, the forms, and both 3 ×
+// 3 matrices of the law.
 Expected<ShellEnergy> ShellEnergy::with_law(const Surface& surface, std::shared_ptr<Data> data,
                                             int gauss_points) {
   for (std::size_t d = 0; d < 2; ++d) {
@@ -271,6 +279,8 @@ Points ShellEnergy::weight(const Point& acceleration) const {
   return data_->spread(&ShellRest::mass, acceleration);
 }
 
+// On the deformed surface: its area element |a_1 × a_2| and its normal. The drag of wind is that of
+// its normal component, relative to the surface's own velocity.
 Points ShellEnergy::normal_load(const Points& x, const Points& velocity, double pressure,
                                 const Point& wind) const {
   Points result = Points::Zero(data_->size, 3);
@@ -326,6 +336,10 @@ double ShellEnergy::stretching_scale() const {
   return sum;
 }
 
+// A shell has E h³ / 12 (1 − ν²). A surface that keeps its fundamental forms has no thickness: the
+// mean over the surface of what its law does to a curvature equal to the metric stands for it, and
+// the thickness is that of the homogeneous shell with the same ratio of bending to stretching, h² =
+// 12 D/B.
 double ShellEnergy::bending_stiffness() const {
   if (const auto* m = std::get_if<ShellMaterial>(&data_->law.material)) {
     return m->young * m->thickness * m->thickness * m->thickness /

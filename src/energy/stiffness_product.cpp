@@ -33,6 +33,13 @@ using Aligned = std::vector<double, UnsetAllocator>;
 
 /// How lines of points lie for the kernels: in segments, one per number of a vector, the last ones
 /// with zeros behind.
+/// K x for K = Σ_t c_t A_t ⊗ B_t (⊗ C_t), without K: with k distinct factors in the first direction
+/// it takes k (2p + 1) + k (2q + 1) multiplications a coordinate and control point, where the
+/// assembled matrix has (2p + 1)(2q + 1) and must be read from memory. Terms with the same first
+/// factor share its product, as nodes of a tree, and their last factors are summed before.
+/// A line of the last direction is cut into as many segments as a vector has numbers, and number l
+/// of vectors belongs to segment l: a band matrix then moves whole vectors, and only the ends of
+/// segments are exchanged (`surround`).
 struct Segments {
   const detail::TensorKernels* kernels;
   std::ptrdiff_t size, points,

@@ -89,8 +89,7 @@ class ModelReader {
     uncertainty_ = file.global().resolution > 0 ? file.global().resolution : default_uncertainty;
   }
 
-  // Faces come first, since the matrix of a face moves its surface before that is read; then all
-  // surfaces, so that each has its place whatever refers to it; then the bounds of faces.
+  // Faces come first, since the matrix of a face moves its surface; then all surfaces, then bounds.
   //   144 trimmed surface   surface, N1, N2, outer, N2 inner boundaries (142)
   //   143 bounded surface   kind, surface, N, N boundaries (141)
   //   510 face              surface, N, whether the first is the outer one, N loops (508)
@@ -221,9 +220,6 @@ class ModelReader {
 
   /// A curve on a surface (142): how it was made, surface, curve in parameters, curve in space,
   /// which is preferred.
-  /// The curve in space is taken where there is one, whatever the preference: a curve in parameters
-  /// needs the surface as it is in the file, and a face without edges in space could not be joined
-  /// to its neighbours.
   Expected<void> add_curve(const Parameters& parameters, int surface, const Eigen::Affine3d& move,
                            std::vector<Piece>& pieces) {
     const auto& values = parameters.values;
