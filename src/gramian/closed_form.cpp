@@ -90,6 +90,10 @@ std::vector<std::complex<Real>> roots_of(const Polynomial<Real>& a) {
       for (std::size_t l = 0; l < n; ++l) {
         if (l != k && z[k] != z[l]) others += Real(1) / (z[k] - z[l]);
       }
+      // Newton's step deflated by all other approximations, 1/(P'/P − Σ 1/(z_k − z_l)): cubic
+      // convergence to simple roots (Aberth, Iteration methods for finding all zeros of a
+      // polynomial simultaneously, 1973). The circle is turned, so that no start lies on the axis
+      // of symmetry of a real polynomial.
       const Complex change = Real(1) / (newton - others);
       z[k] -= change;
       moved = std::max(moved, std::abs(change) / (Real(1) + std::abs(z[k])));
@@ -133,6 +137,11 @@ class SpanFractions {
   }
 
   /// ∫ R_i^(a) R_j^(b) du for all pairs, row by row.
+  /// R_i^(a) R_j^(b) on a span is P/W^m with m = a + b + 2: a polynomial, and partial fractions at
+  /// the complex roots of W, whose integrals are powers and one logarithm. Exact but for rounding,
+  /// which is large where roots nearly coincide or lie near the span, since fractions then cancel.
+  /// The computation is done in numbers of 53 and of 64 bits, and their difference estimates what
+  /// is lost; where that is too much the span is integrated by certified Gauss rules instead.
   [[nodiscard]] std::vector<Real> integrals() const {
     const std::size_t count = left_.size();
     std::vector<Real> result(count * count, Real(0));

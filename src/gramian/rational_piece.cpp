@@ -53,6 +53,9 @@ void fill_growth(double rho, int degree, double* grow) {
 
 }  // namespace
 
+// Chebyshev coefficients of the basis on [lower, upper] by values at p + 1 Chebyshev points, exact
+// for polynomials of degree p: on a Bernstein ellipse |T_k| <= (ρ^k + ρ^−k)/2, so that sums of
+// their magnitudes bound polynomials there.
 RationalAxis::RationalAxis(const KnotVector& knot_vector, int own_span, double a, double b)
     : knots(&knot_vector), span(own_span), lower(a), upper(b) {
   const int width = degree() + 1;
@@ -185,6 +188,8 @@ void RationalPiece<D>::numerators(const RationalLine<D>& line, std::size_t count
   }
 }
 
+// ∂^a R = (∂^a A − Σ C ∂^b W ∂^{a−b} R) / W in the order of rising derivatives (Leibniz; The NURBS
+// Book, § 4.3), all points of a line and all functions at once.
 template <int D>
 bool RationalPiece<D>::evaluate(const RationalLine<D>& line, std::size_t count, double* out) const {
   const std::size_t n = line.size();
@@ -278,6 +283,8 @@ std::array<double, RationalPiece<D>::orders> RationalPiece<D>::denominator_bound
   return w;
 }
 
+// The same recurrence with magnitudes: a sum of bounds in the numerator, the lower bound of |W|
+// below. It exists only on ellipses without a root of W, and the caller tries several ρ.
 template <int D>
 bool RationalPiece<D>::bounds(std::size_t direction, double rho, std::size_t count,
                               double* out) const {

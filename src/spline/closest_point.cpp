@@ -69,6 +69,9 @@ std::optional<LocalModel<D>> model_at(const Spline<D>& spline, const Point& x,
   return model;
 }
 
+// Levenberg and Marquardt's iteration in fractions of the domain: damping falls by ten where a step
+// leads nearer, and grows by ten where it does not. Projected onto the domain: where a step would
+// leave it in one direction, the other is minimised along the border.
 template <int D>
 ClosestPoint<D> descend(const Spline<D>& spline, const Point& x, const std::array<double, D>& start,
                         const std::array<bool, D>& closed) {

@@ -337,6 +337,10 @@ class SampledSpans {
 
 }  // namespace
 
+// Branch and bound over spans: a span's bound is the largest value at its control points (f convex,
+// convex hull), spans are sampled in the order of their bounds, and the first bound below the best
+// sample ends it. Of thousands of spans of a displacement field only those near the largest
+// displacement are ever evaluated.
 SurfaceMaximum largest_norm(const Surface& surface) {
   const double size = surface.control_points().cwiseAbs().maxCoeff();
   if (std::isfinite(size) && size > 0 && std::abs(std::ilogb(size)) > 100) {

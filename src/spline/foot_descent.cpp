@@ -6,6 +6,12 @@
 namespace knead::detail {
 namespace {
 
+// Newton's iteration for the stationary points of |x − S|², projected onto the rectangle (a
+// parameter at a side counts as fixed while the slope pushes against it). Where the Hessian is not
+// positive definite, Gauss and Newton's matrix stands for it, with 1e-10 of its trace to bear
+// singular tangents. A step that does not lead nearer is shortened by quarters, except for a short
+// Newton step close to the foot: there distances differ by less than rounding, and only the
+// gradient can tell.
 /// The present iterate: parameters w and the jet j there.
 class Descent {
  public:
@@ -25,6 +31,8 @@ class Descent {
       const std::array<bool, 2> free = free_sides(g);
       if (!free[0] && !free[1]) break;
       const double reach = advance(step(g, free), free);
+      // Steps of quadratic convergence shrink by far more than half; those that do not are
+      // rounding.
       if (reach <= 1e-16 * size_ || (reach < 1e-13 * size_ && reach >= 0.5 * before)) break;
       before = reach;
     }

@@ -12,6 +12,9 @@ constexpr double smallest_cell = 1e-6;  ///< of the size
 constexpr double margin = 1e-12;        ///< of squared lengths: differences hidden by rounding
 
 /// Whether tangents turn so little over a leaf that the tests of `examine` usually decide at once.
+/// Leaves are made once, for all queries: finer ones cost memory, coarser ones a descent in every
+/// query. Tangents that vary by a fifth of their mean let the sign of the slope be decided at most
+/// places; below 2 % of the size nothing is gained by halving.
 bool fine_enough(const PatchBounds& b, const ParameterRectangle& at, double size) {
   for (std::size_t d = 0; d < 2; ++d) {
     if (at.side[d].length() == 0) continue;
@@ -27,6 +30,8 @@ bool fine_enough(const PatchBounds& b, const ParameterRectangle& at, double size
 
 /// The side along which to halve the cell: the longer one in space. If a cell touches a pole and
 /// the tangents leaving it still vary a lot, it is the side around the pole.
+/// Halving towards a pole would not help, as the tangents around it point everywhere however short
+/// the cell is.
 std::size_t side_to_halve(const PatchBounds& b, const ParameterRectangle& at) {
   const std::array<double, 2> extent = {b[1].magnitude() * at.side[0].length(),
                                         b[2].magnitude() * at.side[1].length()};
@@ -200,6 +205,12 @@ FootResult FootSearch::nearest(const Point& x) const {
   return result;
 }
 
+// In the order of their cost: the distance of the box; the signs of (S − x)·S_u and (S − x)·S_v by
+// intervals, where a slope of one sign moves the search to the border or ends it; the Hessian by
+// intervals, S_u·S_u + (S − x)·S_uu and so on, positive definite by its diagonal and determinant; a
+// lower bound by the mean value form. What none of them decides is halved. Interval results err
+// outwards, and `margin` covers the rounding of the comparisons: nothing is discarded that could be
+// nearer.
 void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds bounds,
                          int depth) const {
   const Patch& p = *patches_[index(patch)];

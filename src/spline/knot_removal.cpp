@@ -35,6 +35,11 @@ struct Layout {
 
 /// The effect of removing one knot u of multiplicity m on the rows first … last: their coefficients
 /// must satisfy Σ (−1)^(k − first) size_k c_k = 0.
+/// Removing u undoes a knot insertion, fine row k = left_k · new row k + right_k · new row k − 1:
+/// one equation more than unknowns. Eliminating the new rows leaves one condition on the fine ones
+/// with alternating signs and size_k = size_{k−1} left_{k−1} / right_k; what violates it is the
+/// jump that the knot carries (Tiller, Knot-removal algorithms for NURBS curves and surfaces, 1992;
+/// The NURBS Book, § 5.4).
 struct Relation {
   int first = 0, last = 0, knot = 0;
   std::vector<double> size;         ///< of rows first … last, the largest 1
@@ -89,6 +94,8 @@ void violation(const Rows& c, const Layout& layout, const Relation& r, Eigen::Ro
 }
 
 /// A lower bound on the movement of points, from the control points near this knot.
+/// To meet Σ ± size_k c_k = 0 by changing rows of which the sizes sum up to `total`, some row moves
+/// by |jump| / total at least.
 double smallest_change(const Rows& c, const Layout& layout, const Relation& r) {
   Eigen::RowVectorXd jump;
   Eigen::VectorXd total;
@@ -113,6 +120,10 @@ double smallest_change(const Rows& c, const Layout& layout, const Relation& r) {
 }
 
 /// The coefficients without the knot, changed as little as possible.
+/// First all rows that may change take an equal share of the jump, in proportion to their weights:
+/// the smallest change in the maximum norm. Then the equations have a solution, found from both
+/// ends, each as long as it divides by a number of at least one half, so that rounding does not
+/// grow.
 Rows without_knot(Rows c, const Layout& layout, const Relation& r) {
   Eigen::RowVectorXd jump;
   Eigen::VectorXd total;
@@ -148,6 +159,11 @@ Rows without_knot(Rows c, const Layout& layout, const Relation& r) {
 
 /// A bound for the distance of the spline `coarse` from the spline `fine`, both with positive
 /// weights; infinite if there is none.
+/// The coarse spline is refined back onto the knots of the original one; distances of control
+/// points there bound those of points (convex hull), so that the tolerance holds everywhere and not
+/// at samples. With weights w and w' the difference of A/W and A'/W' is [w' (P − P') + (w − w')(P −
+/// S')] / W summed with the basis, S' the coarse spline's point, which its box bounds. The last
+/// term is for the rounding of the insertion.
 double certified_distance(const Rows& coarse, const Rows& fine, const Layout& layout,
                           const Refinement& refinement) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -225,6 +241,10 @@ struct Reduction {
 };
 
 /// Removes one more knot; false if none can be removed.
+/// Greedy: the knot of the least change first, tested against the original spline and not the last
+/// one, so that errors do not add up unseen. A knot that was refused is not tried again, as
+/// removals only take freedom. Changes are cached by knot, and forgotten 2 p + 3 knots around a
+/// removal, which is as far as it moves rows.
 bool remove_one(Reduction& state, const Rows& original, const KnotVector& original_knots,
                 const Layout& layout, double tolerance) {
   std::vector<std::pair<double, Relation>> candidates;

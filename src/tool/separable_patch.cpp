@@ -17,6 +17,9 @@ double power(double s, int k) {
 }  // namespace
 
 /// The monotone factors of all derivatives; a power with exponent 0 is 1, also at σ = 0.
+/// Every derivative is a sum of products of such factors, each monotone in σ: their values at the
+/// ends of an interval bound them on it exactly, and products of intervals bound the derivative
+/// tightly, where interval arithmetic on powers would overestimate.
 struct MonotoneCurve::Factors {
   double x, y;    ///< X, Y
   double w1, w2;  ///< w^(−1/p−1), w^(−1/p−2), w = 1 + s^p; they fall

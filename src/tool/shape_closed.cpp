@@ -99,6 +99,9 @@ class Box final : public ShapeKernel {
 /// the root of the convex decreasing g(τ) = Σ (a_i x_i / (τ + a_i² − a_0²))² − 1 on τ > 0: Newton's
 /// iteration from the left of the root increases towards it and always converges (D. Eberly,
 /// Distance from a Point to an Ellipsoid; here with Newton's iteration).
+/// Substituting τ + a_i² − a_0² for the Lagrange parameter keeps differences of nearly equal
+/// squares out of the sum: gap_i = (a_i − a_0)(a_i + a_0). At τ = max(a_i x_i − gap_i) one term is
+/// 1, so that g >= 0 there and the iteration starts left of the root.
 class Ellipsoid final : public ShapeKernel {
  public:
   explicit Ellipsoid(const Point& semi_axes) : a_(semi_axes) {

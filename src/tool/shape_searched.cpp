@@ -17,6 +17,12 @@ constexpr std::array<bool, 2> both_halves = {false, true};
 
 /// Adds the patches swept by a meridian curve over the first quarter of the superellipse of
 /// exponent e.
+/// Solids without a closed formula for their nearest point: superquadrics, and boxes and solids of
+/// revolution that are scaled differently along their axes. By symmetry one octant is searched, as
+/// patches that are products of monotone curves (`SeparablePatch`), whose derivatives have tight
+/// bounds for `FootSearch`; arcs of superellipses are cut in halves, so that the parameter of each
+/// is regular. Inside or outside is told by the implicit equation, exactly, and not by normals,
+/// which superquadrics lack along their edges.
 void sweep(Patches& patches, const MonotoneCurve& meridian, double e, const Point& scale,
            bool round = false) {
   if (round) {

@@ -29,6 +29,7 @@ constexpr double max_points_per_direction = 1e5;
 constexpr double max_points = 4e7;  // in all directions together
 
 /// The longest isocurve of direction d on every span of d, in file units.
+/// Of the rest shape: a net keeps its grid while it is deformed, or forces would jump.
 template <int D>
 Expected<std::vector<double>> span_lengths(const Spline<D>& spline, std::size_t direction) {
   std::array<BasisQuadrature, D> q;
@@ -86,6 +87,8 @@ Expected<std::vector<int>> pieces(const std::vector<double>& lengths, int per_sp
 
 }  // namespace
 
+// A tool of size r makes a dent whose force has features of r: six points per r resolve them.
+// Pieces of p + 1 points keep the degree of exactness of every span where no tool is.
 double pieces_of_span(double length, int per_piece, double detail) {
   constexpr double points_per_detail = 6;
   // Rounded up with a little slack, so that a length that is a whole multiple up to rounding counts
@@ -238,6 +241,8 @@ long long ToolLoad<D>::points() const {
   return count;
 }
 
+// H v = Σ_k w_k R(u_k)ᵀ h_k R(u_k) v over contact points, h_k 3 × 3: without a matrix, as contacts
+// change in every iteration. Points in the order of `evaluate` share their rows of the basis.
 template <int D>
 void ToolLoad<D>::apply_hessian(std::span<const ContactPoint> contacts, int first, const Points& v,
                                 Points& out) const {

@@ -15,6 +15,9 @@ namespace detail {
 
 /// Where a tool is known not to act: around a place that it was asked about. Points of rational
 /// splines are not leapt over, and where friction acts none are.
+/// A signed distance cannot change faster than by one per length (it is 1-Lipschitz): a tool that
+/// is `clear` away from a point does not act within that ball around it. Most points of a sweep are
+/// told so without asking the tool.
 struct ClearBall {
   Point centre = Point::Zero();
   double radius = -1;
@@ -47,6 +50,7 @@ struct Grip {
   double potential, slope, curvature;
 };
 
+// Coulomb's law, whose kink at 0 is replaced by the parabola with the same slope at `slip`.
 Grip grip_at(double displacement, double grip, double slip) {
   if (displacement < slip)
     return {0.5 * grip / slip * displacement * displacement, grip / slip, grip / slip};
@@ -217,6 +221,12 @@ class ToolLoad<D>::Evaluation {
 
   /// On which sides of every tool's box each control point lies; then, for the first control point
   /// of every element, on which sides all of the element's do.
+  /// A byte per control point and tool has a bit for each side of the tool's box beyond which it
+  /// lies. The conjunction over the (p + 1)^D control points of an element is not 0 exactly if all
+  /// are beyond one common side: then, by the convex hull, nothing of the element is in the box.
+  /// Conjunctions over windows of p + 1 are made by doubling, one direction after the other: log2(p
+  /// + 1) passes over the net, which compilers make vectors of, instead of (p + 1)^D tests for each
+  /// element.
   void find_sides() {
     count_ = static_cast<std::size_t>(load_.control_points());
     sides_.resize(count_ * actors_.tools.size());
@@ -333,6 +343,8 @@ class ToolLoad<D>::Evaluation {
   }
 
   /// The limit.
+  /// Ψ = k (|D| − d)²/2 beyond d, the gradient along n = D/|D|, and the Hessian k (n nᵀ + (1 −
+  /// d/|D|)(I − n nᵀ)).
   void hold_back(const Sample& s) {
     Point original = Point::Zero();
     if (s.part < 0) {
