@@ -25,6 +25,11 @@ std::string bounds(Range range, Kind kind) {
   return text;
 }
 
+// JSON Schema (draft 2020-12) of a type from the same description that reads and writes it, so that
+// the two cannot differ. Given values may leave fields out; written ones have all of them, and null
+// for an optional that is empty (`Absent`). Variants are objects told apart by a constant member,
+// `oneOf`; a field that has a meaning only with some values of another one is a dependent schema of
+// that field.
 class Schema {
  public:
   explicit Schema(Absent absent) : absent_(absent) {}
@@ -86,6 +91,9 @@ class Schema {
   }
 
   /// What a field requires of the one that gives it a meaning (`OnlyWith`).
+  /// Where the other field is left out its initial value counts: only if that gives no meaning must
+  /// the other one be there. An empty list says nothing and is always allowed, as when records are
+  /// read.
   static std::string requirement(const Field& field, const Type& owner) {
     const auto& [other, values] = field.only;
     const auto& initial = *static_cast<const std::string*>(owner.find(other)->of(owner.initial));

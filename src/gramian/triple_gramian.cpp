@@ -11,6 +11,8 @@
 namespace knead {
 namespace detail {
 
+// The intervals between neighbours of the union of both sets of knots, by merging: on each, the
+// functions of both knot vectors are polynomials, which is what makes Gauss rules exact.
 Expected<std::vector<Piece>> common_pieces(const KnotVector& first, const KnotVector& second) {
   const Interval a = first.domain(), b = second.domain();
   if (a.lower != b.lower || a.upper != b.upper) {
@@ -45,6 +47,8 @@ namespace {
 // Above this everything is zero anyway; keeps sums of orders in range.
 constexpr int max_order = 2 * max_degree;
 
+// n points of Gauss are exact to degree 2 n − 1: ⌊d / 2⌋ + 1 are the fewest for a product of degree
+// d, from which derivatives take a + b.
 Expected<int> points_for(int degree, int a, int b) {
   if (a < 0 || b < 0 || a > max_order || b > max_order) {
     return usage_error(fmt::format("there are no derivatives of orders {} and {}", a, b), {},
@@ -91,6 +95,8 @@ namespace {
 
 /// The content of a triple Gramian while it is made: for each entry of the band of N_i and N_j, row
 /// by row, the first coefficient function and where the values begin.
+/// The functions M_k that overlap a pair follow one another, at most p + 1 − |i − j| + q on the
+/// same knots: a run with its first index needs neither an index per value nor a cube of zeros.
 struct Runs {
   int size, degree;
   std::vector<int> first = {};
@@ -146,6 +152,11 @@ struct Runs {
 
 }  // namespace
 
+// T_kij = ∫ M_k N_i^(a) N_j^(b) dt, for all k, i, j whose functions overlap: a field Σ c_k M_k
+// weights a Gramian by one contraction, with no quadrature. Piece by piece: products of N_i and N_j
+// at the Gauss points, weighted, times the values of M_k. For equal orders only j ≥ i, and the rest
+// is copied. Cost of a piece with n points: n (p + 1)² (q + 1) multiplications, half of them for
+// equal orders.
 Expected<TripleGramian> triple_gramian(const KnotVector& coefficient_knots, const KnotVector& knots,
                                        int a, int b) {
   const int p = knots.degree(), q = coefficient_knots.degree();
@@ -222,6 +233,9 @@ Eigen::SparseMatrix<double> overlapping(const KnotVector& rows, const KnotVector
 
 }  // namespace
 
+// ∫ F_i^(a) G_j^(b) dt of two knot vectors of one domain, as a projection from one to the other
+// needs; exact on their common pieces. The pattern is known from the pieces, so values are added in
+// place, columns being runs of rows.
 Expected<Eigen::SparseMatrix<double>> mixed_gramian(const KnotVector& rows, int a,
                                                     const KnotVector& columns, int b) {
   const int p = rows.degree(), q = columns.degree();

@@ -12,6 +12,8 @@ using Vector4 = Eigen::Vector4d;
 
 /// Control points first, first + stride, …, of degree p, restricted to the part of [0, 1] left
 /// (right) of t.
+/// De Casteljau's algorithm in place. Each step is a convex combination for t in [0, 1]: nothing
+/// cancels, and what a net encloses its part encloses too.
 void keep_left(Vector4* first, int p, int stride, double t) {
   for (int r = 1; r <= p; ++r) {
     for (int i = p; i >= r; --i)
@@ -26,6 +28,7 @@ void keep_right(Vector4* first, int p, int stride, double t) {
 }
 void restrict_to(const Range& side, Vector4* first, int p, int stride) {
   if (side.upper < 1) keep_left(first, p, stride, side.upper);
+  // The net is that of [0, upper] by then: lower has moved to lower / upper.
   if (side.lower > 0) keep_right(first, p, stride, side.upper > 0 ? side.lower / side.upper : 0);
 }
 
@@ -42,6 +45,8 @@ struct Hull {
 
 /// The hull of ∂^a of a Bézier net over a rectangle with sides of these lengths; zero if a length
 /// is zero.
+/// A derivative is a Bézier form again, whose points are p / length times differences of the net:
+/// their box encloses it.
 Hull derivative_hull(const Net& net, int p, int q, int a, int b, double length_u, double length_v) {
   Hull hull;
   if (a > p || b > q || (a > 0 && length_u == 0) || (b > 0 && length_v == 0)) {
@@ -78,6 +83,8 @@ constexpr std::array<std::array<int, 2>, 6> jet_orders = {
     {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
 
 /// Bernstein polynomials of degree p and their first two derivatives: out[d][i].
+/// B_i' = p (B_{i−1} − B_i) with polynomials of degree p − 1, so derivatives are differences of
+/// values met on the way up to degree p.
 void bernstein(int p, double t, std::array<std::array<double, max_degree + 1>, 3>& out) {
   std::array<double, max_degree + 1> b{};
   b[0] = 1;
@@ -144,6 +151,10 @@ Expected<void> normalise(Net& net, bool rational, const std::string& where) {
 
 }  // namespace
 
+// Boxes of position and derivatives over a rectangle. Rational patches: A = w S, thus S_u = (A_u −
+// w_u S) / w and so on (Piegl & Tiller, The NURBS Book, 4.5), with intervals for every term.
+// Intervals forget that A and w belong together; about the centre of the patch S is small, and with
+// it all that they forget.
 PatchBounds BezierPatch::bounds(const ParameterRectangle& at) const {
   Net net = net_;
   for (int j = 0; j <= q_; ++j) restrict_to(at.side[0], &net[index(j)], p_, q_ + 1);
@@ -170,6 +181,7 @@ PatchBounds BezierPatch::bounds(const ParameterRectangle& at) const {
   const Vector4 middle(0.5 * (cartesian.lower.x() + cartesian.upper.x()),
                        0.5 * (cartesian.lower.y() + cartesian.upper.y()),
                        0.5 * (cartesian.lower.z() + cartesian.upper.z()), 0);
+  // A − w m: in homogeneous points the shift by m. Derivatives of S do not change.
   for (Vector4& point : net) point -= point.w() * middle;
   std::array<Hull, 6> h;
   for (std::size_t k = 1; k < 6; ++k)

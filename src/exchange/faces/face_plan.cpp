@@ -23,6 +23,8 @@ bool torn(const Surface& s) {
 bool torn(const Curve& c) { return c.knots(0).max_interior_multiplicity() > c.knots(0).degree(); }
 
 /// What of a model can be written.
+/// Every face is written, or listed with the reason why it or its trims are not: nothing is lost
+/// without a word. Geometry of edges is examined once, when the first face asks for it.
 class Planner {
  public:
   Planner(const Source& source, std::string unit, Conversion conversion)
@@ -175,6 +177,8 @@ class Planner {
     return !left || !left->empty();
   }
 
+  // Formats place parts by rotations and shifts alone. A part in its own unit must have exactly the
+  // scale that the units imply; anything else would change its size.
   void put_places(const brep::Part& part, WrittenPart& made) {
     constexpr double same = 1e-9;
     const auto *made_unit = length_unit_named(made.unit), *whole = length_unit_named(plan_.unit);

@@ -36,6 +36,9 @@ std::vector<Point> corners_on(const brep::Model& model, Index support) {
 }
 
 /// The unit in which the half angle of a cone brings it to the corners of its faces.
+/// A STEP file may name several units of plane angle, and cones rarely tell theirs. The corners of
+/// the faces on a cone lie on it only if its angle has the right unit: the one whose tangent comes
+/// nearest to the slope that FaceSurface found.
 double angle_unit(const brep::Model& model, Index support) {
   const brep::Support& stored = model.supports[support];
   if (model.angle_units.size() < 2) return model.angle_units.front();
@@ -60,6 +63,9 @@ void use_radians(brep::Model& model, const brep::Model& from) {
 }
 
 /// Makes edges of polygons.
+/// Corners are the same if their coordinates are equal exactly, as a file with poly loops
+/// repeats them; edges are the same between the same two corners, and run from the lower to the
+/// higher index, so that neighbours share them.
 class PolygonEdges {
  public:
   explicit PolygonEdges(brep::Model& model) : model_(model) {}
@@ -87,6 +93,8 @@ class PolygonEdges {
     brep::Support& support = model_.supports.emplace_back();
     support.id = face.id;
     support.kind = "PLANE";
+    // Newell's normal follows the polygon; the outer bound runs counter-clockwise about the face's
+    // normal.
     const bool counterclockwise = face.bounds.front().forward == face.same_sense;
     support.form = brep::ElementarySurface{
         Kind::plane, brep::frame_about(polygon[0], counterclockwise ? normal : Point(-normal))};

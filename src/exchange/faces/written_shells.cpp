@@ -31,6 +31,14 @@ struct Patchwork {
   Eigen::AlignedBox3d box = {};
 };
 
+// A file of solids names shells: lists of faces that share edges and agree in orientation. The
+// model holds faces and, where it came from a file, shells; sculpted and added faces may belong to
+// none. The shells to write are found in three steps. (1) Connected sets of faces by union–find
+// over the uses of edges, faces of different shells of the model kept apart though they touch. (2)
+// In each set the faces are turned breadth first until neighbours run along every common edge in
+// opposite directions; a set is closed if every edge has exactly two such uses, and is a sheet if
+// an edge has three or the turns contradict one another, as on a Möbius strip. (3) The sign of the
+// enclosed volume tells outer shells from hollows.
 class ShellFinder {
  public:
   ShellFinder(const brep::Model& model, std::span<const Index> faces)
@@ -114,6 +122,7 @@ class ShellFinder {
 
   static bool opposite(const std::vector<EdgeRun>& runs, const std::map<std::size_t, bool>& flips) {
     const auto forward = [&](const EdgeRun& run) { return run.forward != flips.at(run.face); };
+    // A seam, which one face uses twice, passes too: it runs along it there and back.
     return runs.size() == 2 && forward(runs[0]) != forward(runs[1]);
   }
 
@@ -158,6 +167,10 @@ class ShellFinder {
     return result;
   }
 
+  // V = 1/6 Σ a · (b × c) over the triangles, of which only the sign is used: a coarse mesh is
+  // enough. Of a closed mesh the sum does not depend on the origin; one of its own points keeps it
+  // clear of cancellation far from the origin of space. A face that has no mesh leaves the volume
+  // unknown.
   void measure(Patchwork& body, brep::FaceTessellator& tessellator) const {
     double volume = 0;
     std::optional<Point> origin;
@@ -181,9 +194,15 @@ class ShellFinder {
     for (WrittenFace& face : shell.faces) face.same_sense = !face.same_sense;
   }
 
+  // A shell with negative volume bounds a hollow of the solid whose box contains its own; of
+  // several the one with the smallest box, since solids in solids are rare. A hollow is written
+  // with its faces turned outward, as a void of ISO 10303-42 (brep_with_voids) is an oriented shell
+  // that turns them again. One that lies in no solid is a body whose faces all point inward, and
+  // becomes a solid once turned.
   static void make_solids(std::vector<Patchwork>& closed, WrittenShells& result) {
     std::vector<std::size_t> solids, hollows;
     for (std::size_t k = 0; k < closed.size(); ++k) {
+      // No mesh tells the sides: the model is believed, except where it turns every face.
       if (!closed[k].volume && closed[k].turned)
         result.sheets.push_back(std::move(closed[k].shell));
       else

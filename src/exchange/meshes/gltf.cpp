@@ -27,6 +27,7 @@ double metres(std::string_view unit) {
 }
 
 /// The chunk of numbers, and the JSON that describes it.
+/// All numbers have four bytes, so that views need no padding between them.
 struct Buffer {
   std::string bytes;
   Json views = Json::array(), accessors = Json::array();
@@ -47,6 +48,7 @@ struct Buffer {
   int vectors(const Points& points) {
     const std::size_t begin = bytes.size();
     for (Eigen::Index k = 0; k < points.rows(); ++k) append_point<float>(bytes, points.row(k));
+    // Rounding is monotone: the bounds of the rounded numbers are the rounded bounds.
     std::array<float, 3> least, most;
     for (Eigen::Index d = 0; d < 3; ++d) {
       least[static_cast<std::size_t>(d)] = static_cast<float>(points.col(d).minCoeff());
@@ -98,6 +100,8 @@ struct Materials {
   std::map<std::optional<Colour>, std::size_t> known_;
 };
 
+// Length, type and content. Lengths are multiples of four: JSON is filled up with blanks, numbers
+// with zeros (glTF 2.0, binary glTF layout).
 void append_chunk(std::string& to, std::uint32_t type, std::string content, char padding) {
   content.resize((content.size() + 3) / 4 * 4, padding);
   append(to, static_cast<std::uint32_t>(content.size()));
@@ -133,6 +137,7 @@ Expected<std::string> save_gltf(std::span<const NamedMesh> all, const SaveOption
   // stay those of the file.
   const double scale = metres(options.unit);
   nodes.insert(nodes.begin(), Json{{"name", options.title},
+                                   // A quaternion x, y, z, w: −90° about x, which takes z to y.
                                    {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},
                                    {"scale", {scale, scale, scale}},
                                    {"children", children}});

@@ -16,6 +16,10 @@ bool collapses(const Points& points, const std::array<std::uint32_t, 3>& triangl
   return corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0);
 }
 
+// Binary STL: 80 bytes of text, the number of triangles, and of each 50 bytes: the normal, three
+// corners and two bytes of attributes. Triangles share no points, so the number is known only once
+// those that collapse are left out; it is put in at the end. Text that begins with "solid" would be
+// taken for the other form of STL.
 Expected<std::string> save_stl(std::span<const NamedMesh> all, const SaveOptions& options) {
   constexpr std::size_t header = 80;
   std::string text = "Knead" + lengths_in(options.unit);

@@ -143,6 +143,8 @@ Expected<std::shared_ptr<const Source>> open_patches(SurfaceText file) {
   for (int k = 1; k <= patches && !words.at_end(); ++k) {
     std::string label = is_word(words.peek()) ? name_line(words, text) : std::string();
     auto patch = read_patch(words, space);
+    // Nothing marks where a patch begins: behind a fault in numbers the next one cannot be found. A
+    // patch in the plane is no fault, and was read to its end.
     const bool whole = patch.has_value() || space != 3;
     file.add(fmt::format("#{}", k), std::move(label), std::move(patch));
     if (!whole) break;

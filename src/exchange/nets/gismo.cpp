@@ -13,6 +13,9 @@ namespace knead::detail {
 namespace {
 
 /// A tag of XML: "<name key="value">", "</name>" or "<name/>".
+/// No library for XML is used: a saved file keeps every byte but the numbers of what changed, so
+/// that their places in the text are needed, which parsers of documents do not keep. Only tags are
+/// recognised; entities do not occur in numbers.
 struct XmlTag {
   std::string_view name, attributes;
   bool opens = true, closes = false;
@@ -38,6 +41,7 @@ std::optional<XmlTag> next_tag(std::string_view text, std::size_t at) {
     }
   }
   if (at >= text.size()) return std::nullopt;
+  // A ">" in quotes ends no tag.
   std::size_t end = at + 1;
   for (char quote = '\0'; end < text.size() && (quote != '\0' || text[end] != '>'); ++end) {
     const char c = text[end];
@@ -97,6 +101,8 @@ std::size_t count_words(WordReader words) {
 
 /// A TensorBSpline2 or TensorNurbs2: knots of both directions, weights, and control points, which
 /// are not multiplied by them; the first direction is fast.
+/// Knots are listed in full, each as often as its multiplicity. The order of elements is not relied
+/// on except that knots precede the points, whose number they give.
 Expected<ListedSurface> read_geometry(std::string_view text, std::string_view file,
                                       TextRange inside) {
   ListedSurface surface;
@@ -136,6 +142,7 @@ Expected<ListedSurface> read_geometry(std::string_view text, std::string_view fi
         return fail(tag->range.begin, "its points do not have 3 coordinates");
       }
       auto words = reader(content);
+      // `read_points` begins a list of weights of its own.
       auto kept = std::move(surface.weights);
       if (auto read = read_points(words, surface, 3); !read) return std::unexpected(read.error());
       surface.weights = std::move(kept);

@@ -10,6 +10,7 @@ namespace knead::detail {
 namespace {
 
 /// What stands for the knots that a plain net does not have.
+/// Degree 3, or count − 1 where there are fewer than four points.
 Expected<KnotVector> plain_knots(int count) {
   return KnotVector::clamped_uniform(std::min(3, count - 1), count);
 }

@@ -12,6 +12,12 @@ namespace {
 
 constexpr int most = 1 << 26;
 
+// The text of BRepTools::Write: tables of locations, curves and surfaces, referred to by their
+// numbers from 1 (0 is none), then shapes. Shapes follow those they use, and use them by their
+// number counted from the end of the table, so that the last shape, the root, is 1. Tables of
+// polygons and triangles are read over: a mesh is made anew from the surfaces. Words are separated
+// by blanks only, and a section has no length of its own; so every entry must be understood to find
+// the next one, even of forms that are not read.
 class Parser {
  public:
   Parser(std::string_view bytes, std::string_view name)

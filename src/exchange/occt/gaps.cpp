@@ -22,6 +22,9 @@ Point inside(const Spline<D>& spline, std::array<double, D> at) {
 
 }  // namespace
 
+// Types 1 to 5 are a line, circle, ellipse, parabola and hyperbola, 6 and 7 splines, 8 a trimmed
+// curve, which has the parameters of its basis, 9 an offset. A parabola is x = t² / (4 f), y = t
+// with focal length f.
 std::optional<Point> point_of(const BrepCurve& curve, int dimension, double t) {
   if (curve.type == 8) return point_of(*curve.basis, dimension, t);
   if (curve.type > 5)
@@ -60,6 +63,10 @@ const Surface* GapMeter::surface(int index) {
   return *stored ? &**stored : nullptr;
 }
 
+// An edge with "same parameter" has one parameter for its curve in space and its curves on
+// surfaces: points at equal shares of both ranges must coincide. The largest distance found at
+// samples is the tolerance that Open CASCADE asks of the edge. No closest points are sought: a
+// curve that runs along the other at another speed counts as apart, as it does there.
 std::optional<EdgeGap> GapMeter::gap(const BrepShape& edge) {
   if (!edge.same_parameter || edge.geometry == 0) return std::nullopt;
   EdgeGap result;

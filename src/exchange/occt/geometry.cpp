@@ -63,6 +63,7 @@ class GeometryReader {
   }
 
   Expected<BrepCurve> curve(int dimension, int depth = 0) {
+    // Location and axes, then radii or the focal length; in the plane there is no axis of rotation.
     constexpr int sizes[2][5] = {{4, 7, 8, 7, 8}, {6, 13, 14, 13, 14}};  // of types 1 to 5
     if (depth > max_nesting) return fail("curves are nested too deeply");
     const auto type = integer(1, 9);
@@ -120,6 +121,9 @@ class GeometryReader {
   }
 
   Expected<BrepSurface> surface(int depth = 0) {
+    // Plane, cylinder, cone, sphere, torus: location, axis, x, y and up to two sizes. Extrusion: a
+    // direction; revolution: a point and a direction; their profile follows. 8 and 9 are Bézier and
+    // B-spline surfaces, 10 is trimmed and 11 is an offset.
     constexpr std::size_t sizes[] = {12, 13, 14, 13, 14, 3, 6};  // of types 1 to 7
     if (depth > max_nesting) return fail("surfaces are nested too deeply");
     const std::size_t begin = words_.begin();

@@ -47,6 +47,11 @@ class ModelReader {
 
   /// `again`: 0, or the number of the way from where a part that this belongs to was first to where
   /// it is now.
+  /// A shape may be used any number of times, each with a location and an orientation that add up
+  /// on the way from the root. The first use of a face becomes the face of the model. Every other
+  /// use keeps only the motion from the first, way = move · first⁻¹; within a group used again all
+  /// faces share the motion of the group. Assemblies with thousands of equal screws so cost one
+  /// screw and as many motions.
   void visit(const Use& use, const Eigen::Affine3d& outer, bool turned, int again = 0) {
     if (++uses_ > most_uses) return;
     const BrepShape& shape = file_.shapes[use.shape];
@@ -75,6 +80,8 @@ class ModelReader {
     for (Index f = 0; f < model.faces.size(); ++f) faces.emplace(model.faces[f].id, f);
     std::size_t places = 0;
     for (const auto& [shape, all] : ways_of_) {
+      // A way that is the identity is the same face again; one that shears or scales unevenly can
+      // be no place of a part. Both are only counted.
       std::vector<int> ways;
       for (const int k : all) {
         const Eigen::Affine3d& way = ways_[static_cast<std::size_t>(k) - 1];
@@ -120,6 +127,7 @@ class ModelReader {
     }
     const std::size_t below = static_cast<std::size_t>(shape.geometry) - 1;
     face.support = support_of(below, move * shape.place);
+    // The reversed face of a left-handed frame has the normal of the right-handed one built here.
     face.same_sense = turned == mirrored(file_.surfaces[below], move * shape.place);
     if (!face.bounds.empty()) builder_.add_face(std::move(face));
   }
@@ -145,6 +153,7 @@ class ModelReader {
       return builder_.add_support(elementary(name, file_.surfaces[k], move));
     brep::Support elsewhere;
     elsewhere.id = brep::ModelBuilder::name(name);
+    // It would have to be sculpted in both places at once.
     elsewhere.kind = "BREP_SURFACE_ELSEWHERE";
     return builder_.add_support(std::move(elsewhere));
   }

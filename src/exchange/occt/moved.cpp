@@ -76,6 +76,11 @@ Expected<void> can_move(const BrepFile& file, const ReadModel::Sources& sources,
                      "hold it");
 }
 
+// The curve of an edge that moved is put where the old one stands, over the same range, so that the
+// edge's parameters still hold. A curve that several edges share is kept for the others: the new
+// one goes to the end of the table, and the edge and the table's count are changed. The edge's
+// polygons belong to the old course and are left out. What moved lies at the place of the model;
+// the file has it before its location, hence the inverse.
 Expected<TextChanges> edge_changes(const BrepFile& file, const ReadModel::Sources& sources,
                                    const brep::MovedEdges& moved) {
   TextChanges changes;
@@ -115,6 +120,9 @@ Expected<TextChanges> edge_changes(const BrepFile& file, const ReadModel::Source
   return changes;
 }
 
+// Open CASCADE finds a shape valid if the gaps at an edge and vertex are within their tolerances. A
+// tolerance is raised only where the gap grew beyond both the tolerance and the gap before; then by
+// the gap, as what used the tolerance up before may still be there.
 TextChanges tolerance_changes(const BrepFile& file, const BrepFile& after,
                               const std::set<int>& changed, const brep::MovedEdges& moved,
                               const ReadModel::Sources& sources) {

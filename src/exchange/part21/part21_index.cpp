@@ -26,6 +26,7 @@ std::uint32_t line_ends(const char* bytes, std::size_t count) {
   return result;
 }
 
+// What bounds the numbers of values, lists, records and lines before anything is parsed.
 struct Marks {
   std::size_t commas = 0, lists = 0, records = 0, lines = 0;
 };
@@ -49,6 +50,11 @@ void count_marks(const char* bytes, std::size_t count, Marks& marks) {
 
 }  // namespace
 
+// One pass over the bytes counts marks, so that the tables get their size at once: a list that
+// grows holds its old and its new copy together, which files of gigabytes do not allow. The counts
+// are bounds from above (marks also stand in strings) and are capped by the shortest text of a
+// record or value. The same pass keeps the number of lines before each block, so that the line of
+// an error costs one block.
 void Part21File::reserve(bool names_only) {
   const std::size_t size = bytes_.size();
   lines_before_.reserve(size / line_block + 1);
@@ -65,6 +71,9 @@ void Part21File::reserve(bool names_only) {
   detail::reserve_large(instances_, records);
 }
 
+// Most values keep their length. Lists, typed values, references and what is too long for the field
+// do not: their end is found by reading again, of a list from the end of its last value, which is a
+// path down the nesting instead of the whole text.
 std::uint32_t Part21File::end_of(std::uint32_t value) const {
   const Stored& stored = values_[value];
   const auto kind = static_cast<Part21Kind>(stored.kind);
@@ -152,6 +161,8 @@ Expected<Part21Names> Part21Names::parse(std::string& bytes, std::string name) {
   return result;
 }
 
+// Only names and where their records begin are kept; the end of a record is found by tokens, as a
+// semicolon may stand in a string.
 std::optional<std::string_view> Part21Names::record(std::uint64_t id) const {
   const auto found = std::ranges::lower_bound(names_, id, {}, &Part21File::Name::id);
   if (found == names_.end() || found->id != id) return std::nullopt;

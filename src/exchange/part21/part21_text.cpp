@@ -88,6 +88,12 @@ std::int64_t decimal_magnitude(std::string_view text) {
 }
 
 // Decodes one string literal to UTF-8.
+// The directives of ISO 10303-21: \X\hh is one character of ISO 8859-1, \X2\…\X0\ characters of
+// four digits each, \X4\…\X0\ of eight, \S\c is the character c + 128 of the alphabet that \PA\ to
+// \PI\ choose (ISO 8859-1 to 8859-9), '' and \\ are the characters themselves. Bytes above 127 are
+// UTF-8 in edition 3 and were not allowed before, where writers put ISO 8859-1 all the same: a
+// string that is well-formed UTF-8 as a whole is hardly ever anything else, and any other string is
+// taken for ISO 8859-1. Faults are never errors: names do not matter to the shape.
 class Decoder {
  public:
   explicit Decoder(std::string_view text) : text_(text) {
@@ -213,6 +219,7 @@ std::optional<std::uint64_t> parse_instance_name(std::string_view text) {
   return id;
 }
 
+// Fortran writers put D for E. Too small a number is zero; too large a number is none.
 std::optional<double> parse_real(std::string_view text) {
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);
@@ -234,6 +241,7 @@ std::optional<double> parse_real(std::string_view text) {
   return negative ? -value : value;
 }
 
+// 17 significant digits: reading gives the same double again.
 std::string format_real(double value) {
   std::string text = fmt::format("{:.16e}", value);
   std::replace(text.begin(), text.end(), 'e', 'E');
