@@ -10,6 +10,7 @@
 namespace knead {
 namespace {
 
+// From 1 to 0 by the polynomial of degree 5 whose first and second derivatives vanish at both ends.
 double fade(double s) {
   return s <= 0 ? 1 : s >= 1 ? 0 : 1 - s * s * s * (10 - 15 * s + 6 * s * s);
 }
@@ -105,6 +106,10 @@ Expected<void> check(const Region<D>& region) {
 
 /// One blend of coefficients towards values, on the knots of a weight.
 template <int D>
+/// Coefficients are blended, not values: a product of two splines is none on these knots, and a
+/// blend of coefficients in an interval stays in it, as those of a material must. The two agree
+/// where the old field is constant, and else the better the finer the knots are; so knots are
+/// halved where samples differ.
 class Blend {
  public:
   Blend(std::span<const Coefficient<D>> old, std::span<const double> values,
@@ -132,6 +137,7 @@ class Blend {
       auto after = blended(*before, k, weight);
       if (!after) return std::unexpected(after.error());
       result.push_back(std::move(*after));
+      // Of a constant c: Σ ((1 − w_i) c + w_i v) N_i = (1 − w) c + w v.
       if (std::holds_alternative<double>(old_[k])) continue;
       met = mark_misses(*before, result.back(), k, softness) && met;
     }
@@ -230,6 +236,7 @@ Expected<std::vector<SplineField<D>>> paint(std::span<const Coefficient<D>> old,
   if (!base) return std::unexpected(base.error());
 
   FitOptions fit;
+  // Half for the fit of the weight, half for the blend.
   fit.tolerance = 0.5 * options.tolerance;
   fit.max_coefficients = options.max_coefficients;
   fit.range = Interval{0, 1};

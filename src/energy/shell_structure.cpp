@@ -88,6 +88,8 @@ ShellStructure::Stress ShellStructure::tension(const Stress& stress) const {
   return result;
 }
 
+// Shells have control points of their own: their Hessians stand along the diagonal, and creases
+// alone couple them.
 SparseMatrix ShellStructure::hessian(const Points& x, const Stress& stress) const {
   std::vector<SparseMatrix> blocks;
   for (std::size_t k = 0; k < shells_.size(); ++k)
@@ -101,6 +103,7 @@ SparseMatrix ShellStructure::hessian(const Points& x, const Stress& stress) cons
   return sum + joints;
 }
 
+// Without stress the geometric part of a shell's Hessian drops out.
 SparseMatrix ShellStructure::material_hessian(const Points& x) const {
   Stress none = stress(x);
   for (ShellStress& s : none) s.setZero();

@@ -86,6 +86,9 @@ Expected<double> SplineField<D>::at(const std::array<double, D>& u) const {
   return values->front();
 }
 
+// The smallest space of the highest degree that contains all the given ones: at a knot of
+// multiplicity m a spline of degree p has p − m continuous derivatives, so degree q needs
+// multiplicity q − p + m there.
 Expected<KnotVector> common_knots(std::span<const KnotVector> knots) {
   if (knots.empty()) return usage_error("there are no knots to find common ones of");
   const Interval domain = knots.front().domain();
@@ -128,6 +131,10 @@ Expected<std::array<KnotVector, D>> common_knots(std::span<const std::array<Knot
 }
 
 template <int D>
+// Interpolation at the Greville abscissae of the new knots, direction by direction: the collocation
+// matrix is a Kronecker product, solved in O(p) per coefficient and direction. It gives the field
+// itself, up to rounding, if the new space contains the old one, as that of common knots does.
+// Refinement of knots would do the same, in as many steps as there are degrees to raise.
 Expected<SplineField<D>> on_knots(const Coefficient<D>& coefficient,
                                   const std::array<KnotVector, D>& knots) {
   std::size_t count = 1;

@@ -18,6 +18,9 @@ constexpr double same_place = 1e-9;  // of the largest surface's size
 constexpr double same_ratio = 1e-9;  // of knots in their domain, and of weights
 
 /// How a side runs along another: 1 the same way, -1 the other way, 0 not at all.
+/// Splines on the same knots are equal exactly if their control points are, and no farther apart
+/// than these: a test without samples. Knots are compared over the unit interval, weights up to a
+/// common factor. Sides that are one curve on different knots stay two edges.
 int along(const Curve& a, const Curve& b, double tolerance) {
   const KnotVector &u = a.knots(0), &v = b.knots(0);
   if (u.degree() != v.degree() || u.count() != v.count() || a.rational() != b.rational()) return 0;
@@ -99,6 +102,9 @@ class Builder {
   }
 
   /// All faces that are connected with one, turned as it is.
+  /// Breadth first: a face is turned if it runs along a common edge the same way as the neighbour
+  /// that it was reached from. The shell is not closed if an edge has one face, or neighbours
+  /// disagree after that.
   void add_shell(int first, std::vector<bool>& known) {
     const int shell = result_.shells();
     bool closed = true;
@@ -157,6 +163,8 @@ class Builder {
     const int first = vertex_of(*from), last = vertex_of(*to);
     auto& alike = by_ends_[{std::min(first, last), std::max(first, last)}];
     for (const int edge : alike) {
+      // A third surface at the same place gets an edge of its own: shells of solids have two faces
+      // at each.
       if (uses_[static_cast<std::size_t>(edge)] == 2) continue;
       const int way = along(result_.edges[static_cast<std::size_t>(edge)].curve, side, tolerance_);
       if (way == 0) continue;

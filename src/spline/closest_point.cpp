@@ -64,6 +64,8 @@ std::optional<LocalModel<D>> model_at(const Spline<D>& spline, const Point& x,
   }
   model.gradient = tangents.transpose() * off;
   const Eigen::Matrix<double, D, D> metric = tangents.transpose() * tangents, full = metric + bend;
+  // Newton's matrix converges quadratically but may lead to maxima where it is indefinite, beyond
+  // the centre of curvature; there the metric (Gauss–Newton) still leads downhill.
   const bool convex = full(0, 0) > 0 && full.determinant() > 1e-12 * metric.determinant();
   model.hessian = convex ? full : metric;
   return model;

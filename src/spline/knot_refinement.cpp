@@ -138,6 +138,7 @@ Expected<KnotVector> elevated_knots(const KnotVector& knots) {
                        fmt::format("degrees go to {}", max_degree));
   }
   const auto x = knots.knots();
+  // Every distinct knot once more: degree and multiplicity grow by one, continuity stays.
   std::vector<double> raised;
   for (std::size_t k = 0; k < x.size(); ++k) {
     raised.push_back(x[k]);
@@ -208,6 +209,8 @@ Expected<Refinement> Refinement::create(KnotVector from, KnotVector to) {
     if (q == p) {
       polar_form(x, span, arguments, row);
     } else {
+      // The polar form of a polynomial of degree p as one of degree q = p + 1 is the mean over all
+      // ways of leaving one argument out (Ramshaw).
       Row others{}, part{};
       for (int left_out = 0; left_out < q; ++left_out) {
         std::copy(arguments + left_out + 1, arguments + q,
@@ -219,6 +222,7 @@ Expected<Refinement> Refinement::create(KnotVector from, KnotVector to) {
     }
     const auto end = row.begin() + p + 1;
     const auto unit = std::find(row.begin(), end, 1.0);
+    // A row that is a unit vector copies a control point bit by bit.
     const bool copies = unit != end && std::count(row.begin(), end, 0.0) == p;
     result.first_.push_back(span - p);
     result.copied_.push_back(copies ? span - p + static_cast<int>(unit - row.begin()) : -1);

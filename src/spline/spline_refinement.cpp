@@ -27,6 +27,8 @@ Along along(const Spline<D>& spline, int direction) {
 }  // namespace
 
 template <int D>
+// A rational spline is refined as its homogeneous net (w P, w), which is a polynomial spline. Rows
+// that the refinement only copies take P itself: (w P) / w may differ from it in the last bit.
 Expected<Spline<D>> refined(const Spline<D>& spline, int direction, const Refinement& refinement) {
   assert(0 <= direction && direction < D);
   if (refinement.from() != spline.knots(direction)) {
@@ -85,6 +87,7 @@ Expected<Spline<D>> insert_knots(const Spline<D>& spline,
 }
 
 template <int D>
+// Step by step, as a refinement raises a degree by one at most.
 Expected<Spline<D>> elevate_degree(const Spline<D>& spline, int direction, int times) {
   Spline<D> result = spline;
   for (int k = 0; k < times; ++k) {
@@ -146,6 +149,8 @@ KNEAD_INSTANTIATE(2)
 KNEAD_INSTANTIATE(3)
 #undef KNEAD_INSTANTIATE
 
+// Knots at the ends of the domain are inserted up to multiplicity p + 1, and all functions beyond
+// are dropped: the surface over its domain stays what it is.
 Expected<Surface> with_clamped_ends(const Surface& surface) {
   std::array<std::vector<double>, 2> ends;
   for (std::size_t d = 0; d < 2; ++d) {

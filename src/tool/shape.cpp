@@ -130,6 +130,10 @@ CapsuleShape scaled(const CapsuleShape& s, double r, double) {
 TorusShape scaled(const TorusShape& s, double r, double) { return {s.major * r, s.minor * r}; }
 BowlShape scaled(const BowlShape& s, double r, double) { return {s.radius * r, s.thickness * r}; }
 
+// Scale factors along the axes are part of the shape, not of its place: distances are those in
+// space, which do not scale. A shape that scaling leaves in its family (an ellipsoid, an upright
+// cylinder stretched along its axis) keeps its kernel; the others get one that searches for the
+// nearest point.
 struct Build {
   Point scale;
 
@@ -264,6 +268,7 @@ double PlacedShape::size() const { return kernel_->size; }
 BoundingBox PlacedShape::bounding_box() const {
   const Point half = 0.5 * (kernel_->box.upper - kernel_->box.lower);
   if (!half.allFinite()) return kernel_->box;
+  // The box of a turned box: |R| times its half sizes.
   const Point centre = rotation_ * kernel_->box.centre() + placement_.position,
               reach = rotation_.cwiseAbs() * half;
   return {centre - reach, centre + reach};

@@ -30,6 +30,10 @@ struct Foot2 {
   }
 };
 
+// In the half plane (ρ, z). The inside of the solid is on the left of a segment from a to b seen
+// along it, so that the normal (d_z, −d_ρ) points out. Arcs are quarters of circles about a,
+// towards the signs of b: q is before the arc if both coordinates of q − a have these signs. The
+// curvature is that of the distance's level curve through q, ± 1 / |q − a|, and 0 before a segment.
 Foot2 foot_of(const MeridianPiece& piece, const Vector2& q) {
   Foot2 f;
   if (piece.kind == MeridianPiece::Kind::segment) {
@@ -83,6 +87,10 @@ class Revolution final : public ShapeKernel {
     box = {Point(-radius, -radius, low), Point(radius, radius, high)};
   }
 
+  // The nearest point of a solid of revolution lies in the half plane of x: the problem is one in
+  // two dimensions with closed forms, exact to rounding. The Hessian of the distance has the normal
+  // in its kernel and the eigenvectors t, along the meridian, with the curvature of the level
+  // curve, and e_φ, around the axis, with n_ρ / ρ; on the axis both are equal by symmetry.
   Nearest nearest(const Point& x) const override {
     const double rho = std::hypot(x.x(), x.y());
     const Vector2 q(rho, x.z());
@@ -93,6 +101,8 @@ class Revolution final : public ShapeKernel {
       if (f.squared < best.squared || (f.squared == best.squared && f.smooth && !best.smooth))
         best = f;
     }
+    // At a corner of the meridian the distance is that to a circle, whose sign the pieces cannot
+    // tell.
     if (!best.smooth) {
       const double away = std::sqrt(best.squared);
       best.distance = in_meridian(shape_, q.x(), q.y()) ? -away : away;

@@ -142,7 +142,6 @@ Expected<ListedSurface> read_geometry(std::string_view text, std::string_view fi
         return fail(tag->range.begin, "its points do not have 3 coordinates");
       }
       auto words = reader(content);
-      // `read_points` begins a list of weights of its own.
       auto kept = std::move(surface.weights);
       if (auto read = read_points(words, surface, 3); !read) return std::unexpected(read.error());
       surface.weights = std::move(kept);

@@ -242,6 +242,7 @@ void SurfaceText::add(std::string id, std::string label, Expected<ListedSurface>
   surfaces.push_back({std::move(id), std::move(label), "unknown",
                       std::make_shared<const Surface>(*std::move(made))});
   listed.push_back(*std::move(surface));
+  // The surface has them; saving needs only their places.
   listed.back().coordinates = {};
   listed.back().weights = {};
   for (auto& knots : listed.back().knots) knots = {};
@@ -251,6 +252,9 @@ std::shared_ptr<const Source> source_of(SurfaceText text) {
   return std::make_shared<const TextSource>(std::move(text));
 }
 
+// Where knots, degrees and weights are those of the file, only the coordinates that differ are
+// replaced, with 17 digits, and every other byte stays; a surface that was refined is written anew
+// in place of its block. Formats with homogeneous points list w P.
 Expected<void> add_changes(const ListedSurface& listed, const Surface& before, const Surface& now,
                            Expected<std::string> (*print)(const Surface& surface),
                            TextChanges& changes, const Eigen::Affine3d& back) {
@@ -288,6 +292,7 @@ Expected<void> add_changes(const ListedSurface& listed, const Surface& before, c
   return {};
 }
 
+// In the order of the text, so that it is copied once; ranges do not overlap.
 std::string with_changes(std::string_view bytes, TextChanges changes) {
   std::ranges::sort(changes, {}, [](const auto& change) { return change.first.begin; });
   std::string result;

@@ -23,6 +23,8 @@ struct ItemLayout {
 };
 
 /// Attributes of the four kinds; in a simple record those of the supertypes come first.
+/// ISO 10303-42, tessellated shapes: `pnindex`, if not empty, lists the coordinates that the item
+/// uses, and triangles, strips and fans count in that list. All indices begin at 1.
 std::optional<ItemLayout> layout_of(const Reader& reader, Index item) {
   const auto read = [&](std::string_view kind, std::string_view super, std::size_t inherited,
                         bool complex) -> std::optional<ItemLayout> {
@@ -63,6 +65,7 @@ class MeshBuilder {
     FaceMesh mesh{name_of(reader_, item_), {}, {}, {}, {}};
     mesh.tessellated = true;
     if (normals_.empty())
+      // Without normals facets are all that is known.
       make_flat(mesh);
     else
       make_smooth(mesh);
@@ -139,6 +142,8 @@ class MeshBuilder {
         const auto strip = indices(row, "strip");
         if (!strip) return std::unexpected(strip.error());
         for (std::size_t k = 2; k < strip->size(); ++k) {
+          // A strip of k points has k − 2 triangles; every other one lists its corners the other
+          // way round.
           const bool turned = k % 2 != 0;
           add((*strip)[turned ? k - 1 : k - 2], (*strip)[turned ? k - 2 : k - 1], (*strip)[k]);
         }

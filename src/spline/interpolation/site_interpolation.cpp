@@ -34,6 +34,10 @@ Expected<SiteInterpolation> SiteInterpolation::create(const KnotVector& knots,
   return result;
 }
 
+// L U of the band by rows, i − p to i + p: without pivoting there is no fill outside it. L and U of
+// a totally positive matrix have no negative entries, so that |L| |U| = |C| and rounding does not
+// grow. A pivot that is not positive shows that sites break the condition of Schoenberg and Whitney
+// by rounding.
 Expected<void> SiteInterpolation::factor() {
   const int p = degree_, width = 2 * p + 1;
   lu_.assign(abscissae_.size() * static_cast<std::size_t>(width), 0.0);
@@ -80,6 +84,8 @@ BasisTable SiteInterpolation::tabulate(const KnotVector& other) const {
   return table;
 }
 
+// Rows of `inner` numbers are combined as a whole: memory is read in order, whichever direction of
+// the tensor is solved.
 void SiteInterpolation::solve(double* values, std::size_t outer, std::size_t inner) const {
   const int n = size(), p = degree_;
   const auto entry = [&](int i, int j) {

@@ -77,6 +77,7 @@ const std::vector<double>& SiteValues<D>::abscissae(int direction) const {
 }
 
 template <int D>
+// v = diag(W)⁻¹ C diag(w) x, and `coefficients` applies the inverses from left to right.
 Points SiteValues<D>::values(const Points& x) const {
   assert(x.rows() == size());
   const auto& [interpolation, weights, denominators] = *factors_;
