@@ -89,8 +89,15 @@ void CurveTable::descend(const Point& point, Eigen::Index k, Foot& foot) const {
   }
 }
 
+// Points at fixed parameters are searched first, then Newton's iteration runs from those that could
+// hide a nearer foot: a curve between two neighbouring points is taken to stay within twice their
+// chord of them. This is an estimate and no bound, as a search that certifies its result would cost
+// far more for every point of every edge of a file. Beyond `limit` the distance to the box is
+// enough.
 CurveTable::Foot CurveTable::closest(const Point& point, double limit) const {
   const double outside = (lower_ - point).cwiseMax(point - upper_).cwiseMax(0).norm();
+  // The box is that of the tabulated points, which the curve is taken to leave by no more than two
+  // chords.
   if (outside - 2 * longest_chord_ > limit) return {parameters_.front(), outside};
   const Eigen::Index size = points_.rows();
   const auto squared = [&](Eigen::Index k) {

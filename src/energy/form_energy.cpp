@@ -217,8 +217,8 @@ struct FormEnergy<D>::Data {
   }
 };
 
-template <int D>
 // Polynomial splines get weights of 1, so that one set of functions serves both.
+template <int D>
 Expected<FormEnergy<D>> FormEnergy<D>::create(const Spline<D>& rest, const FormWeights& weights,
                                               int gauss_points) {
   if (auto ok = check_weights<D>(rest, weights); !ok) return std::unexpected(ok.error());

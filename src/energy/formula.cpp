@@ -122,6 +122,8 @@ class FormulaParser {
     return input_error(std::move(what), fmt::format("character {}", at_ + 1), std::move(remedy));
   }
 
+  // Operations are in reverse Polish notation. The height of the stack after each is known here, so
+  // that evaluation needs neither checks nor memory of its own.
   Status push(int code, double value = 0) {
     const int takes = code < 0 || code >= first_variable ? 0 : formula_functions[code].arguments;
     waiting_ += 1 - takes;
@@ -139,6 +141,7 @@ class FormulaParser {
     for (int op = operator_of(next()); op >= 0 && precedence[op] > least;
          op = operator_of(next())) {
       ++at_;
+      // a^b^c is a^(b^c); all others group to the left.
       const bool to_the_right = op == 4;
       if (auto status = expression(to_the_right ? precedence[op] - 1 : precedence[op]); !status)
         return status;
@@ -150,6 +153,8 @@ class FormulaParser {
 
   Status operand() {
     const char c = next();
+    // A sign binds less than a power and more than a product: -x^2 is -(x^2), and as it begins an
+    // operand 2^-1 is allowed.
     if (c == '-' || c == '+') {
       ++at_;
       if (auto status = expression(precedence[negative]); !status) return status;

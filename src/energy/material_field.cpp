@@ -169,6 +169,8 @@ bool is_zero(const Coefficient<D>& c) {
 
 }  // namespace
 
+// Σ_ij α_ij S_i · S_j, every term with its mirror image: assembly of a ≠ b alone would not be
+// symmetric.
 template <int D>
 FieldEnergy<D> stretch_energy(const MaterialFieldOf<D>& material) {
   FieldEnergy<D> result;
@@ -183,6 +185,10 @@ FieldEnergy<D> stretch_energy(const MaterialFieldOf<D>& material) {
   return result;
 }
 
+// Σ_i β_ii |S_ii|² + 2 Σ_{i<j} β_ij |S_ij|² + 2 ν Σ_{i<j} √(β_ii β_jj) S_ii · S_jj. With the
+// geometric mean two directions stay a non-negative form for |ν| ≤ 1, however different their bends
+// are. A root of a product of splines is none: where bends vary they must be alike, and the mean is
+// one of them.
 template <int D>
 FieldEnergy<D> bend_energy(const MaterialFieldOf<D>& material) {
   FieldEnergy<D> result;

@@ -105,11 +105,11 @@ Expected<void> check(const Region<D>& region) {
 }
 
 /// One blend of coefficients towards values, on the knots of a weight.
-template <int D>
 /// Coefficients are blended, not values: a product of two splines is none on these knots, and a
 /// blend of coefficients in an interval stays in it, as those of a material must. The two agree
 /// where the old field is constant, and else the better the finer the knots are; so knots are
 /// halved where samples differ.
+template <int D>
 class Blend {
  public:
   Blend(std::span<const Coefficient<D>> old, std::span<const double> values,

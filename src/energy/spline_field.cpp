@@ -130,11 +130,11 @@ Expected<std::array<KnotVector, D>> common_knots(std::span<const std::array<Knot
   return array_of<D>(std::move(made));
 }
 
-template <int D>
 // Interpolation at the Greville abscissae of the new knots, direction by direction: the collocation
 // matrix is a Kronecker product, solved in O(p) per coefficient and direction. It gives the field
 // itself, up to rounding, if the new space contains the old one, as that of common knots does.
 // Refinement of knots would do the same, in as many steps as there are degrees to raise.
+template <int D>
 Expected<SplineField<D>> on_knots(const Coefficient<D>& coefficient,
                                   const std::array<KnotVector, D>& knots) {
   std::size_t count = 1;

@@ -58,6 +58,8 @@ void put(std::string& text, std::uint32_t value, int bytes) {
 }
 
 /// A ZIP archive (PKWARE's application note 4.3) of stored entries of the first of January 1980.
+/// A fixed date makes equal matrices equal files. NumPy's archives are of this kind; entries are
+/// not compressed.
 class StoredZip {
  public:
   void add(std::string_view name, const std::string& content) {

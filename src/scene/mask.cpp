@@ -19,9 +19,9 @@ std::vector<double> greville_of(const KnotVector& knots) {
 }
 
 /// Mean, largest or smallest of the weights within the radius of every sample.
-// The mean is weighted by area times falloff, so that it does not depend on how the net is spaced.
-// Every pair of control points is compared, O(n²): n is a few thousand, and the command is given by
-// hand.
+/// The mean is weighted by area times falloff, so that it does not depend on how the net is spaced.
+/// Every pair of control points is compared, O(n²): n is a few thousand, and the command is given
+/// by hand.
 std::vector<double> spread(const std::vector<double>& mask, const BrushSamples& at,
                            MaskChange change, double radius) {
   std::vector<double> result(mask.size());

@@ -13,8 +13,8 @@ namespace knead {
 namespace {
 
 /// p + 3 places per span, ends included.
-// A displacement that is a polynomial of degree p in a span is described by p + 1 values; two more
-// places come near to the maximum of its norm, which is shown and decides nothing.
+/// A displacement that is a polynomial of degree p in a span is described by p + 1 values; two more
+/// places come near to the maximum of its norm, which is shown and decides nothing.
 std::vector<double> samples_of(const KnotVector& knots) {
   std::vector<double> places;
   const int count = knots.degree() + 2;

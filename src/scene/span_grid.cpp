@@ -56,10 +56,10 @@ std::vector<Point> contracted(const Surface& s, std::array<int, 2> first,
 
 /// By which the triangles of a grid of points may miss the surface: h²/8 of the second derivative
 /// in each direction, and the twist of a square between its two diagonals.
-//   second differences over 8 bound the chord error of a function that is quadratic over two cells;
-//   the mixed difference over 4 bounds the distance between both diagonals of a bilinear cell.
-// Differences stand for derivatives, so this estimates the error and does not bound it; searches
-// that use it widen by it, and what they find is then solved on the surface itself.
+/// Second differences over 8 bound the chord error of a function that is quadratic over two cells;
+/// the mixed difference over 4 bounds the distance between both diagonals of a bilinear cell.
+/// Differences stand for derivatives, so this estimates the error and does not bound it; searches
+/// that use it widen by it, and what they find is then solved on the surface itself.
 double sag_of(const std::vector<Point>& p) {
   constexpr int n = SpanGrid::cells + 1;
   std::array<double, 3> most = {0, 0, 0};

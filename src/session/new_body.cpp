@@ -87,6 +87,8 @@ Expected<Curve> helix(const NewCommand& c, const KnotVector& knots, double radiu
   }
   auto curve = plain->with_control_points(interpolation->coefficients(std::move(values)));
   if (!curve) return curve;
+  // The interpolation error vanishes at the sites, and is largest about halfway between them:
+  // samples within each span.
   constexpr int samples = 8;  // per span
   double error = 0;
   for (const int span : knots.spans()) {
@@ -154,6 +156,8 @@ Expected<Volume> cylinder(const NewCommand& c, double radius) {
   std::vector<double> weights;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
+      // Corners lie on the circle at 45°; between two of them the tangents meet at √2 times the
+      // radius, with the weight cos 45° of a quarter. The weight of the centre is free.
       const bool corner = i != 1 && j != 1, centre = i == 1 && j == 1;
       const double reach = corner ? half_root : centre ? 0 : std::numbers::sqrt2;
       for (int k = 0; k < n; ++k) {

@@ -18,6 +18,9 @@ std::optional<MirrorPlane> plane_given(const SymmetryCommand& c) {
   return MirrorPlane{point_of(*c.point), point_of(*c.normal)};
 }
 
+// The command that makes a constraint, and below the constraint that a command makes: states are
+// saved and shown as commands, so that a constraint needs no form of its own. Enumerations are in
+// the same order on both sides, on which the conversions by numbers rely.
 struct Restate {
   Command operator()(const EdgeHold& c) const {
     return make_command(EdgeCommand{

@@ -6,13 +6,13 @@
 namespace knead::detail {
 namespace {
 
-// Newton's iteration for the stationary points of |x − S|², projected onto the rectangle (a
-// parameter at a side counts as fixed while the slope pushes against it). Where the Hessian is not
-// positive definite, Gauss and Newton's matrix stands for it, with 1e-10 of its trace to bear
-// singular tangents. A step that does not lead nearer is shortened by quarters, except for a short
-// Newton step close to the foot: there distances differ by less than rounding, and only the
-// gradient can tell.
 /// The present iterate: parameters w and the jet j there.
+/// Newton's iteration for the stationary points of |x − S|², projected onto the rectangle (a
+/// parameter at a side counts as fixed while the slope pushes against it). Where the Hessian is not
+/// positive definite, Gauss and Newton's matrix stands for it, with 1e-10 of its trace to bear
+/// singular tangents. A step that does not lead nearer is shortened by quarters, except for a short
+/// Newton step close to the foot: there distances differ by less than rounding, and only the
+/// gradient can tell.
 class Descent {
  public:
   Descent(const Point& x, const Patch& patch, const ParameterRectangle& within,

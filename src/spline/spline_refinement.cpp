@@ -26,9 +26,9 @@ Along along(const Spline<D>& spline, int direction) {
 
 }  // namespace
 
-template <int D>
 // A rational spline is refined as its homogeneous net (w P, w), which is a polynomial spline. Rows
 // that the refinement only copies take P itself: (w P) / w may differ from it in the last bit.
+template <int D>
 Expected<Spline<D>> refined(const Spline<D>& spline, int direction, const Refinement& refinement) {
   assert(0 <= direction && direction < D);
   if (refinement.from() != spline.knots(direction)) {
@@ -86,8 +86,8 @@ Expected<Spline<D>> insert_knots(const Spline<D>& spline,
   return result;
 }
 
-template <int D>
 // Step by step, as a refinement raises a degree by one at most.
+template <int D>
 Expected<Spline<D>> elevate_degree(const Spline<D>& spline, int direction, int times) {
   Spline<D> result = spline;
   for (int k = 0; k < times; ++k) {

@@ -15,6 +15,9 @@ constexpr double at_pole = 1e-5;       // fractions
 constexpr double least_narrow = 1e-8;  // of the net's diagonal
 
 /// How wide the net is where it is widest, in the direction in which that is least.
+/// Where the surface is narrow, like a tube or a thin strip bent back on itself, a foot that was
+/// found from a hint may lie on the opposite side though it is within the tolerance: a found foot
+/// is trusted only within a tenth of this.
 double width_of(const Surface& surface) {
   const Eigen::Index n0 = surface.knots(0).count(), n1 = surface.knots(1).count();
   std::array<double, 2> widths = {};

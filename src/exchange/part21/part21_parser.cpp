@@ -10,12 +10,19 @@
 namespace knead {
 namespace {
 
+// Nesting is bounded because every level takes a frame of the stack, and a file of parentheses must
+// not exhaust it.
 constexpr int max_depth = 200;
 constexpr std::string_view start_mark = "ISO-10303-21";
 constexpr std::string_view end_mark = "END-ISO-10303-21";
 
 }  // namespace
 
+// Recursive descent with one token of lookahead over the grammar of ISO 10303-21, in one pass.
+// Values stand in one list in the order of the text, each list or typed value followed by its
+// members, which spares a node per value. Names may be used before they are defined: references are
+// resolved when all are known, by sorting. With `names_only_` each record is parsed and dropped at
+// once, so that memory is that of the names.
 Expected<void> Part21Parser::parse() {
   if (!names_only_) detail::reserve_large(parts_, file_.instances_.capacity());
   if (!file_structure() || !sort_names()) return std::unexpected(error_);
@@ -179,6 +186,7 @@ bool Part21Parser::instance(std::uint32_t scope_owner) {
   if (!record(index)) return false;
   file_.instances_[index].bytes.end = token_.end;
   if (names_only_ && scope_owner == no_instance) {
+    // Records within a scope go with the record that owns it.
     file_.values_.resize(values_before);
     file_.instances_.clear();
     current_ = no_instance;

@@ -19,6 +19,8 @@ using Index = std::uint32_t;
 constexpr std::size_t visits_per_record = 64;  // by parts that share records
 
 /// Representations that are the same part, by relationships without a transformation.
+/// A SHAPE_REPRESENTATION_RELATIONSHIP without a transformation says that two representations are
+/// one shape (ISO 10303-41), and may chain any number of them: union–find with path halving.
 class Classes {
  public:
   Index add(Index representation) {
@@ -124,6 +126,9 @@ class Builder {
         warn(i, "is placed within itself; that is left out");
         continue;
       }
+      // An ITEM_DEFINED_TRANSFORMATION (ISO 10303-43) takes one frame, given in the part, to
+      // another one, the place in the assembly. Lengths of the part become those of the assembly in
+      // between.
       Eigen::Affine3d move = Eigen::Affine3d::Identity();
       if (c.place && c.frame) {
         const double scale = brep::unit_ratio((*graph_)[child].unit, (*graph_)[parent].unit);
@@ -143,6 +148,10 @@ class Builder {
   }
 
   /// Gives every part what the items of its representations refer to.
+  /// What a part holds is all that the items of its representations lead to by references of any
+  /// kind, up to other representations: the paths from a representation to its surfaces differ too
+  /// much among schemas and writers to be listed. Cost: the records reached, once per part; parts
+  /// that share records are bounded by `visits_per_record`.
   Expected<void> fill() {
     const std::size_t records = reader_.file().instances().size();
     // 1: a face or tessellated item, 2: a B-spline surface without faces (others are also referred

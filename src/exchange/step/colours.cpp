@@ -29,6 +29,10 @@ std::optional<Colour> named_colour(std::string_view name) {
   return std::nullopt;
 }
 
+// STYLED_ITEM → PRESENTATION_STYLE_ASSIGNMENT → … → COLOUR_RGB or a predefined colour (ISO
+// 10303-46): the first colour that the styles lead to, passing over those of curves, points and
+// lines on surfaces. The item may be a face, a shell or a body; what is styled nearer to the face
+// wins, of two at one level the style that overrides, of two equal ones the first.
 class Styles {
  public:
   Styles(const Reader& reader, const std::vector<FaceRecord>& faces)
@@ -39,6 +43,7 @@ class Styles {
       add(k);
     std::unordered_map<std::string, Colour> result;
     for (const auto& [face, found] : found_) result.emplace(name_of(reader_, face), found.second);
+    // A surface without a style of its own has the colour of its first face that has one.
     for (const FaceRecord& face : faces_) {
       const auto found = found_.find(face.instance);
       if (found != found_.end() && face.surface != no_instance)

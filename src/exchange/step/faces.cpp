@@ -125,6 +125,8 @@ std::vector<FaceRecord> read_faces(const Reader& reader) {
   return result;
 }
 
+// A bound is a record that any number of faces may list, and a loop may list any edge: a small file
+// could ask for a model of any size. The uses are counted before they are made.
 Expected<void> check_loop_uses(const Reader& reader) {
   const std::size_t records = reader.file().instances().size(),
                     most = free_edge_uses + edge_uses_per_record * records;

@@ -267,8 +267,8 @@ class Assemblies {
   std::vector<std::pair<Index, Index>> links_;  // all of these
 };
 
-// For each mapped item, the representation that lists it.
 /// One pass over all references of the file, in place of a search for each item.
+/// For each mapped item, the representation that lists it.
 std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector<Index>& mapped) {
   std::unordered_map<Index, Index> result;
   for (const auto k : mapped) result.emplace(k, no_instance);

@@ -25,8 +25,8 @@ constexpr double symmetry_angle = 1e-3;
 
 /// Appends the conditions of `from` for these coordinates only. One on a single control point
 /// leaves its coordinate its bits, as a held flag does.
-// A held control point has no equation of its own: its row leaves the unknowns. One of which only
-// some coordinates are held becomes an equation n · D = value per coordinate instead.
+/// A held control point has no equation of its own: its row leaves the unknowns. One of which only
+/// some coordinates are held becomes an equation n · D = value per coordinate instead.
 void append_components(const ConstraintList& from, const Components& components,
                        ConstraintList& to) {
   const auto append = [&](LinearConstraint condition) {

@@ -104,8 +104,8 @@ namespace {
 
 /// Σ over the selected surfaces of the loads that keep their direction, but the one per parameter
 /// domain.
-// Loads per area of the rest shape, and forces at points and lines. Loads per parameter domain are
-// left to the model, which integrates a constant by its Gramians.
+/// Loads per area of the rest shape, and forces at points and lines. Loads per parameter domain are
+/// left to the model, which integrates a constant by its Gramians.
 Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
   Points nodal = Points::Zero(model.rows().back(), 3);
   const std::vector<int> selection = scene.selection();
@@ -129,8 +129,8 @@ Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
 }
 
 /// A spring or volcano and its mirror images. \param first row of the surface's first control point
-// Σ_i R_i(u) X_i is the point that is pulled; the image under a mirror symmetry is pulled to the
-// reflected target. At 0.5 both are one point.
+/// Σ_i R_i(u) X_i is the point that is pulled; the image under a mirror symmetry is pulled to the
+/// reflected target. At 0.5 both are one point.
 template <PullsAPoint F>
 Expected<void> append_point_force(const SceneSurface& s, const F& f, int first,
                                   std::vector<PointForce>& points) {

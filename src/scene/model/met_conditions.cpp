@@ -11,10 +11,10 @@ namespace knead {
 namespace {
 
 /// Whether a surface has the conditions that it had, and perhaps further pins.
-// Whether conditions that were asked for can be met is known once they are eliminated: a row that
-// reduces to 0 = value ≠ 0 contradicts those before. A gesture that adds one pin after the other
-// would eliminate all of them each time, O(n) eliminations of n rows; instead the elimination is
-// kept, and the new rows alone are reduced against it.
+/// Whether conditions that were asked for can be met is known once they are eliminated: a row that
+/// reduces to 0 = value ≠ 0 contradicts those before. A gesture that adds one pin after the other
+/// would eliminate all of them each time, O(n) eliminations of n rows; instead the elimination is
+/// kept, and the new rows alone are reduced against it.
 bool only_pins_added(const SurfaceInput& was, const SurfaceInput& is) {
   const auto same = [](const SurfaceInput& a, const SurfaceInput& b) {
     return a.id == b.id && a.reference == b.reference && a.rest == b.rest && a.mode == b.mode &&

@@ -47,8 +47,8 @@ bool measures_from_rest(const std::vector<KeptConstraint>& constraints) {
 }
 
 /// Coefficients as constants if all shapes have the same material, else as fields.
-// Constants are worth telling apart: with them K is a sum of few Kronecker products of banded
-// Gramians, else it is assembled entry by entry from triple Gramians.
+/// Constants are worth telling apart: with them K is a sum of few Kronecker products of banded
+/// Gramians, else it is assembled entry by entry from triple Gramians.
 template <int D>
 void set_material(const std::vector<ShapeInput<D>>& shapes, ActiveSettings<D>& settings) {
   const MaterialFieldOf<D>& material = shapes.front().material;
@@ -65,7 +65,7 @@ void set_material(const std::vector<ShapeInput<D>>& shapes, ActiveSettings<D>& s
 }
 
 /// Appends the constraints of every shape, and the rows.
-// Control points are numbered through all shapes: those of shape k begin at rows[k].
+/// Control points are numbered through all shapes: those of shape k begin at rows[k].
 template <int D>
 Expected<void> hold_shapes(const std::vector<ShapeInput<D>>& shapes, JoinedShapes<D>& joined) {
   auto& [rows, settings, held_by, seams, notes, entwined] = joined;
@@ -107,9 +107,9 @@ Expected<void> couple_followed(const ModelInput& input, std::span<const Surface*
 
 /// Appends the conditions that keep tangent planes common at smooth seams whose sides are in no
 /// fixed ratio.
-// `couple_seams` keeps tangent planes where the derivatives across both sides are in a fixed ratio:
-// one condition per row of control points. Elsewhere the ratio varies along the seam; conditions at
-// points are chosen as for edges of faces, but once, to a fixed tolerance.
+/// `couple_seams` keeps tangent planes where the derivatives across both sides are in a fixed
+/// ratio: one condition per row of control points. Elsewhere the ratio varies along the seam;
+/// conditions at points are chosen as for edges of faces, but once, to a fixed tolerance.
 Expected<void> keep_smooth(std::span<const Surface* const> patches, std::span<const int> rows,
                            std::span<SeamReport> reports, ActiveSettings<2>& settings) {
   std::vector<CoupledEdge> edges;

@@ -26,10 +26,10 @@ Expected<void> check_scope(const SceneSurface& s) {
 }
 
 /// Whether all forces are known before the shape is.
-// Pressure and wind turn with the surface, springs and the limit depend on where it is. Without
-// them the equilibrium ∇E(x) = f is sought by Newton's method along an increasing load from the
-// rest shape, and need not be stable (`equilibrium_of`); with them, or with tools, steps lead to it
-// from the present shape (`press`).
+/// Pressure and wind turn with the surface, springs and the limit depend on where it is. Without
+/// them the equilibrium ∇E(x) = f is sought by Newton's method along an increasing load from the
+/// rest shape, and need not be stable (`equilibrium_of`); with them, or with tools, steps lead to
+/// it from the present shape (`press`).
 bool keep_direction(const ActiveLoads& loads) {
   return loads.limit == 0 && loads.pressure == 0 && loads.wind == Point::Zero() &&
          loads.points.empty();
@@ -96,9 +96,10 @@ Expected<void> append_moments(const Scene& scene, int surface, int first, int si
 
 /// What keeps the angle at a seam that constraints join in position only; none where it cannot have
 /// one.
-// Seams with common positions and no common derivatives are hinges for a shell whose energy ends at
-// its boundary. A spring on the angle, per length of the seam, replaces the stiffness of the
-// material there. Rigid seams and those that coincide along a part only have no angle of their own.
+/// Seams with common positions and no common derivatives are hinges for a shell whose energy ends
+/// at its boundary. A spring on the angle, per length of the seam, replaces the stiffness of the
+/// material there. Rigid seams and those that coincide along a part only have no angle of their
+/// own.
 Expected<std::optional<ShellCrease>> crease_at(const SeamReport& report,
                                                std::span<const SceneSurface* const> surfaces,
                                                std::span<const ShellEnergy> shells,

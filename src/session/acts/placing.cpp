@@ -93,9 +93,9 @@ struct Placed {
                        {ErrorCode::region_frozen, {{"surface", now.id}, {"distance", farthest}}});
   }
 
-  template <class Symmetry>
   // The conditions of a symmetry are applied to the motion alone: what the file was asymmetric by
   // is no fault of the command.
+  template <class Symmetry>
   [[nodiscard]] Expected<void> check_symmetry(const Symmetry& symmetry) const {
     const auto base = onto_net(before, *now.current);
     // Where the net is no finer one the constraints were tried again.

@@ -76,8 +76,8 @@ const std::vector<double>& SiteValues<D>::abscissae(int direction) const {
   return factors_->interpolation[static_cast<std::size_t>(direction)].abscissae();
 }
 
-template <int D>
 // v = diag(W)⁻¹ C diag(w) x, and `coefficients` applies the inverses from left to right.
+template <int D>
 Points SiteValues<D>::values(const Points& x) const {
   assert(x.rows() == size());
   const auto& [interpolation, weights, denominators] = *factors_;

@@ -35,6 +35,7 @@ std::string ModelGeometry::line(const brep::Line& line, bool turned) {
 }
 
 /// Turned, b points the other way.
+/// A placement is right-handed, so that a conic runs the other way only if its axis z does.
 std::string ModelGeometry::conic(const brep::Conic& conic, bool turned) {
   const double a = conic.a.norm(), b = conic.b.norm();
   brep::Frame frame{conic.centre};
@@ -111,6 +112,8 @@ std::string ModelGeometry::elementary(const brep::ElementarySurface& surface) {
     case Kind::torus:
       break;
   }
+  // A DEGENERATE_TOROIDAL_SURFACE (ISO 10303-42) has a minor radius above the major one: it meets
+  // itself, and says whether its outer part is meant.
   if (surface.second <= surface.radius)
     return file_.add(fmt::format("TOROIDAL_SURFACE('',{},{},{})", position, radius, second));
   return file_.add(fmt::format("DEGENERATE_TOROIDAL_SURFACE('',{},{},{},{})", position, radius,
