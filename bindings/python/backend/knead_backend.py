@@ -81,7 +81,7 @@ def build() -> pathlib.Path:
     if any(not re.search(rf"^{re.escape(name)}:[A-Z]*={re.escape(value)}$", present, re.M)
            for name, _, value in (argument[2:].partition("=") for argument in arguments)):
         run("cmake", "--preset", "release", "-B", str(BUILD), *arguments)
-    run("cmake", "--build", str(BUILD), "--target", "knead_package", "knead_cli")
+    run("cmake", "--build", str(BUILD), "--target", "knead_package")
     return BUILD / "python"
 
 
@@ -106,14 +106,13 @@ class Wheel:
         self.name = f"{NAME}-{version()}-{tag()}.whl"
         self.info = f"{NAME}-{version()}.dist-info"
         os.makedirs(directory, exist_ok=True)
-        self._zip = zipfile.ZipFile(os.path.join(directory, self.name), "w", zipfile.ZIP_DEFLATED)
+        self._zip = zipfile.ZipFile(os.path.join(directory, self.name), "w")
         self._record: list[str] = []
 
     def add(self, name: str, content: bytes, executable: bool = False) -> None:
         entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
-        entry.compress_type = zipfile.ZIP_DEFLATED
         entry.external_attr = (0o100755 if executable else 0o100644) << 16
-        self._zip.writestr(entry, content)
+        self._zip.writestr(entry, content, zipfile.ZIP_DEFLATED, 9)
         digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
         self._record.append(f"{name},sha256={digest},{len(content)}")
 
@@ -128,8 +127,9 @@ class Wheel:
 
 
 def add_program(wheel: Wheel) -> None:
-    """The program knead, in the directory of programs of the environment."""
-    wheel.add(f"{NAME}-{version()}.data/scripts/knead", (BUILD / "knead").read_bytes(), executable=True)
+    """The program knead, in the directory of programs of the environment: it starts the one in the module."""
+    script = (ROOT / "bindings" / "python" / "knead_program.py").read_bytes()
+    wheel.add(f"{NAME}-{version()}.data/scripts/knead", script, executable=True)
 
 
 def build_wheel(wheel_directory: str, config_settings: Any = None, metadata_directory: str | None = None) -> str:

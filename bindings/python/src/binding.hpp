@@ -104,5 +104,6 @@ void bind_contact(py::module_& module);
 void bind_image(py::module_& module);
 void bind_exchange(py::module_& module);
 void bind_session(py::module_& module);
+void bind_program(py::module_& module);
 
 }  // namespace knead::python

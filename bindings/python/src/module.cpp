@@ -11,4 +11,5 @@ PYBIND11_MODULE(_core, module) {
   bind_image(module);
   bind_exchange(module);
   bind_session(module);
+  bind_program(module);
 }
