@@ -11,9 +11,10 @@ python_tests() (
   "$python" -m venv --system-site-packages "$fresh/venv"
   "$fresh/venv/bin/pip" install --quiet --no-index --no-deps "$fresh"/dist/*.whl
   cp -r tests/python "$fresh/tests"
-  cp -r samples "$fresh"
+  cp -r samples tests/scenarios examples/figures/patches.step "$fresh"
   cp bindings/python/README.md "$fresh/README-python.md"
   cp -r examples/python "$fresh/examples-python"
+  export KNEAD_PROGRAM=$PWD/build/release/knead KNEAD_CLI_TEST=$PWD/build/release/tests/cli/cli_test
   cd "$fresh/tests"
   "$fresh/venv/bin/python" run.py "${stage_counts:-/dev/null}" "${stage_failed:-/dev/null}"
 )

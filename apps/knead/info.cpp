@@ -2,19 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <memory>
 #include <optional>
 
 #include "cad_input.hpp"
 #include "cli.hpp"
 #include "faces.hpp"
+#include "info_text.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/session_info.hpp"
 #include "knead_document.hpp"
-#include "parts.hpp"
 #include "progress.hpp"
 #include "say.hpp"
 
@@ -26,49 +25,6 @@ struct InfoArguments {
   bool json = false, faces = false;
   UnpackOption unpack;
 };
-
-/// "\"name\", " where there is one.
-std::string titled(const std::string& name) {
-  return name.empty() ? "" : "\"" + printable(name) + "\", ";
-}
-
-std::string in_words(bool rational) { return rational ? "rational" : "polynomial"; }
-
-void print_text(const FileInfo& info) {
-  say("{}: {}{}, units {}, {}\n", info.file, info.format,
-      info.schema.empty() ? "" : " " + printable(info.schema), info.units,
-      counted(info.surfaces.size(), "B-spline surface", "B-spline surfaces"));
-  for (const FileSurface& s : info.surfaces) {
-    const auto& [lower, upper] = s.bounding_box;
-    say("  {:<8} {}degree {} x {}, net {} x {}, {}{}{}{}\n", s.id, titled(s.name), s.degree[0],
-        s.degree[1], s.net[0], s.net[1], in_words(s.rational), s.closed[0] ? ", closed in u" : "",
-        s.closed[1] ? ", closed in v" : "", s.trimmed ? ", trimmed" : "");
-    say("           from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", lower[0],
-        lower[1], lower[2], upper[0], upper[1], upper[2]);
-  }
-  for (const FileCurve& c : info.curves) {
-    say("  {:<8} {}curve of degree {}, {}, {}\n", c.id, titled(c.name), c.degree,
-        counted(static_cast<std::size_t>(c.control_points), "control point", "control points"),
-        in_words(c.rational));
-  }
-  for (const FileTessellation& t : info.tessellated_items) {
-    say("  {:<8} {}tessellated, {}\n", t.id, titled(t.name),
-        counted(static_cast<std::size_t>(t.triangles), "triangle", "triangles"));
-  }
-  std::map<std::string, int> others;
-  for (const FileOtherSurface& s : info.other_surfaces) ++others[s.form];
-  if (!others.empty()) {
-    std::string counts;
-    for (const auto& [form, count] : others)
-      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, form);
-    say("  other surfaces, to be converted before they are sculpted (--faces lists them): {}\n",
-        counts);
-  }
-  if (!info.left_out.empty()) say("  left out:\n");
-  for (const FileLeftOut& left : info.left_out) say("    {}\n", left.sentence);
-  print_parts(info);
-  for (const std::string& remark : info.remarks) say("  {}\n", printable(remark, 2000));
-}
 
 Expected<void> run(const InfoArguments& options) {
   std::optional<ProgressLine> line;
@@ -99,7 +55,7 @@ Expected<void> run(const InfoArguments& options) {
     say("{}\n", file_json(info));
     return {};
   }
-  print_text(info);
+  say("{}", info_text(info));
   if (options.faces) print_faces(info);
   return {};
 }

@@ -1,15 +1,27 @@
 """What several tests use."""
 
+import os
 import pathlib
+import shutil
+import sys
 
 import numpy as np
 
 import knead
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-# Beside the tests where they were copied to, or the project's.
-SAMPLES = next(p for p in (FOLDER.parent / "samples", FOLDER.parents[1] / "samples") if p.is_dir())
+
+
+def near(*names):
+    """The first that is there: beside the tests where they were copied to, or in the project."""
+    return next(p for p in (root / name for root in (FOLDER.parent, FOLDER.parents[1]) for name in names) if p.exists())
+
+
+SAMPLES = near("samples")
 BONNET = SAMPLES / "bonnet.step"
+# The program in the wheel, and the one built for itself where KNEAD_PROGRAM names it.
+PROGRAM = shutil.which("knead", path=os.path.dirname(sys.executable))
+PROGRAMS = [program for program in (PROGRAM, os.environ.get("KNEAD_PROGRAM")) if program]
 
 
 def clamped(degree, spans):

@@ -4,6 +4,7 @@ import json
 import keyword
 import pathlib
 import pickle
+import subprocess
 import tempfile
 import unittest
 
@@ -11,7 +12,7 @@ import numpy as np
 
 import knead
 from knead import _core
-from support import BONNET, SAMPLES, sheet
+from support import BONNET, PROGRAM, SAMPLES, sheet
 
 
 def commands():
@@ -167,8 +168,20 @@ class Looking(unittest.TestCase):
             doc["#1"]
         with self.assertRaisesRegex(TypeError, "id or a label"):
             doc[0]
-        self.assertIn("#285", repr(doc))
         self.assertIn("#285", repr(skin))
+
+    def test_at_a_terminal_a_document_says_what_the_program_says_of_its_file(self):
+        told = subprocess.run([PROGRAM, "info", BONNET], capture_output=True, text=True, check=True).stdout
+        doc = knead.open(BONNET)
+        self.assertEqual(repr(doc) + "\n", told)
+        self.assertIn("net 14 x 12", told)
+        doc.select("#285").elevate(by=(1, 0))
+        self.assertEqual(repr(doc).replace("degree 4 x 3", "degree 3 x 3").split("net")[0], told.split("net")[0])
+        made = knead.new("parts").new(size=(3, 2)).new("volume", form="box", size=(3, 2, 1)).new("curve", form="circle", radius=2)
+        self.assertRegex(repr(made), r"(?s)^parts: without a file, units mm, 1 B-spline surface\n.*curve of degree 2.*volume of degree 3")
+        for k in range(40):
+            made.new(size=(1, 1))
+        self.assertRegex(repr(made), r"\n  and \d+ more lines$")
 
     def test_views_do_not_copy_and_stay(self):
         doc = sheet()

@@ -11,12 +11,7 @@ import sys
 import tempfile
 import unittest
 
-from support import BONNET, FOLDER
-
-
-def near(*names):
-    """The first that is there: beside the tests where they were copied to, or in the project."""
-    return next(p for p in (root / name for root in (FOLDER.parent, FOLDER.parents[1]) for name in names) if p.exists())
+from support import BONNET, near
 
 
 class Shown(unittest.TestCase):

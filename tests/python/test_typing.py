@@ -7,7 +7,7 @@ import sys
 import tempfile
 import unittest
 
-from test_readme import near
+from support import near
 
 # pybind11's classes have a metaclass of its own, and a constructor that says what it cannot.
 CLASSES = ("Curve", "CurveSearch", "Surface", "SurfaceSearch", "Volume", "View", "Grids", "Session", "_Held")

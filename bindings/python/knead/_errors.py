@@ -6,8 +6,6 @@ import errno
 import json
 from typing import Any, NamedTuple
 
-from . import _core
-
 
 class Fix(NamedTuple):
     """Something that can be done about an error or a note: `doc.run(fix)` does it."""
@@ -68,13 +66,11 @@ def _again(kind: type[Error], what: str, fields: dict[str, Any]) -> Error:
     return kind(what, **fields)
 
 
-def _make(text: str, file: str, line: int) -> Error:
+def made_of(text: str, file: str, line: int) -> Error:
+    """What the compiled part raises: an error as the library tells it."""
     read = json.loads(text)["error"]
     fixes = [Fix(fix["code"], fix["commands"]) for fix in read.get("fixes") or []]
     kind = NumericalError if read["kind"] == "numerical" else InputError
     return kind(read["what"], where=read.get("where") or "", remedy=read.get("remedy") or "", kind=read["kind"],
                 code=read.get("code") or "none", values=read.get("values") or {}, fixes=fixes, file=file, line=line,
                 message=read.get("message") or "")
-
-
-_core.set_error_maker(_make)

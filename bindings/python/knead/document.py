@@ -14,12 +14,14 @@ from ._errors import Error, Fix, InputError, MissingFileError
 from ._json import encode
 from ._progress import Progress, callback
 from .analysis import Analysis
-from .matrices import Matrices, of_parts
+from .matrices import Matrices, normalised, of_parts
 from .report import Report
 from .splines import of_core
 
 _Self = TypeVar("_Self", bound="Document")
 _max_unpacked = 1 << 30
+_most_lines = 60  # of a document at a terminal
+_schemas = ("ap214", "ap242")
 
 
 class Shape(Display):
@@ -231,22 +233,12 @@ class Document(Commands, Display):
         """Writes the document, whole or not at all: its own file with the present surfaces and everything else as it was,
         or, where the ending says another format, a new file. Compressed by `.gz` and `.stpZ`. What a new file would lose is
         an error: `export` leaves it out. Without a file STEP is written (schema: "ap214", "ap242")."""
-        bytes, left_out = self._file(path, 0, 96, schema, triangles=False)
-        if left_out:
-            raise InputError("the new file would lose something: " + "; ".join(left_out), where=os.fspath(path),
-                             remedy="save it in its own format, or let export leave this out")
-        _core.write_file(os.fspath(path), bytes)
+        name = _path(path)
+        _core.write_file(name, self._whole(name, schema))
 
     def to_bytes(self, name: str = "", *, schema: str = "ap214") -> bytes:
         """What `save` would write into a file of that name; without one the document's own file."""
-        if not name:
-            own: bytes = self._session.file("", 0, 96, schema)[0]
-            return own
-        bytes, left_out = self._file(name, 0, 96, schema, triangles=False)
-        if left_out:
-            raise InputError("the new file would lose something: " + "; ".join(left_out), where=name,
-                             remedy="use its own format")
-        return bytes
+        return self._whole(name, schema)
 
     def export(self, path: str | os.PathLike[str], *, tolerance: float | None = None, detail: int = 96,
                schema: str = "ap214") -> list[str]:
@@ -259,18 +251,19 @@ class Document(Commands, Display):
         apart = 0.0 if tolerance is None else number(tolerance, "tolerance")
         if tolerance is not None and not apart > 0:
             raise InputError(f"{apart} is no distance", where="tolerance", remedy="use a length above 0, in the units of the file")
-        bytes, left_out = self._file(path, apart, whole(detail, "detail", 1), schema, triangles=True)
-        _core.write_file(os.fspath(path), bytes)
+        name = _path(path)
+        left_out: list[str]
+        made, left_out = self._session.file(name, apart, whole(detail, "detail", 1), chosen(schema, "schema", _schemas), True)
+        _core.write_file(name, made)
         return left_out
 
-    def _file(self, path: str | os.PathLike[str], tolerance: float, detail: int, schema: str, triangles: bool) -> tuple[bytes, list[str]]:
-        name = _path(path)
-        chosen(schema, "schema", ("ap214", "ap242"))
-        ending = os.path.splitext(name)[1].lower()
-        if not triangles and any(ending in f["endings"] for f in json.loads(_core.formats()) if f["content"] == "triangles"):
-            raise InputError(f"{ending} holds triangles, which lose the surfaces", where=name, remedy="use export")
-        bytes, left_out = self._session.file(name, tolerance, detail, schema)
-        return bytes, left_out
+    def _whole(self, name: str, schema: str) -> bytes:
+        made, left_out = self._session.file(name, 0, 96, chosen(schema, "schema", _schemas), False)
+        if left_out:
+            raise InputError("the new file would lose something: " + "; ".join(left_out), where=name,
+                             remedy="save it in its own format, or let export leave this out")
+        content: bytes = made
+        return content
 
     def analyse(self, samples: int = 41) -> Analysis:
         """The results on the selected surfaces, at samples × samples points of each, uniform in the parameters: displacements
@@ -281,8 +274,7 @@ class Document(Commands, Display):
     def matrices(self, *, units: str | None = None, tolerance: float = 1e-10) -> Matrices:
         """K, M, D, F and the free control points of the first selected surface, of its material, load and held rows.
         units: "raw", "normalised"; None: those in which the document is computed."""
-        normalised = self._session.normalised() if units is None else chosen(units, "units", ("raw", "normalised")) == "normalised"
-        return of_parts(self._session.matrices(self._session.selected(), normalised, number(tolerance, "tolerance")))
+        return of_parts(self._session.matrices(None if units is None else normalised(units), number(tolerance, "tolerance")))
 
     def _shown(self) -> tuple[list[tuple[Any, Any]], str, str]:
         shapes = self._shapes
@@ -290,13 +282,10 @@ class Document(Commands, Display):
         return [shape._with_opened() for shape in shapes], f"{self.name}, lengths in {unit}" if unit else self.name, unit
 
     def __repr__(self) -> str:
-        shapes = self._shapes
-        lines = [f"{self.name}: {len(shapes)} shape{'' if len(shapes) == 1 else 's'}"]
-        for shape in shapes[:20]:
-            lines.append("  " + repr(shape)[1:-1])
-        if len(shapes) > 20:
-            lines.append(f"  and {len(shapes) - 20} more")
-        return "\n".join(lines)
+        """What `knead info` says of a file, with the shapes as they are now. Cost: their bounding boxes."""
+        lines: list[str] = self._session.text().splitlines()
+        more = len(lines) - _most_lines
+        return "\n".join(lines if more <= 1 else [*lines[:_most_lines], f"  and {more} more lines"])
 
 
 def _restored(snapshot: Snapshot) -> Document:

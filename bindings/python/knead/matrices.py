@@ -23,18 +23,20 @@ class Matrices(NamedTuple):
     free: Any
 
 
-def _columns(parts: Any, free: Any) -> Any:
+def _columns(parts: Any) -> Any:
     sparse: Any = import_module("scipy.sparse")
-    data, indices, starts, shape = parts
-    matrix = sparse.csc_array((np.asarray(data), np.asarray(indices), np.asarray(starts)), shape=shape, copy=False)
-    return matrix if len(free) == shape[0] else matrix[:, free][free, :]
+    *arrays, shape = parts
+    return sparse.csc_array(tuple(np.asarray(array) for array in arrays), shape=shape, copy=False)
 
 
 def of_parts(parts: Any) -> Matrices:
+    """In the memory that they are in."""
     stiffness, mass, damping, load, free = parts
-    numbers_of_free = np.asarray(free)
-    return Matrices(_columns(stiffness, numbers_of_free), _columns(mass, numbers_of_free),
-                    _columns(damping, numbers_of_free), np.asarray(load), numbers_of_free)
+    return Matrices(_columns(stiffness), _columns(mass), _columns(damping), np.asarray(load), np.asarray(free))
+
+
+def normalised(units: str) -> bool:
+    return chosen(units, "units", ("raw", "normalised")) == "normalised"
 
 
 def _several(value: ArrayLike, name: str) -> tuple[float, ...]:
@@ -56,9 +58,8 @@ def matrices(surface: Surface, *, alpha: ArrayLike = (1, 0, 1), beta: ArrayLike 
     """
     if not isinstance(surface, Surface):
         raise TypeError(f"surface must be a knead.Surface, not {type(surface).__name__}")
-    normalised = chosen(units, "units", ("raw", "normalised")) == "normalised"
     return of_parts(_core.matrices(surface._core, _several(alpha, "alpha"), _several(beta, "beta"), number(mass, "mass"),
-                                   number(damping, "damping"), _several(load, "load"), whole(hold, "hold"), normalised,
+                                   number(damping, "damping"), _several(load, "load"), whole(hold, "hold"), normalised(units),
                                    number(tolerance, "tolerance")))
 
 

@@ -18,6 +18,10 @@ _empty = np.empty
 _letters = "uvw"
 
 
+def _from_left(side: str) -> bool:
+    return chosen(side, "side", ("right", "left")) == "left"
+
+
 class CurveCurvature(NamedTuple):
     """How a curve bends: κ = |C' × C''| / |C'|³ and unit vectors; the normal points to the centre of curvature, and is zero
     where the curve is straight. Shapes: (…), (…, 3), (…, 3)."""
@@ -186,7 +190,7 @@ class Spline(Display):
 
     def _evaluated(self, at: list[Array], shape: tuple[int, ...], order: Any, side: str, grid: bool, out: Any) -> Any:
         order = whole(order, "order")
-        left = chosen(side, "side", ("right", "left")) == "left"
+        left = _from_left(side)
         counts = [count_of_derivatives(self._directions, k) for k in range(order + 1)]
         if out is None:
             memory = _empty((sum(counts), *shape, 3))
@@ -284,7 +288,7 @@ class Curve(Spline):
         """Curvature, tangent and principal normal. Error: C' = 0 somewhere (numerical)."""
         at, shape = self._places((u,))
         out = _empty((*shape, 7))
-        self._core.curvatures(at, chosen(side, "side", ("right", "left")) == "left", out)
+        self._core.curvatures(at, _from_left(side), out)
         return CurveCurvature(out[..., 0], out[..., 1:4], out[..., 4:7])
 
     def closest(self, points: ArrayLike) -> tuple[Array, Array]:
@@ -332,14 +336,14 @@ class Surface(Spline):
         (numerical)."""
         at, shape = self._places((u, v))
         out = _empty((*shape, 13))
-        self._core.curvatures(at, chosen(side, "side", ("right", "left")) == "left", out)
+        self._core.curvatures(at, _from_left(side), out)
         return SurfaceCurvature(out[..., 0], out[..., 1], out[..., 2:4], out[..., 4:7], out[..., 7:].reshape(*shape, 2, 3))
 
     def normals(self, u: ArrayLike, v: ArrayLike, *, side: str = "right") -> Array:
         """Unit normals S_u × S_v / |S_u × S_v|, of shape (…, 3); zero where there is no tangent plane."""
         at, shape = self._places((u, v))
         out = _empty((*shape, 3))
-        self._core.normals(at, chosen(side, "side", ("right", "left")) == "left", out)
+        self._core.normals(at, _from_left(side), out)
         return out
 
     def closest(self, points: ArrayLike) -> tuple[Array, Array]:

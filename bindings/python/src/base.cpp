@@ -1,20 +1,12 @@
-#include <algorithm>
-
 #include "binding.hpp"
 #include "knead/base/threads.hpp"
 #include "knead/session/session_info.hpp"
-#include "working.hpp"
 
 namespace knead::python {
-namespace {
-
-/// Lives as long as the interpreter, whose end it must not outlive.
-PyObject* error_maker = nullptr;
-
-}  // namespace
 
 void raise(const Error& error) {
-  const py::object made = py::handle(error_maker)(error_json(error), error.file, error.line);
+  const py::object made = py::module_::import("knead._errors")
+                              .attr("made_of")(error_json(error), error.file, error.line);
   PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
   throw py::error_already_set();
 }
@@ -32,9 +24,6 @@ void bind_base(py::module_& module) {
     return py::buffer_info(const_cast<void*>(view.data), view.itemsize, view.format,
                            static_cast<py::ssize_t>(view.shape.size()), view.shape, strides,
                            view.readonly);
-  });
-  module.def("set_error_maker", [](const py::object& maker) {
-    Py_XDECREF(std::exchange(error_maker, py::object(maker).release().ptr()));
   });
   module.def("set_thread_count", &set_thread_count);
   module.def("thread_count", &thread_count);

@@ -20,13 +20,20 @@ namespace knead::python {
 
 namespace py = pybind11;
 
-/// Raises the `knead.Error` of an error: made by the function that `set_error_maker` was given.
+/// Raises the `knead.Error` of an error, which the package's Python makes.
 [[noreturn]] void raise(const Error& error);
 
 template <class T>
 T value_of(Expected<T> expected) {
   if (!expected) raise(expected.error());
   if constexpr (!std::is_void_v<T>) return *std::move(expected);
+}
+
+/// Does this while others have the interpreter: it must not touch Python.
+template <class Act>
+auto without_interpreter(Act&& act) {
+  const py::gil_scoped_release others;
+  return act();
 }
 
 /// C-contiguous numbers of an array of Python, which stays as it is until this goes.

@@ -1,16 +1,16 @@
 #include "binding.hpp"
 #include "grids.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/exchange/format.hpp"
 
 namespace knead::python {
 
 void bind_exchange(py::module_& module) {
-  module.def("formats", &format_json);
-  module.def("read_file",
-             [](const std::string& path) { return py::bytes(value_of(read_file(path))); });
+  module.def("read_file", [](const std::string& path) {
+    return py::bytes(value_of(without_interpreter([&] { return read_file(path); })));
+  });
   module.def("write_file", [](const std::string& path, const py::bytes& bytes) {
-    value_of(write_file_atomically(path, std::string_view(bytes)));
+    const std::string_view text = bytes;
+    value_of(without_interpreter([&] { return write_file_atomically(path, text); }));
   });
   py::class_<Grids>(module, "Grids")
       .def("vtu", [](const Grids& grids) { return vtu_text(*grids.list); })

@@ -37,7 +37,12 @@ Expected<std::vector<SnakeResult>> run(const Image& image, const SnakeScript& sc
   for (int done = 0; !snakes->ended() && work.tell(std::min(done, most), most); done += at_a_time) {
     if (auto more = snakes->advance(at_a_time); !more) return std::unexpected(more.error());
   }
-  return snakes->results();
+  auto results = snakes->results();
+  if (!results) return results;
+  int made = 0;
+  for (const SnakeResult& s : *results) made = std::max(made, s.iterations);
+  work.tell(made, made);  // that is all of them
+  return results;
 }
 
 py::list image_snakes(const py::object& picture, const std::string& json, const py::object& mask,
@@ -47,10 +52,7 @@ py::list image_snakes(const py::object& picture, const std::string& json, const 
   if (!mask.is_none()) drawn = image_of(Doubles(mask));
   const SnakeScript script = value_of(parse_snake_script(json));
   Work work(std::move(progress));
-  auto made = [&] {
-    const py::gil_scoped_release others;
-    return run(image, script, drawn, work);
-  }();
+  auto made = without_interpreter([&] { return run(image, script, drawn, work); });
   work.finish();
   py::list result;
   for (SnakeResult& s : value_of(std::move(made))) {
@@ -75,10 +77,7 @@ py::list volume_snakes(const py::object& voxels, const py::object& origin,
   if (!mask.is_none()) drawn = volume_of(Doubles(mask));
   const VolumeSnakeScript script = json.empty() ? default_volume_snake_script(volume)
                                                 : value_of(parse_volume_snake_script(json));
-  auto made = [&] {
-    const py::gil_scoped_release others;
-    return run_volume_snakes(volume, script, drawn);
-  }();
+  auto made = without_interpreter([&] { return run_volume_snakes(volume, script, drawn); });
   py::list result;
   for (SurfaceSnakeResult& s : value_of(std::move(made))) {
     const SurfaceMeasure m = measure(s.snake);

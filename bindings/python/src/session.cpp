@@ -13,6 +13,7 @@
 #include "scene/shell_fields.hpp"
 #include "session/session_state.hpp"
 #include "sparse.hpp"
+#include "text.hpp"
 
 namespace knead::python {
 namespace {
@@ -27,11 +28,8 @@ Expected<void> begin(Session& session) {
 std::shared_ptr<const Source> source_of(const py::bytes& bytes, const std::string& name,
                                         std::size_t max_unpacked) {
   auto text = std::string(bytes);
-  auto source = [&] {
-    const py::gil_scoped_release others;
-    return open_source(std::move(text), name, {.max_unpacked = max_unpacked});
-  }();
-  return value_of(std::move(source));
+  return value_of(without_interpreter(
+      [&] { return open_source(std::move(text), name, {.max_unpacked = max_unpacked}); }));
 }
 
 }  // namespace
@@ -191,6 +189,10 @@ std::string PySession::info() {
   return alone([&] { return session_json(session_); });
 }
 
+std::string PySession::text() {
+  return alone([&] { return text_of(session_, source_.get()); });
+}
+
 std::string PySession::report() {
   return value_of(alone([&] {
     const std::size_t opened = source_ ? source_->surfaces().size() : 0;
@@ -262,11 +264,15 @@ FileBytes meshed(const Session& session, const Format& format, double tolerance,
 }  // namespace
 
 py::tuple PySession::file(const std::string& name, double tolerance, int detail,
-                          const std::string& schema) {
+                          const std::string& schema, bool triangles_too) {
   auto made = alone([&]() -> FileBytes {
     if (name.empty()) return without_loss(session_.save());
     const auto triangles = format_of_name(name, FormatContent::triangles);
-    if (triangles) return meshed(session_, **triangles, tolerance, detail);
+    if (triangles && triangles_too) return meshed(session_, **triangles, tolerance, detail);
+    if (triangles)
+      return usage_error(
+          std::string((*triangles)->name) + " holds triangles, which lose the surfaces", name,
+          "use export");
     const auto format = format_of_name(name, FormatContent::surfaces);
     if (!format) {
       Error error = format.error();
@@ -321,27 +327,23 @@ py::tuple PySession::analysis(int samples) {
                         forces, modes, buckling);
 }
 
-py::tuple PySession::matrices(const std::string& id, bool normalised, double tolerance) {
-  const auto found = alone(
-      [&]() -> Expected<
-                std::tuple<std::shared_ptr<const Surface>, MaterialFieldOf<2>, int, Vector3>> {
-        for (const SceneSurface& s : session_.state().surfaces) {
-          if (s.id != id) continue;
-          if (is_nonlinear(s.elasticity)) {
-            return usage_error(
-                "a shell has no constant matrices: what resists depends on its shape", id,
-                "give it a linear material");
-          }
-          return std::tuple(s.reference, s.material, s.hold_rows, session_.state().load.vector);
-        }
-        return input_error("no surface is selected", {}, "select one");
-      });
-  const auto [shape, material, hold, load] = value_of(found);
-  return matrices_of(*shape, material, {load[0], load[1], load[2]}, hold, normalised, tolerance);
-}
-
-bool PySession::normalised() {
-  return alone([&] { return session_.state().scaling == ScalingMode::normalised; });
+py::tuple PySession::matrices(std::optional<bool> normalised, double tolerance) {
+  using Found = std::tuple<std::shared_ptr<const Surface>, MaterialFieldOf<2>, int, Vector3, bool>;
+  const auto found = alone([&]() -> Expected<Found> {
+    const SessionState& state = session_.state();
+    if (!state.selected || state.body)
+      return input_error("no surface is selected", {}, "select one");
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
+    if (is_nonlinear(s.elasticity)) {
+      return usage_error("a shell has no constant matrices: what resists depends on its shape",
+                         s.id, "give it a linear material");
+    }
+    return Found(s.reference, s.material, s.hold_rows, state.load.vector,
+                 state.scaling == ScalingMode::normalised);
+  });
+  const auto [shape, material, hold, load, as_document] = value_of(found);
+  return matrices_of(*shape, material, {load[0], load[1], load[2]}, hold,
+                     normalised.value_or(as_document), tolerance);
 }
 
 void bind_session(py::module_& module) {
@@ -360,11 +362,11 @@ void bind_session(py::module_& module) {
       .def("name", &PySession::name)
       .def("script", &PySession::script)
       .def("info", &PySession::info)
+      .def("text", &PySession::text)
       .def("report", &PySession::report)
       .def("file", &PySession::file)
       .def("analysis", &PySession::analysis)
-      .def("matrices", &PySession::matrices)
-      .def("normalised", &PySession::normalised);
+      .def("matrices", &PySession::matrices);
 }
 
 }  // namespace knead::python

@@ -40,14 +40,17 @@ class PySession {
   [[nodiscard]] std::string name();
   [[nodiscard]] std::string script();
   [[nodiscard]] std::string info();
+  /// What the program says of a file, with the shapes as they are now.
+  [[nodiscard]] std::string text();
   [[nodiscard]] std::string report();
   /// (bytes, what they leave out) of a file of that name; without a name the document's own file.
+  /// Triangles, which lose the surfaces, only if they may be too.
   [[nodiscard]] py::tuple file(const std::string& name, double tolerance, int detail,
-                               const std::string& schema);
+                               const std::string& schema, bool triangles_too);
   /// (grids, reactions, modes, buckling).
   [[nodiscard]] py::tuple analysis(int samples);
-  [[nodiscard]] py::tuple matrices(const std::string& id, bool normalised, double tolerance);
-  [[nodiscard]] bool normalised();
+  /// Of the first selected surface; without a word on the units in those of the document.
+  [[nodiscard]] py::tuple matrices(std::optional<bool> normalised, double tolerance);
 
  private:
   static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();

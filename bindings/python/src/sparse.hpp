@@ -5,11 +5,9 @@
 
 namespace knead::python {
 
-/// (data, indices, indptr, shape), as `scipy.sparse.csc_array` takes them, without a copy.
-[[nodiscard]] py::tuple columns_of(SparseMatrix matrix);
-
-/// (K, M, D, F, free): K, M and D on all control points, F on the free ones. With the
-/// interpreter, which others have meanwhile.
+/// (K, M, D, F, free), all on the free control points; K, M and D each as (data, indices, indptr,
+/// shape), which `scipy.sparse.csc_array` takes without a copy. With the interpreter, which others
+/// have meanwhile.
 [[nodiscard]] py::tuple matrices_of(const Surface& shape, const MaterialFieldOf<2>& material,
                                     const Point& load, int hold, bool normalised, double tolerance);
 

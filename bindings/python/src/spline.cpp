@@ -42,29 +42,21 @@ template <int D>
 void evaluate_into(const Held<D>& held, const py::sequence& parameters, int order, bool left,
                    bool grid, const py::sequence& out) {
   const auto at = arrays_of(parameters, false), memory = arrays_of(out, true);
-  const py::gil_scoped_release others;
-  const Side side = left ? Side::left : Side::right;
-  std::vector<std::span<double>> parts;
-  for (const Doubles& part : memory) parts.push_back(part.span());
-  std::array<BasisTable, D> tables;
-  std::array<const BasisTable*, D> pointers;
-  Expected<void> status;
-  for (std::size_t d = 0; d < D && status; ++d) {
-    auto table = tabulate_basis(held.spline->knots()[d], at[d].span(), order, side);
-    if (!table) {
-      status = std::unexpected(table.error().within("direction " + std::to_string(d)));
-      break;
+  value_of(without_interpreter([&]() -> Expected<void> {
+    const Side side = left ? Side::left : Side::right;
+    std::vector<std::span<double>> parts;
+    for (const Doubles& part : memory) parts.push_back(part.span());
+    std::array<BasisTable, D> tables;
+    std::array<const BasisTable*, D> pointers;
+    for (std::size_t d = 0; d < D; ++d) {
+      auto table = tabulate_basis(held.spline->knots()[d], at[d].span(), order, side);
+      if (!table) return std::unexpected(table.error().within("direction " + std::to_string(d)));
+      tables[d] = *std::move(table);
+      pointers[d] = &tables[d];
     }
-    tables[d] = *std::move(table);
-    pointers[d] = &tables[d];
-  }
-  if (status) {
-    status = grid ? evaluate_grid_into<D>(*held.spline, pointers, order, parts)
-                  : evaluate_into<D>(*held.spline, pointers, order, parts);
-  }
-  if (status) return;
-  const py::gil_scoped_acquire interpreter;
-  raise(status.error());
+    return grid ? evaluate_grid_into<D>(*held.spline, pointers, order, parts)
+                : evaluate_into<D>(*held.spline, pointers, order, parts);
+  }));
 }
 
 template <int D>
@@ -78,18 +70,21 @@ void evaluate_one(const Held<D>& held, const py::object& out, const std::array<d
 
 template <int D>
 Held<D> inserted(const Held<D>& held, const std::array<std::vector<double>, D>& knots) {
-  return {std::make_shared<const Spline<D>>(value_of(insert_knots<D>(*held.spline, knots)))};
+  auto made = without_interpreter([&] { return insert_knots<D>(*held.spline, knots); });
+  return {std::make_shared<const Spline<D>>(value_of(std::move(made)))};
 }
 
 template <int D>
 Held<D> elevated(const Held<D>& held, int direction, int times) {
-  return {std::make_shared<const Spline<D>>(
-      value_of(elevate_degree<D>(*held.spline, direction, times)))};
+  auto made =
+      without_interpreter([&] { return elevate_degree<D>(*held.spline, direction, times); });
+  return {std::make_shared<const Spline<D>>(value_of(std::move(made)))};
 }
 
 template <int D>
 py::tuple without_knots(const Held<D>& held, int direction, double tolerance) {
-  auto removal = value_of(remove_knots<D>(*held.spline, direction, tolerance));
+  auto removal = value_of(
+      without_interpreter([&] { return remove_knots<D>(*held.spline, direction, tolerance); }));
   const auto count = static_cast<py::ssize_t>(removal.removed.size());
   return py::make_tuple(Held<D>{std::make_shared<const Spline<D>>(std::move(removal.spline))},
                         view_of_own(std::move(removal.removed), {count}), removal.error_bound);
@@ -99,28 +94,34 @@ py::tuple without_knots(const Held<D>& held, int direction, double tolerance) {
 void curvatures(const Held<1>& held, const py::sequence& parameters, bool left,
                 const py::object& out) {
   const Doubles at(parameters[0]), to(out, true);
-  double* p = to.span().data();
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    const auto c = curvature(*held.spline, at.span()[k], left ? Side::left : Side::right);
-    if (!c) raise(c.error().within("point " + std::to_string(k)));
-    *p++ = c->curvature;
-    for (const Point* v : {&c->tangent, &c->normal}) p = std::copy(v->begin(), v->end(), p);
-  }
+  value_of(without_interpreter([&]() -> Expected<void> {
+    double* p = to.span().data();
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const auto c = curvature(*held.spline, at.span()[k], left ? Side::left : Side::right);
+      if (!c) return std::unexpected(c.error().within("point " + std::to_string(k)));
+      *p++ = c->curvature;
+      for (const Point* v : {&c->tangent, &c->normal}) p = std::copy(v->begin(), v->end(), p);
+    }
+    return {};
+  }));
 }
 
 /// Per point: mean, Gaussian, the principal ones, then the vectors of `SurfaceCurvature`.
 void curvatures(const Held<2>& held, const py::sequence& parameters, bool left,
                 const py::object& out) {
   const Doubles u(parameters[0]), v(parameters[1]), to(out, true);
-  double* p = to.span().data();
-  for (std::size_t k = 0; k < u.size(); ++k) {
-    const auto c =
-        curvature(*held.spline, {u.span()[k], v.span()[k]}, left ? Side::left : Side::right);
-    if (!c) raise(c.error().within("point " + std::to_string(k)));
-    for (const double x : {c->mean, c->gaussian, c->principal[0], c->principal[1]}) *p++ = x;
-    for (const Point* w : {&c->normal, &c->directions[0], &c->directions[1]})
-      p = std::copy(w->begin(), w->end(), p);
-  }
+  value_of(without_interpreter([&]() -> Expected<void> {
+    double* p = to.span().data();
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      const auto c =
+          curvature(*held.spline, {u.span()[k], v.span()[k]}, left ? Side::left : Side::right);
+      if (!c) return std::unexpected(c.error().within("point " + std::to_string(k)));
+      for (const double x : {c->mean, c->gaussian, c->principal[0], c->principal[1]}) *p++ = x;
+      for (const Point* w : {&c->normal, &c->directions[0], &c->directions[1]})
+        p = std::copy(w->begin(), w->end(), p);
+    }
+    return {};
+  }));
 }
 
 void normals(const Held<2>& held, const py::sequence& parameters, bool left,
@@ -129,7 +130,8 @@ void normals(const Held<2>& held, const py::sequence& parameters, bool left,
   Parameters<2> at(static_cast<Eigen::Index>(u.size()), 2);
   for (std::size_t k = 0; k < u.size(); ++k)
     at.row(static_cast<Eigen::Index>(k)) << u.span()[k], v.span()[k];
-  const Points made = value_of(unit_normals(*held.spline, at, left ? Side::left : Side::right));
+  const Points made = value_of(without_interpreter(
+      [&] { return unit_normals(*held.spline, at, left ? Side::left : Side::right); }));
   std::copy_n(made.data(), made.size(), to.span().data());
 }
 
@@ -137,13 +139,14 @@ template <int D>
 void nearest(const ClosestPointSearch<D>& search, const py::object& points,
              const py::object& parameters, const py::object& distances) {
   const Doubles from(points), at(parameters, true), apart(distances, true);
-  const py::gil_scoped_release others;
-  const Points places = points_of(from);
-  for (Eigen::Index k = 0; k < places.rows(); ++k) {
-    const ClosestPoint<D> found = search.nearest(places.row(k).transpose());
-    std::ranges::copy(found.parameters, at.span().begin() + k * D);
-    apart.span()[static_cast<std::size_t>(k)] = found.distance;
-  }
+  without_interpreter([&] {
+    const Points places = points_of(from);
+    for (Eigen::Index k = 0; k < places.rows(); ++k) {
+      const ClosestPoint<D> found = search.nearest(places.row(k).transpose());
+      std::ranges::copy(found.parameters, at.span().begin() + k * D);
+      apart.span()[static_cast<std::size_t>(k)] = found.distance;
+    }
+  });
 }
 
 template <int D>
@@ -205,7 +208,8 @@ void bind(py::module_& module, const char* name) {
     const std::string search = std::string(name) + "Search";
     py::class_<ClosestPointSearch<D>>(module, search.c_str()).def("nearest", &nearest<D>);
     type.def("search", [](const Held<D>& held) {
-      return value_of(ClosestPointSearch<D>::create(*held.spline));
+      return value_of(
+          without_interpreter([&] { return ClosestPointSearch<D>::create(*held.spline); }));
     });
   }
 }
