@@ -4,7 +4,7 @@
 python=$(realpath /usr/bin/python3)
 
 # Installs the wheel of the build that is there into a new environment, without network, and tests it in a fresh directory.
-python_tests() (
+python_tests() (  # python_tests [FILES]: all, or those of these names
   fresh=$(mktemp -d)
   trap 'rm -rf "$fresh"' EXIT
   "$python" bindings/python/backend/knead_backend.py "$fresh/dist"
@@ -14,7 +14,7 @@ python_tests() (
   cp -r samples tests/scenarios examples/figures/patches.step "$fresh"
   cp bindings/python/README.md "$fresh/README-python.md"
   cp -r examples/python "$fresh/examples-python"
-  export KNEAD_PROGRAM=$PWD/build/release/knead KNEAD_CLI_TEST=$PWD/build/release/tests/cli/cli_test
+  export KNEAD_PROGRAM=$PWD/build/release/knead KNEAD_CLI_TEST=$PWD/build/release/tests/cli/cli_test KNEAD_WEB=$PWD/web
   cd "$fresh/tests"
-  "$fresh/venv/bin/python" run.py "${stage_counts:-/dev/null}" "${stage_failed:-/dev/null}"
+  "$fresh/venv/bin/python" run.py "${stage_counts:-/dev/null}" "${stage_failed:-/dev/null}" "$@"
 )

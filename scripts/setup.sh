@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages a goal needs, and only those that are missing.
-#   scripts/setup.sh build | python | test | sanitizers | bench | instructions | format | lint | wasm | studio | web
+#   scripts/setup.sh build | python | test | notebook | sanitizers | bench | instructions | format | lint | wasm | studio | web
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev libpng-dev libjpeg-dev zlib1g-dev)
@@ -10,6 +10,8 @@ tests=(libgtest-dev libgmp-dev libbenchmark-dev libocct-data-exchange-dev)
 # The Python package; the tests of it need SciPy, make environments and check types.
 python=("${build[@]}" python3-dev pybind11-dev)
 python_tests=("${python[@]}" python3-numpy python3-scipy python3-venv python3-pip mypy)
+# To run a notebook and make a page of it.
+notebook=(python3-nbconvert python3-ipykernel)
 # Address and undefined-behaviour sanitizers by a second compiler; llvm names the functions in their reports.
 sanitizers=(clang-19 libclang-rt-19-dev llvm-19)
 # What benchmarks measure beside the library.
@@ -28,6 +30,7 @@ case "${1:-}" in
   build) needed=("${build[@]}") ;;
   python) needed=("${python[@]}") ;;
   test) needed=("${build[@]}" "${tests[@]}" "${python_tests[@]}") ;;
+  notebook) needed=("${python_tests[@]}" "${notebook[@]}") ;;
   sanitizers) needed=("${build[@]}" "${tests[@]}" "${sanitizers[@]}") ;;
   bench) needed=("${build[@]}" libbenchmark-dev "${peers[@]}") ;;
   instructions) needed=("${build[@]}" libbenchmark-dev valgrind) ;;
@@ -36,7 +39,7 @@ case "${1:-}" in
   studio) needed=("${build[@]}" "${studio[@]}") ;;
   web) needed=("${web[@]}") ;;
   lint) needed=("${build[@]}" "${tests[@]}" clang-tidy-19) ;;
-  *) echo "usage: scripts/setup.sh build|python|test|sanitizers|bench|instructions|format|lint|wasm|studio|web" >&2; exit 2 ;;
+  *) echo "usage: scripts/setup.sh build|python|test|notebook|sanitizers|bench|instructions|format|lint|wasm|studio|web" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

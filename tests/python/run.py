@@ -1,4 +1,5 @@
-"""Runs the tests of the package that is installed: run.py [COUNTS FAILED], files of the stages of `make test`."""
+"""Runs the tests of the package that is installed: run.py [COUNTS FAILED [FILES]]; the first two are files of the stages of
+`make test`, FILES which tests to run."""
 
 import os
 import sys
@@ -10,9 +11,9 @@ class Result(unittest.TextTestResult):
         return [test for test, _ in self.failures + self.errors] + list(self.unexpectedSuccesses)
 
 
-def main(counts=None, failed=None):
+def main(counts=None, failed=None, files="test*.py"):
     here = os.path.dirname(os.path.abspath(__file__))
-    suite = unittest.defaultTestLoader.discover(here)
+    suite = unittest.defaultTestLoader.discover(here, files)
     result = unittest.TextTestRunner(resultclass=Result, verbosity=1).run(suite)
     lost, skipped = result.failed(), len(result.skipped)
     if counts:
