@@ -120,7 +120,7 @@ int run(int argc, char** argv) {
   const auto subcommands = app.get_subcommands([](CLI::App*) { return true; });
   for (std::size_t k = 0; k < subcommands.size(); ++k) {
     if (!app.got_subcommand(subcommands[k])) continue;
-    if (auto done = actions[k](); !done) return fail(done.error());
+    if (auto status = actions[k](); !status) return fail(status.error());
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
     return fail(lost_output({}));

@@ -109,22 +109,6 @@ TEST(Sculpt, NothingMovesWithoutAToolInReach) {
   EXPECT_TRUE(identical(content_of(sculpted(workshop, commands)), content_of(bonnet())));
 }
 
-TEST(Sculpt, SaysThatLengthsWithoutAUnitAreWrittenAsMillimetres) {
-  const Workshop workshop;
-  const std::string script = workshop.script(Json::array());
-  const std::string square = workshop.file(
-      "square.g2", "200 1 0 0\n3 0\n2 2\n0 0 1 1\n2 2\n0 0 1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
-  const std::string said =
-      "lengths are written as millimetres: " + square + " does not say what they are";
-  const Outcome other =
-      knead({"sculpt", square, "-o", workshop / "square.step", "--script", script});
-  ASSERT_EQ(other.code, 0) << other.err;
-  EXPECT_NE(other.out.find(said), std::string::npos) << other.out;
-  const Outcome same = knead({"sculpt", square, "-o", workshop / "same.g2", "--script", script});
-  ASSERT_EQ(same.code, 0) << same.err;
-  EXPECT_EQ(same.out.find("millimetres"), std::string::npos) << "the format has no unit";
-}
-
 TEST(Sculpt, OnlyCoordinatesOfTheSurfaceDiffer) {
   const Workshop workshop;
   for (const char* id : {skin, ring}) {

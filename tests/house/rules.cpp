@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "house/characters.hpp"
 #include "house/function_lengths.hpp"
 
 namespace knead::house {
@@ -40,18 +41,6 @@ constexpr std::string_view file_of_exceptions = "src/base/parallel_for.cpp";
 /// The door to Eigen's decompositions, which knows empty, rank-deficient and non-finite matrices.
 constexpr std::array<std::string_view, 2> files_of_decompositions = {"src/base/decompositions.hpp",
                                                                      "src/base/decompositions.cpp"};
-
-/// Of UTF-8; marks that are set on another character are not counted.
-std::ptrdiff_t characters(std::string_view line) {
-  std::ptrdiff_t count = 0;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    const auto byte = static_cast<unsigned char>(line[k]);
-    const bool mark = byte == 0xCC || (byte == 0xCD && k + 1 < line.size() &&
-                                       static_cast<unsigned char>(line[k + 1]) < 0xB0);
-    count += (byte & 0xC0) != 0x80 && !mark ? 1 : 0;
-  }
-  return count;
-}
 
 std::vector<std::string> lines_of(const fs::path& file) {
   std::ifstream in(file);

@@ -329,7 +329,6 @@ std::vector<Vector2d> FaceTessellator::off(const Chart& chart,
   return result;
 }
 
-/// Or why not.
 std::expected<FaceTessellator::Filling, const char*> FaceTessellator::fill(
     const Chart& chart, std::span<const std::vector<Vector2d>> outline,
     std::span<const Point> bounds) const {

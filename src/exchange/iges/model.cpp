@@ -147,7 +147,6 @@ class ModelReader {
             .error());
   }
 
-  /// The surface of a face.
   brep::Index support_of(int number) {
     const auto known = supports_.find(number);
     if (known != supports_.end()) return known->second;
@@ -168,14 +167,12 @@ class ModelReader {
     const int type = file_.find(number)->type;
     std::vector<int> boundaries;
     std::size_t first = 4, count = 0;
-    if (type ==
-        144) {  // surface, whether its outer boundary is given, number of inner ones, the outer one
+    if (type == 144) {
       if (pointer(2) == 0 && pointer(3) == 0) return;
       boundaries.push_back(pointer(2) == 0 ? 0 : pointer(4));
       first = 5;
       count = static_cast<std::size_t>(std::max(pointer(3), 0));
-    } else {  // 143: kind, surface, their number; 510: surface, their number, whether the first is
-              // the outer one
+    } else {
       count = static_cast<std::size_t>(std::max(pointer(type == 143 ? 3 : 2), 0));
     }
     for (std::size_t k = first; k < first + count && k < values.size(); ++k)
@@ -187,8 +184,8 @@ class ModelReader {
     for (const int boundary : boundaries) {
       brep::Bound bound = read_loop(boundary, surface, *move);
       if (bound.kind == brep::Bound::Kind::unknown) continue;
-      bound.forward = face.same_sense;  // loops of IGES run round the normal of the surface, not
-                                        // that of the face
+      // Loops of IGES run round the normal of the surface, not that of the face.
+      bound.forward = face.same_sense;
       face.bounds.push_back(std::move(bound));
     }
     face.support = support_of(surface);
