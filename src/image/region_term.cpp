@@ -146,8 +146,13 @@ double region_pressure(const Sides& sides, std::size_t point, double grey, bool 
   const double outside = sides.outside[point], contrast = sides.inside - outside,
                square = contrast * contrast;
   if (!sides.beyond.empty() && sides.beyond[point] != 0) return relative ? -1 : -square;
-  const double in = grey - sides.inside, out = grey - outside, pressure = out * out - in * in;
+  return region_pressure(sides.inside, outside, grey, relative);
+}
+
+double region_pressure(double inside, double outside, double grey, bool relative) {
+  const double in = grey - inside, out = grey - outside, pressure = out * out - in * in;
   if (!relative) return pressure;
+  const double contrast = inside - outside, square = contrast * contrast;
   return square > 0 ? std::clamp(pressure / square, -1.0, 1.0) : 0;
 }
 

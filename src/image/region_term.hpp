@@ -18,5 +18,8 @@ namespace knead {
 /// has that grey value.
 [[nodiscard]] double region_pressure(const Sides& sides, std::size_t point, double grey,
                                      bool relative);
+/// The same of two means: (I − μ_out)² − (I − μ_in)². Relative: in units of (μ_in − μ_out)², within
+/// ±1, and 0 where the means are equal.
+[[nodiscard]] double region_pressure(double inside, double outside, double grey, bool relative);
 
 }  // namespace knead

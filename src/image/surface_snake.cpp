@@ -10,6 +10,7 @@
 
 #include "base/decompositions.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "region_term.hpp"
 #include "snake_motion.hpp"
 #include "snake_settings.hpp"
 #include "surface_net.hpp"
@@ -141,9 +142,9 @@ struct MovingSurface {
       if (presses) {
         double pressure = settings.balloon;
         if (greys) {
-          const double grey = image.intensity(place), in = grey - greys->inside,
-                       out = grey - greys->outside;
-          pressure += image.settings().region * (out * out - in * in);
+          pressure += image.settings().region * region_pressure(greys->inside, greys->outside,
+                                                                image.intensity(place),
+                                                                image.settings().relative_region);
         }
         const Eigen::Vector3d normal = side * u.row(q).cross(w.row(q)).transpose().normalized();
         if (flows) pressure += image.flow(place).dot(normal);

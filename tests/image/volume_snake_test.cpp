@@ -268,6 +268,25 @@ TEST(SurfaceSnake, FindsANoisyBallByRegions) {
   }
 }
 
+TEST(SurfaceSnake, RelativeRegionsFindPaleBallsAsBrightOnes) {
+  const Point centre(16, 16, 16);
+  const VolumeImage bright = blurred_ball(32, centre, 10, 0.6);
+  VolumeImage pale = bright;
+  for (double& x : pale.values) x *= 0.125;
+  const auto found = [&](const VolumeImage& volume) {
+    const auto image = VolumePotential::create(
+        volume, {.smoothing = 0, .edge = 0, .region = 1, .relative_region = true});
+    EXPECT_TRUE(image);
+    const auto snake =
+        run(*image, {.centre = centre, .radii = {5, 5, 5}},
+            {.control_points = {12, 9}, .units = 60, .alpha = 0.002, .beta = 0.01, .gamma = 0.1});
+    EXPECT_TRUE(snake && snake->converged);
+    return distances(snake->snake, centre).mean;
+  };
+  EXPECT_NEAR(found(bright), 10, 0.15);
+  EXPECT_NEAR(found(pale), found(bright), 1e-9);
+}
+
 TEST(SurfaceSnake, PressureDrivesItToTheEdgeOutwardsAndInwards) {
   const Point centre(20, 20, 20);
   const auto image =
