@@ -3,22 +3,13 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh studio
-scripts/configure.sh wasm
-cmake --build build/wasm --target knead_studio knead_lab knead_snake knead_types
+scripts/engine.sh knead_lab knead_snake
 for module in engine/knead_studio panels/lab/knead_lab panels/snakes/knead_snake; do
   built=build/wasm/bindings/wasm/${module##*/}.wasm
   cmp -s "$built" "web/src/$module.wasm" || cp "$built" "web/src/$module.wasm"
 done
-node web/scripts/types.mjs build/wasm/bindings/wasm/knead_types.wasm web/src/engine/generated.ts
-
 cd web
-# What the lock file names, and again only when it changes.
-if ! cmp -s package-lock.json node_modules/.installed; then
-  npm ci --no-audit --no-fund --loglevel=error
-  cp package-lock.json node_modules/.installed
-fi
-inputs=(index.html package-lock.json vite.config.ts tsconfig.json src public ../samples/bonnet.step)
+inputs=(index.html package-lock.json vite.config.ts tsconfig.json src public ../bindings/npm/src ../samples/bonnet.step)
 # The engine in two modules; what a session calls first is what the page loads first.
 engine=src/engine
 if [ ! -f $engine/knead_core.wasm ] || [ -n "$(find $engine/knead_studio.wasm scripts/split.mjs -newer $engine/knead_core.wasm -print -quit)" ]; then

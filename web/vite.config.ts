@@ -6,7 +6,7 @@ import { rhinoWithoutEval } from './plugins/rhino_without_eval.mjs';
 
 export default defineConfig({
   base: './',
-  resolve: { alias: { '@studio': fileURLToPath(new URL('./src', import.meta.url)) } },
+  resolve: { alias: { '@knead': fileURLToPath(new URL('../bindings/npm/src', import.meta.url)), '@studio': fileURLToPath(new URL('./src', import.meta.url)) } },
   // A module preload polyfill would be an inline script, a data: asset a second origin: neither passes the page's policy.
   plugins: [offline({ lazy: /rhino/ })],
   build: {

@@ -11,7 +11,7 @@ export default defineConfig({
   cacheDir: here('node_modules/.vite'),
   server: { fs: { allow: [here('..')] } }, // the tests stand outside of this directory
   plugins: [rhinoWithoutEval({ forNode: true })],
-  resolve: { alias: { '@studio': here('src'), three: here('node_modules/three'), typescript: here('node_modules/typescript/lib/typescript.js') } },
+  resolve: { alias: { '@knead': here('../bindings/npm/src'), '@studio': here('src'), three: here('node_modules/three'), typescript: here('node_modules/typescript/lib/typescript.js') } },
   test: {
     ...reporting('studio_node'),
     globals: true, server: { deps: { inline: ['rhino3dm'] } }, include: ['tests/web/*.test.ts'], exclude: ['**/e2e/**'], testTimeout: 60_000,

@@ -17,7 +17,7 @@ export default defineConfig({
   cacheDir: here('node_modules/.vite'),
   server: { fs: { allow: [here('..')] } }, // the tests stand outside of this directory
   plugins: [rhinoWithoutEval({ forNode: true })],
-  resolve: { alias: { '@studio': here('src'), 'playwright-core': here('node_modules/playwright-core') } },
+  resolve: { alias: { '@knead': here('../bindings/npm/src'), '@studio': here('src'), 'playwright-core': here('node_modules/playwright-core') } },
   test: {
     ...reporting('studio_chromium'),
     globals: true,

@@ -127,7 +127,12 @@ Expected<Answer> written_answer(const Type& type, Expected<std::string> json) {
 
 std::string call(Studio& studio, std::string input, std::size_t json_size, Answer& kept) {
   auto answer = answered(studio, std::move(input), json_size);
-  if (!answer) return error_json(answer.error());
+  if (!answer) {
+    std::string text = error_json(answer.error());
+    text.insert(text.size() - 1, fmt::format(R"(,"file":{},"line":{})",
+                                             json_text(answer.error().file), answer.error().line));
+    return text;
+  }
   kept = *std::move(answer);
   return written(kept);
 }

@@ -8,6 +8,7 @@ namespace knead::studio {
 // Each is a file of queries/.
 std::vector<Query> document_queries();
 std::vector<Query> act_queries();
+std::vector<Query> program_queries();
 std::vector<Query> reading_queries();
 std::vector<Query> picture_queries();
 std::vector<Query> comb_queries();
@@ -20,9 +21,9 @@ std::vector<Query> assembly_queries();
 std::span<const Query> queries() {
   static const std::vector<Query> all = [] {
     std::vector<Query> list;
-    for (auto* const part :
-         {document_queries, act_queries, reading_queries, picture_queries, comb_queries,
-          body_queries, surface_queries, material_queries, context_queries, assembly_queries}) {
+    for (auto* const part : {document_queries, act_queries, program_queries, reading_queries,
+                             picture_queries, comb_queries, body_queries, surface_queries,
+                             material_queries, context_queries, assembly_queries}) {
       std::ranges::copy(part(), std::back_inserter(list));
     }
     return list;

@@ -25,6 +25,10 @@ namespace knead::studio {
 [[nodiscard]] std::string call(Studio& studio, std::string input, std::size_t json_size,
                                Answer& kept);
 
+/// The commands as methods (`CommandMethods`), and of each the field that may stand alone
+/// (`firstFields`).
+void declare_commands(TypeScript& types);
+
 /// The types of all requests and answers, and `Queries`: both by the names of the queries.
 void declare_queries(TypeScript& types);
 

@@ -6,9 +6,13 @@
 
 #include "queries.hpp"
 
-/// Of the host: how many steps of the command under way are done, of how many.
-extern "C" __attribute__((import_module("studio"), import_name("progress"))) void knead_progress(
-    int steps, int total);
+#define KNEAD_IMPORT(name) __attribute__((import_module("studio"), import_name(#name)))
+
+/// Of the host: how many steps of the command under way are done, of how many. Not 0: it stops, and
+/// they stay.
+extern "C" KNEAD_IMPORT(progress) int knead_progress(int steps, int total);
+/// Asked within steps. Not 0: the command stops, and the present step is given up.
+extern "C" KNEAD_IMPORT(stops) int knead_stops();
 
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
@@ -20,10 +24,8 @@ struct Held {
   Answer answer;
   Studio studio;
   Held() {
-    studio.progress = [](int steps, int total) {
-      knead_progress(steps, total);
-      return true;  // the page stops what takes long by ending its worker
-    };
+    studio.progress = [](int steps, int total) { return knead_progress(steps, total) == 0; };
+    studio.go_on = [] { return knead_stops() == 0; };
   }
 };
 

@@ -14,7 +14,9 @@ struct Studio {
   Point origin = Point::Zero();  ///< of pictures, file units
   PictureMaker pictures;
   ShownParts shown;
-  Session::Progress progress;  ///< of the command under way
+  Session::Progress progress;     ///< of the command under way
+  Session::GoOn go_on;            ///< asked within its steps
+  std::size_t file_surfaces = 0;  ///< of the document as it was opened
 };
 
 /// The error (usage) of what needs a session.

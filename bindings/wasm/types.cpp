@@ -23,7 +23,10 @@ std::string& text() {
 /// The text becomes a TypeScript module with the types of the session's answers, the queries and
 /// the file formats.
 KNEAD_EXPORT(knead_types) int knead_types() {
-  text() = knead::session_typescript(knead::studio::declare_queries) +
+  text() = knead::session_typescript([](knead::TypeScript& types) {
+             knead::studio::declare_commands(types);
+             knead::studio::declare_queries(types);
+           }) +
            "\nexport const fileFormats = " + knead::format_json() + " as const;\n";
   return 1;
 }

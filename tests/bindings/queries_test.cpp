@@ -6,6 +6,7 @@
 #include <set>
 
 #include "describe/text.hpp"
+#include "knead/session/command_json.hpp"
 
 namespace knead::studio {
 namespace {
@@ -45,7 +46,7 @@ class QueriesOfThePage : public ::testing::Test {
 
 /// A value for a field that must be there.
 JsonValue value_for(const Field& field) {
-  if (field.name == "format") return "stl";
+  if (field.name == "name") return "x.stl";
   switch (field.type->kind) {
     case Kind::text:
       return "x";
@@ -160,6 +161,56 @@ TEST_F(QueriesOfThePage, SayWhatTheyAreAndHaveTypes) {
   EXPECT_EQ(types.text.find(": unknown"), std::string::npos);
 }
 
+TEST_F(QueriesOfThePage, TypesHaveEveryCommandAsAMethod) {
+  TypeScript types;
+  declare_commands(types);
+  for (const std::string& command : command_names()) {
+    EXPECT_NE(types.text.find("\n  '" + command + "'(fields"), std::string::npos) << command;
+    EXPECT_NE(types.text.find("\n  " + command + ": '"), std::string::npos) << command;
+  }
+  EXPECT_NE(
+      types.text.find(
+          "'step'(count: NonNullable<StepCommand['count']>, fields?: Omit<StepCommand, 'do' | "
+          "'count'> & Options): Result;"),
+      std::string::npos);
+}
+
+TEST_F(QueriesOfThePage, RunAScriptWholeOrNotAtAll) {
+  sheet();
+  const auto run = [this](const std::string& script, bool list) {
+    return ask("run", {{"script", script.size()}, {"list", list}, {"name", "press.json"}}, script);
+  };
+  const std::string good = R"({"do": "hold", "rows": 1}, {"do": "measure", "name": "middle"})";
+  const JsonValue refused = run(
+      R"({"knead": 2, "commands": [)" + good + R"(, {"do": "select", "surface": "#9"}]})", false);
+  EXPECT_EQ(refused["file"], "press.json");
+  EXPECT_EQ(refused["error"]["where"], "commands[2]: surface");
+  EXPECT_EQ(answer("state")["surfaces"][0]["hold"], 0);
+  EXPECT_EQ(run("{\n]", false)["line"], 2);
+  EXPECT_TRUE(run("[" + good + "]", true).contains("answer"));
+  EXPECT_EQ(answer("state")["surfaces"][0]["hold"], 1);
+  // Each command is an entry of the history.
+  answer("execute", {{"commands", {{{"do", "undo"}}}}});
+  EXPECT_EQ(answer("state")["surfaces"][0]["hold"], 1);
+  EXPECT_EQ(answer("state")["readings"].size(), 0);
+}
+
+TEST_F(QueriesOfThePage, CommandsAreStoppedBetweenSteps) {
+  sheet();
+  answer("execute", {{"commands", {{{"do", "hold"}, {"rows", 1}}}}});
+  int told = 0;
+  studio_.progress = [&](int done, int total) {
+    EXPECT_EQ(total, 9);
+    told = done;
+    return done < 3;
+  };
+  answer("execute",
+         {{"commands", {{{"do", "step"}, {"count", 9}}, {{"do", "hold"}, {"rows", 2}}}}});
+  EXPECT_EQ(told, 3);
+  EXPECT_EQ(answer("state")["steps"], 3);
+  EXPECT_EQ(answer("state")["surfaces"][0]["hold"], 1);
+}
+
 TEST_F(QueriesOfThePage, AnswerEachInItsType) {
   const std::set<std::string_view> of_files = {"open", "restore", "face_reading"};
   for (const Query& query : queries()) {
@@ -170,7 +221,9 @@ TEST_F(QueriesOfThePage, AnswerEachInItsType) {
       if (field.presence == Presence::required) request[std::string(field.name)] = value_for(field);
     }
     if (name == "section_combs") request["plane"] = {1, 0, 0, 4.5};
-    const JsonValue reply = ask(name, request);
+    const std::string script = name == "run" ? R"({"knead": 2, "commands": []})" : "";
+    if (name == "run") request["script"] = script.size();
+    const JsonValue reply = ask(name, request, script);
     ASSERT_EQ(reply.contains("error"), of_files.contains(name)) << name << ": " << reply;
     if (reply.contains("error")) continue;
     const Type& type = *query.answer;

@@ -4,7 +4,7 @@ import { fileURLToPath } from 'node:url';
 import * as THREE from 'three';
 
 import { cannotFollow, type MeasuredPoint } from '@studio/document/readings';
-import { Engine } from '@studio/engine/engine';
+import { Engine } from '@knead/engine';
 import { type AssemblyNode, assemblyTree } from '@studio/panels/assembly_tree';
 import { inModel } from '@studio/tools/measure';
 import { ContextView } from '@studio/view/context_view';

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { Engine } from '@studio/engine/engine';
+import { Engine } from '@knead/engine';
 import { type DrawnBody, nearestChord, nearestPoint } from '@studio/view/near';
 import { still } from '@studio/view/placing';
 import { heldPoints } from '@studio/view/body_view';

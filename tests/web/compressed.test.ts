@@ -1,7 +1,7 @@
 // Compressed CAD files: opened as what they hold, saved as they came.
 import { gunzipSync, gzipSync } from 'node:zlib';
 
-import { packedLike, unpacked } from '@studio/document/compressed';
+import { packedLike, unpacked } from '@knead/compressed';
 import type { Documents } from '@studio/document/documents';
 import { cadFormat, isCompressed, uncompressedName } from '@studio/document/formats';
 import type { Host } from '@studio/document/host';

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
 import { notShown } from '@studio/document/context';
-import { Engine } from '@studio/engine/engine';
+import { Engine } from '@knead/engine';
 
 import { facesStep } from './faces_step';
 

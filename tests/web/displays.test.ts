@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
 import { type DisplayInfo, type SettingValue, unitIn } from '@studio/engine/displays';
-import { Engine } from '@studio/engine/engine';
+import { Engine } from '@knead/engine';
 import type { Command } from '@studio/engine/session_types';
 import { limitsOf } from '@studio/view/limits';
 

@@ -4,8 +4,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { Engine } from '@studio/engine/engine';
-import { type Command, EngineError, type Vector3 } from '@studio/engine/session_types';
+import { Engine } from '@knead/engine';
+import { type Command, KneadError, type Vector3 } from '@studio/engine/session_types';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));
@@ -175,13 +175,13 @@ describe('the session in WebAssembly', () => {
 
   it('writes meshes of every format', async () => {
     const engine = await sheet(8);
-    const stl = engine.query('mesh', { format: 'stl', detail: 10 });
+    const stl = engine.query('file', { name: 'sheet.stl', detail: 10 }).file;
     const triangles = new DataView(stl.buffer, stl.byteOffset).getUint32(80, true);
     expect(stl.length).toBe(84 + 50 * triangles);
     expect(triangles).toBe(2 * 10 * 10);
-    expect(new TextDecoder().decode(engine.query('mesh', { format: 'obj', detail: 10 }).subarray(0, 30))).toMatch(/^# Knead, lengths in mm/);
-    expect(new TextDecoder().decode(engine.query('mesh', { format: 'ply', detail: 10 }).subarray(0, 3))).toBe('ply');
-    expect(() => engine.query('mesh', { format: 'stl', detail: 0 })).toThrow(/detail/);
+    expect(new TextDecoder().decode(engine.query('file', { name: 'sheet.obj', detail: 10 }).file.subarray(0, 30))).toMatch(/^# Knead, lengths in mm/);
+    expect(new TextDecoder().decode(engine.query('file', { name: 'sheet.ply', detail: 10 }).file.subarray(0, 3))).toBe('ply');
+    expect(() => engine.query('file', { name: 'sheet.stl', detail: 0 }).file).toThrow(/detail/);
   });
 
   it('writes the trimmed faces of a STEP file, sculpted, as the native program does', async () => {
@@ -189,9 +189,9 @@ describe('the session in WebAssembly', () => {
     try {
       const engine = await load();
       engine.query('open', { file: bonnet, name: 'bonnet.step' });
-      const opened = engine.query('mesh', { format: 'stl', detail: 96 });
+      const opened = engine.query('file', { name: 'sheet.stl', detail: 96 }).file;
       for (const command of script.commands) engine.execute(command);
-      const [stl, saved, out] = [engine.query('mesh', { format: 'stl', detail: 96 }), join(directory, 'saved.step'), join(directory, 'native.stl')];
+      const [stl, saved, out] = [engine.query('file', { name: 'sheet.stl', detail: 96 }).file, join(directory, 'saved.step'), join(directory, 'native.stl')];
       expect(stl).not.toEqual(opened);
       writeFileSync(saved, engine.query('save').file);
       execFileSync(native, ['mesh', saved, '-o', out]);
@@ -223,7 +223,7 @@ describe('the session in WebAssembly', () => {
     const again = await load();
     again.query('open', { file: engine.query('save').file, name: 'curves.step' });
     expect(Array.from(again.query('body_picture', { body: 1 }).net)).toEqual(Array.from(engine.query('body_picture', { body: 1 }).net));
-    expect(() => engine.execute({ do: 'points', rows_u: [0], by: [0, 0, 1] })).toThrow(EngineError);
+    expect(() => engine.execute({ do: 'points', rows_u: [0], by: [0, 0, 1] })).toThrow(KneadError);
   });
 
   it('measures pictures from the middle of a first surface that is far away', async () => {
@@ -239,9 +239,9 @@ describe('the session in WebAssembly', () => {
   it('says what is wrong with a file, a command and an order', async () => {
     const engine = await load();
     expect(() => engine.query('state')).toThrow(/nothing is open/);
-    expect(() => engine.query('open', { file: new TextEncoder().encode('solid cube'), name: 'cube.stl' })).toThrow(EngineError);
+    expect(() => engine.query('open', { file: new TextEncoder().encode('solid cube'), name: 'cube.stl' })).toThrow(KneadError);
     engine.query('fresh', { name: 'empty' });
-    expect(() => engine.execute({ do: 'step' })).toThrow(EngineError);
+    expect(() => engine.execute({ do: 'step' })).toThrow(KneadError);
     expect(() => engine.execute(JSON.parse('{ "do": "stpe" }') as Command)).toThrow(/not a command/);
     expect(() => engine.execute({ do: 'undo' })).toThrow(/nothing to undo/);
     expect(() => engine.query('picture', { surface: 7, detail: 10 })).toThrow(/no such surface/);

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { Engine } from '@studio/engine/engine';
+import { Engine } from '@knead/engine';
 import type { Vector3 } from '@studio/engine/session_types';
 import { scenes } from '@studio/document/scenes';
 

@@ -1,8 +1,8 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
-import { Engine } from '@studio/engine/engine';
-import { type Command, EngineError } from '@studio/engine/session_types';
+import { Engine } from '@knead/engine';
+import { type Command, KneadError } from '@studio/engine/session_types';
 
 const wasm = readFileSync(fileURLToPath(new URL('../../web/src/engine/knead_studio.wasm', import.meta.url)));
 const drag = (z: number): Command => ({ do: 'drag', at: [0.5, 0.5], by: [0, 0, z], radius: 20, steps: 1 });
@@ -23,7 +23,7 @@ describe('the history above the opened document', () => {
     const { engine } = await opened();
     const [journal, points] = [engine.query('journal'), engine.query('control_points', { surface: 0 })];
     expect(engine.query('state')).toMatchObject({ undo: false, redo: false });
-    expect(() => engine.query('act', { commands: [undo] })).toThrow(EngineError);
+    expect(() => engine.query('act', { commands: [undo] })).toThrow(KneadError);
     engine.query('act', { commands: [drag(5)] });
     engine.query('act', { commands: [drag(-3)], join: true });
     expect(engine.query('state')).toMatchObject({ undo: true, redo: false });

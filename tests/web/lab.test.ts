@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { EngineError } from '@studio/engine/session_types';
+import { KneadError } from '@studio/engine/session_types';
 import { change, groups, inserted, knotText, moved, parseKnots, removed, withDegree } from '@studio/panels/lab/knots';
 import { type Jumps, LabModule, methods, pairs } from '@studio/panels/lab/module';
 
@@ -161,7 +161,7 @@ describe("the lab's module", () => {
     expect(() => lab.curves(0, 100)).toThrow(/no knots/);
     lab.setKnots(3, uniform);
     const before = lab.curves(0, 100);
-    expect(() => lab.setKnots(3, [0, 0, 0, 0, 2, 1, 3, 3, 3, 3])).toThrow(EngineError);
+    expect(() => lab.setKnots(3, [0, 0, 0, 0, 2, 1, 3, 3, 3, 3])).toThrow(KneadError);
     expect(() => lab.setKnots(3, [0, 0, 0, 0])).toThrow(/knots/);
     expect(() => lab.setKnots(26, uniform)).toThrow(/degree/);
     expect(() => lab.setKnots(3, [0, 0, 0, 0, NaN, 1, 1, 1, 1])).toThrow(/knot/);

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { Engine } from '@studio/engine/engine';
+import { Engine } from '@knead/engine';
 import { Preparation } from '@studio/engine/preparation';
 import { Rest } from '@studio/engine/rest';
 import type { Command, Vector3 } from '@studio/engine/session_types';

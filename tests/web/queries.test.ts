@@ -2,14 +2,14 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { Engine, type Query } from '@studio/engine/engine';
-import { type Command, EngineError } from '@studio/engine/session_types';
+import { Engine, type Query } from '@knead/engine';
+import { type Command, KneadError } from '@studio/engine/session_types';
 
 // The one call from the page to the engine.
 
 const folder = fileURLToPath(new URL('../../web/src/engine', import.meta.url));
 const wasm = readFileSync(join(folder, 'knead_studio.wasm'));
-const table = /export interface Queries \{\n([^}]*(?:\}[^}]*)*?)\n\}\n/.exec(readFileSync(join(folder, 'generated.ts'), 'utf8'))![1]!;
+const table = /export interface Queries \{\n([^}]*(?:\}[^}]*)*?)\n\}\n/.exec(readFileSync(join(folder, '../../../bindings/npm/src/generated.ts'), 'utf8'))![1]!;
 const queries = table.split('\n').map((line) => /^  (\w+): \{ request: (\w+); answer: (.+) \};$/.exec(line)!.slice(1) as [Query, string, string]);
 
 const sheet: Command[] = [
@@ -17,8 +17,9 @@ const sheet: Command[] = [
   { do: 'new', shape: 'curve', size: 5, net: 6 }, { do: 'select', surface: '#1' },
 ];
 const everything = {
-  surface: 0, body: 0, tool: 0, name: 'sheet', format: 'stl', history_bytes: 1, commands: [], at: [0.5, 0.5], near: [0, 0, 0], face: '#9', curves: [2, 2], teeth: 2,
+  surface: 0, body: 0, tool: 0, name: 'sheet.stl', history_bytes: 1, commands: [], at: [0.5, 0.5], near: [0, 0, 0], face: '#9', curves: [2, 2], teeth: 2,
   plane: [1, 0, 0, 4.5], margin: 0.1, net: [4, 4, 4], counts: [3, 4], file: new Uint8Array(), snapshot: new Uint8Array(),
+  script: new TextEncoder().encode('{"knead": 2, "commands": []}'),
 };
 
 it('is one export, beside the memory for what is asked and answered', async () => {
@@ -27,7 +28,7 @@ it('is one export, beside the memory for what is asked and answered', async () =
 });
 
 it('answers what its types say, and refuses what they do not name', async () => {
-  const source = readFileSync(join(folder, 'generated.ts'), 'utf8');
+  const source = readFileSync(join(folder, '../../../bindings/npm/src/generated.ts'), 'utf8');
   expect(queries.length).toBeGreaterThan(30);
   for (const [query, type, answer] of queries) {
     const engine = await Engine.load(wasm);
@@ -36,7 +37,7 @@ it('answers what its types say, and refuses what they do not name', async () => 
     const fields = new RegExp(`export type ${type} = \\{\n([^]*?)\\};`).exec(source)![1]!;
     const request = Object.fromEntries(Object.entries(everything).filter(([name]) => new RegExp(`^  ${name}: `, 'm').test(fields)));
     const ask = () => (engine.query as (name: Query, request: object) => unknown).call(engine, query, request);
-    if (['open', 'restore', 'face_reading'].includes(query)) expect(ask, query).toThrow(EngineError); // of files
+    if (['open', 'restore', 'face_reading'].includes(query)) expect(ask, query).toThrow(KneadError); // of files
     else if (answer.endsWith('[]')) expect(ask(), query).toBeInstanceOf(Array);
     else if (/Array$/.test(answer)) expect((ask() as object).constructor.name, query).toBe(answer);
     else if (/^(string|number)$/.test(answer)) expect(typeof ask(), query).toBe(answer);

@@ -4,8 +4,8 @@ import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { Engine } from '@studio/engine/engine';
-import { type Command, EngineError } from '@studio/engine/session_types';
+import { Engine } from '@knead/engine';
+import { type Command, KneadError } from '@studio/engine/session_types';
 
 // The scenarios that the native session passes too (tests/session/scenario_test.cpp), and the examples' scripts: the same
 // expectations hold in WebAssembly, and the control points at the end are the native ones to 1e-9 of the size unless a scenario
@@ -58,8 +58,8 @@ function check(engine: Engine, step: Step): void {
     } catch (e) {
       error = e;
     }
-    expect(error).toBeInstanceOf(EngineError);
-    expect((error as EngineError).info.where).toBe(where);
+    expect(error).toBeInstanceOf(KneadError);
+    expect((error as KneadError).info.where).toBe(where);
     expect(engine.query('state')).toEqual(before);
   } else {
     const { expect: pointer, is, min, max } = step;

@@ -4,7 +4,7 @@ import { fileURLToPath } from 'node:url';
 
 import { isNet, readKnead } from '@studio/document/knead_file';
 import { scenes } from '@studio/document/scenes';
-import { Engine } from '@studio/engine/engine';
+import { Engine } from '@knead/engine';
 import type { Command } from '@studio/engine/session_types';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));

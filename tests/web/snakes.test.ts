@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { EngineError } from '@studio/engine/session_types';
+import { KneadError } from '@studio/engine/session_types';
 import { type Pixels, SnakeModule, type Snakes } from '@studio/panels/snakes/module';
 import { imageFields, moreFields, moreImageFields, noEnergy, type Preset, presetOf, presets, type Script, scriptText, snakeFields, type Start, thinned } from '@studio/panels/snakes/script';
 
@@ -179,7 +179,7 @@ describe('the module of snakes', () => {
     const module = await room([circle(40, 52, 30)]);
     const before = module.contours('csv', '');
     const refused = (text: string, why: RegExp) => {
-      expect(() => module.setScript(text)).toThrow(EngineError);
+      expect(() => module.setScript(text)).toThrow(KneadError);
       expect(() => module.setScript(text)).toThrow(why);
     };
     refused('{', /JSON|json|end/);

@@ -2,8 +2,8 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
 import { adviceOn, inOneLine, looseIn, throughIn } from '@studio/document/words';
-import { Engine } from '@studio/engine/engine';
-import { type Command, EngineError, type EngineErrorInfo, errorOf, type NoteInfo } from '@studio/engine/session_types';
+import { Engine } from '@knead/engine';
+import { type Command, KneadError, type EngineErrorInfo, errorOf, type NoteInfo } from '@studio/engine/session_types';
 
 const wasm = readFileSync(fileURLToPath(new URL('../../web/src/engine/knead_studio.wasm', import.meta.url)));
 
@@ -23,7 +23,7 @@ async function refused(...commands: Command[]): Promise<{ engine: Engine; info: 
   try {
     engine.execute(commands.at(-1)!);
   } catch (error) {
-    if (error instanceof EngineError) return { engine, info: error.info };
+    if (error instanceof KneadError) return { engine, info: error.info };
     throw error;
   }
   throw new Error('this is not refused');
@@ -72,7 +72,7 @@ describe('what the engine refuses', () => {
       try {
         engine.execute({ do: 'edge', edge: '#43', hold: 'follow' });
       } catch (e) {
-        if (e instanceof EngineError) return e.info;
+        if (e instanceof KneadError) return e.info;
       }
       throw new Error('this is not refused');
     })();
@@ -94,7 +94,7 @@ describe('what the engine refuses', () => {
       try {
         engine.execute({ do: 'edge', edge: '#43', hold: 'follow' });
       } catch (e) {
-        if (e instanceof EngineError) return adviceOn(e.info);
+        if (e instanceof KneadError) return adviceOn(e.info);
       }
       throw new Error('this is not refused');
     })();

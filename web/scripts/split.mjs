@@ -29,7 +29,7 @@ const server = await createServer({ root: web, configFile: join(web, 'vite.confi
 try {
   const instrumented = join(directory, 'instrumented.wasm'), profile = join(directory, 'profile');
   split('--instrument', whole, '-o', instrumented);
-  const { Engine } = await server.ssrLoadModule('/src/engine/engine.ts');
+  const { Engine } = await server.ssrLoadModule('@knead/engine');
   const { scenes } = await server.ssrLoadModule('/src/document/scenes.ts');
   const engine = await Engine.load(readFileSync(instrumented));
   session(engine, scenes.filter(({ name }) => !/^(Fig\.|Fine)/.test(name)), new Uint8Array(readFileSync(join(web, '../samples/bonnet.step'))));

@@ -12,6 +12,7 @@ namespace {
 
 std::string start(Studio& studio, Document document) {
   studio.origin = middle_of(document);
+  studio.file_surfaces = document.surfaces().size();
   studio.shown.forget();
   studio.session.emplace(std::move(document));
   return session_json(*studio.session);
@@ -45,22 +46,25 @@ Expected<std::string> ask(Studio& studio, OpenQuery q) {
 
 struct FreshQuery {
   using Answer = SessionInfo;
-  std::string name;
+  std::string name, unit = "mm";
 };
 
 void describe(FreshQuery& q, Fields& fields) {
   fields.name("fresh", "Begins a session without a file.");
   fields.add("name", q.name, {.help = "of the document", .presence = Presence::required});
+  fields.add("unit", q.unit, {.help = "of lengths"});
 }
 
 Expected<std::string> ask(Studio& studio, const FreshQuery& q) {
-  return start(studio, Document::fresh(q.name));
+  if (is_length_unit(q.unit)) return start(studio, Document::fresh(q.name, q.unit));
+  return usage_error("\"" + q.unit + "\" is no unit of length", "unit",
+                     "use one of " + list_of_length_units());
 }
 
 struct RestoreQuery {
   using Answer = Nothing;
   Bytes source, snapshot;
-  std::string name;
+  std::string name, unit = "mm";
 };
 
 void describe(RestoreQuery& q, Fields& fields) {
@@ -70,19 +74,22 @@ void describe(RestoreQuery& q, Fields& fields) {
   fields.add("snapshot", q.snapshot,
              {.help = "of the query of that name", .presence = Presence::required});
   fields.add("name", q.name, {.help = "of the document", .presence = Presence::required});
+  fields.add("unit", q.unit, {.help = "of one without a file"});
 }
 
 Expected<Nothing> ask(Studio& studio, RestoreQuery q) {
-  Document document = Document::fresh(q.name);
+  Document document = Document::fresh(q.name, q.unit);
   if (!q.source.data.empty()) {
     auto source = open_source(std::move(q.source.data), q.name);
     if (!source) return std::unexpected(source.error());
     document = Document::from(*std::move(source));
   }
   const Point origin = middle_of(document);
+  const std::size_t surfaces = document.surfaces().size();
   auto session = Session::restore(std::move(document), q.snapshot.data);
   if (!session) return std::unexpected(session.error());
   studio.origin = origin;
+  studio.file_surfaces = surfaces;
   studio.shown.forget();
   studio.session = std::move(*session);
   return {};
@@ -124,53 +131,11 @@ Expected<SavedFile> save(Session& session) {
   return SavedFile{{*std::move(file)}, edges_info(session)};
 }
 
-struct MeshQuery {
-  using Answer = Bytes;
-  std::string format;
-  int detail = 96;
-};
-
-void describe(MeshQuery& q, Fields& fields) {
-  fields.name("mesh",
-              "A file of triangles: the faces of the file as it would be saved, or else all "
-              "surfaces, whole.");
-  fields.add("format", q.format,
-             {.help = "the id of one for triangles", .presence = Presence::required});
-  fields.add("detail", q.detail, {.help = "grid lines wanted per direction"});
-}
-
-Expected<std::string> ask(Session& session, const MeshQuery& q) {
-  const Format* format = find_format(q.format);
-  if (format == nullptr || format->content != FormatContent::triangles)
-    return usage_error("there is no such format");
-  if (session.document().model() == nullptr) {
-    std::vector<NamedSurface> surfaces;
-    SaveOptions options;
-    options.detail = q.detail;
-    for (const SceneSurface& s : session.state().surfaces) {
-      surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
-      options.unit = s.unit;
-    }
-    return save_surfaces(surfaces, *format, options);
-  }
-  auto saved = session.save();
-  if (!saved) return std::unexpected(saved.error());
-  const auto file = open_source(*std::move(saved), session.document().name());
-  if (!file) return std::unexpected(file.error());
-  auto model = save_model(**file, *format);
-  if (!model) return std::unexpected(model.error());
-  return std::move(model->bytes);
-}
-
 }  // namespace
 
 std::vector<Query> document_queries() {
-  return {query<OpenQuery>(),
-          query<FreshQuery>(),
-          query<RestoreQuery>(),
-          query<SnapshotQuery>(),
-          query<SavedFile, save>("save", "The file as it is now."),
-          query<MeshQuery>()};
+  return {query<OpenQuery>(), query<FreshQuery>(), query<RestoreQuery>(), query<SnapshotQuery>(),
+          query<SavedFile, save>("save", "The file as it is now.")};
 }
 
 }  // namespace knead::studio

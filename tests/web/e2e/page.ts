@@ -5,7 +5,7 @@ import { fileURLToPath } from 'node:url';
 
 import { type Browser, type BrowserContext, chromium, type Download, type JSHandle, type Page } from 'playwright-core';
 
-import { Engine } from '@studio/engine/engine';
+import { Engine } from '@knead/engine';
 import type { Command, Vector3 } from '@studio/engine/session_types';
 
 export const root = fileURLToPath(new URL('../../..', import.meta.url));

@@ -10,7 +10,7 @@ import type { Context, Trim } from '../engine/context';
 import { plain } from '../engine/displays';
 import type { Frame, PictureSettings } from '../engine/protocol';
 import { selected } from '../engine/session_state';
-import { type Command, EngineError, type EngineErrorInfo, type LatticeSettings, type NoteInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
+import { type Command, KneadError, type EngineErrorInfo, type LatticeSettings, type NoteInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
 import { usualRadius } from '../engine/strokes';
 import type { App } from '../panels/app';
 import { openSnakes } from '../panels/snakes/door';
@@ -202,7 +202,7 @@ export class Studio implements App {
       this.documents.work(commands);
       return null;
     } catch (error) {
-      return error instanceof EngineError ? inOneLine(error.info) : String(error);
+      return error instanceof KneadError ? inOneLine(error.info) : String(error);
     }
   }
 
@@ -212,7 +212,7 @@ export class Studio implements App {
       await act();
       return true;
     } catch (error) {
-      if (error instanceof EngineError) this.fail(error.info, whole);
+      if (error instanceof KneadError) this.fail(error.info, whole);
       else this.notify({ kind: 'error', text: error instanceof Error ? error.message : String(error) });
       return null;
     }

@@ -1,4 +1,4 @@
-import type { EdgesInfo } from '../engine/generated';
+import type { EdgesInfo } from '@knead/generated';
 import { format, parseLength } from './units';
 
 /** Whether the faces of a saved file still meet, in words; empty if none was moved. Lengths of `surfaces` in `unit`. */

@@ -1,6 +1,6 @@
 import type { End } from '../engine/client';
-import type { NewCommand } from '../engine/generated';
-import { type Command, EngineError } from '../engine/session_types';
+import type { NewCommand } from '@knead/generated';
+import { type Command, KneadError } from '../engine/session_types';
 import { autosave, isReadable, type Kept, olderDocument } from './autosave';
 import { loadContext } from './context';
 import type { OnDisk } from './disk';
@@ -279,7 +279,7 @@ export class Documents {
       try {
         await client.execute(commands, join, opening);
       } catch (error) {
-        if (!(error instanceof EngineError) || error.info.kind === 'died') throw error; // else it failed before, too
+        if (!(error instanceof KneadError) || error.info.kind === 'died') throw error; // else it failed before, too
       }
     }
     return all;
@@ -353,7 +353,7 @@ export class Documents {
 }
 
 /** The bytes for the engine, which unpacks nothing. */
-const plain = async (bytes: Uint8Array): Promise<Uint8Array> => (isCompressed(bytes) ? (await import('./compressed')).unpacked(bytes) : bytes);
+const plain = async (bytes: Uint8Array): Promise<Uint8Array> => (isCompressed(bytes) ? (await import('@knead/compressed')).unpacked(bytes) : bytes);
 
 /** How many commands at the start only make and prepare what is sculpted: they are the document as it is opened. */
 function preparation(commands: readonly Command[]): number {

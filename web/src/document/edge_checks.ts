@@ -1,4 +1,4 @@
-import type { CheckedEdgeInfo } from '../engine/generated';
+import type { CheckedEdgeInfo } from '@knead/generated';
 import { format, parseLength } from './units';
 
 /** How faces meet, judged: an edge with its surface. */

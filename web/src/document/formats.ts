@@ -1,4 +1,4 @@
-import { fileFormats } from '../engine/generated';
+import { fileFormats } from '@knead/generated';
 
 /** CAD formats that are opened, and written back as they came. */
 const opened = fileFormats.filter(({ opens }) => opens);

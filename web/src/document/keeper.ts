@@ -1,4 +1,4 @@
-import { type Command, EngineError } from '../engine/session_types';
+import { type Command, KneadError } from '../engine/session_types';
 import { autosave, claim, heldIds, hold, isReadable, type Kept, keptForm } from './autosave';
 import type { Host } from './host';
 import type { Source } from './knead_file';
@@ -118,7 +118,7 @@ export class Keeper {
       this.failed = 0;
       if (id === this.id) document.documentElement.dataset.kept = String(commands);
     } catch (error) {
-      if (error instanceof EngineError && error.info.kind === 'died') return; // goes on from the copy before
+      if (error instanceof KneadError && error.info.kind === 'died') return; // goes on from the copy before
       this.dirty = true;
       const first = this.failed === 0;
       this.failed = performance.now();

@@ -1,4 +1,4 @@
-import type { ReadingInfo } from '../engine/generated';
+import type { ReadingInfo } from '@knead/generated';
 import type { Command, Vector3 } from '../engine/session_types';
 
 /** What is measured, and at how many points. */

@@ -1,5 +1,5 @@
 import { clay } from '../engine/clay';
-import { type Command, EngineError, type SurfaceInfo } from '../engine/session_types';
+import { type Command, KneadError, type SurfaceInfo } from '../engine/session_types';
 import type { Host } from './host';
 
 /** Whether something was said of what holds a surface, or it has moved. */
@@ -22,7 +22,7 @@ export async function makeReady(host: Host, index: number, opening: boolean): Pr
     try {
       await run([{ do: 'hold', mode: 'trim' }, ...clay]);
     } catch (error) {
-      if (!(error instanceof EngineError)) throw error;
+      if (!(error instanceof KneadError)) throw error;
       await run([{ do: 'hold', mode: 'free' }, ...alone(surface.net)]); // what cannot be followed cannot be held, which is said
       host.notify({ kind: 'info', text: `Only the outer rows of control points are held: ${error.info.what}. Neighbouring faces may part from this one.` });
     }

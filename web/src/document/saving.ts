@@ -1,4 +1,4 @@
-import { type EdgesInfo, fileFormats } from '../engine/generated';
+import { type EdgesInfo, fileFormats } from '@knead/generated';
 import type { MeshFormat } from '../engine/session_types';
 import { closedEdges } from './closed_edges';
 import type { Documents } from './documents';
@@ -57,7 +57,7 @@ export class Saving {
     const { file: bytes, edges } = await client.query('save');
     const { file } = this.documents;
     if (file?.kind !== 'step' || !isCompressed(file.bytes)) return { bytes, edges };
-    const { packedLike } = await import('./compressed');
+    const { packedLike } = await import('@knead/compressed');
     return { bytes: await packedLike(bytes, file.bytes), edges };
   }
 
@@ -94,7 +94,7 @@ export class Saving {
   /** All surfaces as one mesh, as fine as the pictures are. */
   mesh = (format: MeshFormat) => this.save(async (stem) => {
     const { endings, media_type } = fileFormats.find(({ id }) => id === format)!;
-    download(await this.host.client.query('mesh', { format, detail: this.host.detail }), stem + endings[0], media_type);
+    download((await this.host.client.query('file', { name: stem + endings[0], detail: this.host.detail })).file, stem + endings[0], media_type);
   });
 
   script = () => this.save(async (stem) => {

@@ -1,9 +1,9 @@
 import { Acts } from './acts';
 import type { Context, Trim } from './context';
 import type { DisplayInfo } from './displays';
-import type { Answer, Asked, Query } from './engine';
+import type { Answer, Asked, Query } from '@knead/engine';
 import type { Frame, PictureSettings, Reply, Request, Snapshot } from './protocol';
-import { type Command, EngineError, type EngineErrorInfo, errorOf } from './session_types';
+import { type Command, KneadError, type EngineErrorInfo, errorOf } from './session_types';
 
 interface Waiting {
   resolve(answer: unknown): void;
@@ -108,7 +108,7 @@ export class Client {
     this.worker = this.makeWorker();
     this.ready = this.listen(this.worker);
     const what = 'the engine stopped, and was started again';
-    for (const { reject } of lost) reject(new EngineError(errorOf('died', what, '')));
+    for (const { reject } of lost) reject(new KneadError(errorOf('died', what, '')));
     this.onDeath(end);
   }
 
@@ -125,7 +125,7 @@ export class Client {
     this.waiting.delete(reply.id);
     if (waiting) this.acts.settled(waiting.request, reply.kind === 'done');
     if (reply.kind === 'failed') {
-      if (waiting) waiting.reject(new EngineError(reply.error));
+      if (waiting) waiting.reject(new KneadError(reply.error));
       else this.onError(reply.error);
     } else waiting?.resolve(reply.answer);
   }
@@ -179,7 +179,7 @@ export class Client {
       }
     } catch (error) {
       this.live = null;
-      if (error instanceof EngineError) this.onError(error.info);
+      if (error instanceof KneadError) this.onError(error.info);
     } finally {
       this.liveUnderWay = null;
     }

@@ -1,7 +1,7 @@
-import type { Trims } from './generated';
+import type { Trims } from '@knead/generated';
 import type { SurfaceInfo } from './session_types';
 
-export type { Assembly, Context, FaceEdge, GreyFace, Part, PartPlace } from './generated';
+export type { Assembly, Context, FaceEdge, GreyFace, Part, PartPlace } from '@knead/generated';
 
 /**
  * What trims leave of a surface, so that a point is decided exactly from a few line segments: a quadtree over the domain, whose

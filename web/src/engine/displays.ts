@@ -1,4 +1,4 @@
-export type { DisplayInfo, DisplayRange, DisplaySetting } from './generated';
+export type { DisplayInfo, DisplayRange, DisplaySetting } from '@knead/generated';
 
 export type SettingValue = number | number[];
 

@@ -1,6 +1,6 @@
 import type { Assembly } from './context';
 import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
-import type { Asked, Query } from './engine';
+import type { Asked, Query } from '@knead/engine';
 import type { BodyPicture, Combs, Command, EngineErrorInfo, LatticeSettings, Picture, PictureWindow, SectionPlane, SessionInfo, StepInfo, ToolPicture } from './session_types';
 
 /** How surfaces are drawn. */

@@ -1,3 +1,5 @@
+import type { SecondModule } from '@knead/wasi';
+
 type Stand = (...numbers: (number | bigint)[]) => unknown;
 
 /**
@@ -5,7 +7,7 @@ type Stand = (...numbers: (number | bigint)[]) => unknown;
  * imports a stand-in for each, named by its place in the core's table; the first call of one starts the second module, which
  * puts its functions into that table. So far as the library can see nothing is missing.
  */
-export class Rest {
+export class Rest implements SecondModule {
   private compiled: WebAssembly.Module | null = null;
   private core: WebAssembly.Exports | null = null;
   private begun = false;

@@ -1,4 +1,4 @@
-import type { BodyInfo, SessionInfo, SurfaceInfo } from './generated';
+import type { BodyInfo, SessionInfo, SurfaceInfo } from '@knead/generated';
 
 /** What surfaces and bodies (curves and volumes) of a session are asked for alike. */
 

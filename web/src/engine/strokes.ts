@@ -1,6 +1,6 @@
 import { clay } from './clay';
-import type { Engine } from './engine';
-import { type Command, EngineError, type Vector3 } from './session_types';
+import type { Engine } from '@knead/engine';
+import { type Command, KneadError, type Vector3 } from './session_types';
 
 /** Of the brush, in diagonals of what is selected, until the user chooses another one. */
 export const usualRadius = 0.08;
@@ -67,6 +67,6 @@ export function rehearse(engine: Engine): void {
   try {
     engine.query('rehearse', { commands: ball(usualRadius * diagonal, away) });
   } catch (error) {
-    if (!(error instanceof EngineError)) throw error; // what is refused now would be refused then, and told
+    if (!(error instanceof KneadError)) throw error; // what is refused now would be refused then, and told
   }
 }

@@ -1,4 +1,4 @@
-import { Engine } from './engine';
+import { Engine } from '@knead/engine';
 import { Rest } from './rest';
 import { strokes } from './strokes';
 

@@ -1,11 +1,11 @@
 import { type DisplayRange, noValue, plain } from './displays';
-import { type Asked, Engine, type Query } from './engine';
+import { type Asked, Engine, type Query } from '@knead/engine';
 import coreUrl from './knead_core.wasm?url';
 import restUrl from './knead_rest.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
 import { Preparation } from './preparation';
 import { Rest } from './rest';
-import { type Command, EngineError, type EngineErrorInfo, errorOf, type Picture, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
+import { type Command, KneadError, type EngineErrorInfo, errorOf, type Picture, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
 import { rehearse } from './strokes';
 import { trimTree } from './trim_tree';
 
@@ -28,7 +28,7 @@ const preparation = new Preparation(core, () => new Worker(new URL('./warm_up.ts
   }
   return true;
 });
-const works = new Set<Request['kind'] | Query>(['open', 'fresh', 'restore', 'execute', 'play', 'save', 'mesh']);
+const works = new Set<Request['kind'] | Query>(['open', 'fresh', 'restore', 'execute', 'play', 'save', 'file']);
 
 /** While the C++ session waits for it. */
 function fetchNow(url: string): ArrayBuffer {
@@ -65,14 +65,14 @@ const buffersOf = (answer: unknown): ArrayBuffer[] =>
 const post = (reply: Reply, transfer: Transferable[] = []) => self.postMessage(reply, { transfer });
 
 function errorInfo(error: unknown): EngineErrorInfo {
-  if (error instanceof EngineError) return error.info;
+  if (error instanceof KneadError) return error.info;
   const message = error instanceof Error ? error.message : String(error);
   return errorOf('internal', message, 'save what you can and reload the page');
 }
 
-/** What the engine refuses is an `EngineError`; anything else has stopped it half-way. The page ends this worker then. */
+/** What the engine refuses is an `KneadError`; anything else has stopped it half-way. The page ends this worker then. */
 function died(error: unknown): boolean {
-  if (error instanceof EngineError) return false;
+  if (error instanceof KneadError) return false;
   post({ kind: 'died', message: String(error) });
   return true;
 }
@@ -134,7 +134,7 @@ function begin(engine: Engine, next: typeof source, act: () => void): void {
   try {
     act();
   } catch (error) {
-    if (before && error instanceof EngineError) {
+    if (before && error instanceof KneadError) {
       restore(engine, before.source, before.name, before.snapshot);
       opened = engine.query('begin_history', { commands: before.opened });
     }

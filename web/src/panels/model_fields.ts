@@ -1,4 +1,4 @@
-import type { SurfaceInfo } from '../engine/generated';
+import type { SurfaceInfo } from '@knead/generated';
 import type { App } from './app';
 import { field, toggle } from './dom';
 import { numberInput } from './number_input';

@@ -1,5 +1,5 @@
 import { parseLength } from '../document/units';
-import type { MaskCommand } from '../engine/generated';
+import type { MaskCommand } from '@knead/generated';
 import { unitOf } from '../engine/session_state';
 import { heightsOf } from '../tools/stamp_image';
 import { brushKinds } from '../tools/surface_brush';

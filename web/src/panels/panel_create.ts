@@ -1,6 +1,6 @@
 import { clay } from '../engine/clay';
 import { parseLength, parseNumber } from '../document/units';
-import type { NewCommand } from '../engine/generated';
+import type { NewCommand } from '@knead/generated';
 import type { Command, Vector3 } from '../engine/session_types';
 import type { App } from './app';
 import { field, h, select, toggle } from './dom';

@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 
 import { format, parseLength } from '../document/units';
-import { materials, type PointsCommand } from '../engine/generated';
+import { materials, type PointsCommand } from '@knead/generated';
 import { unitOf } from '../engine/session_state';
 import type { SizeUnit } from '../tools/brush_size';
 import { brushModes, paintModes } from '../tools/modes';

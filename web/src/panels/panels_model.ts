@@ -1,4 +1,4 @@
-import { type EvolveCommand, type LoadCommand, type MaterialCommand, materials, type SurfaceInfo } from '../engine/generated';
+import { type EvolveCommand, type LoadCommand, type MaterialCommand, materials, type SurfaceInfo } from '@knead/generated';
 import type { Command } from '../engine/session_types';
 import type { App } from './app';
 import { field, h, title, toggle } from './dom';

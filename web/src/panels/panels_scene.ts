@@ -1,5 +1,5 @@
 import { format, parseLength } from '../document/units';
-import { type BodyInfo, type EditToolCommand, shapes, type ToolCommand } from '../engine/generated';
+import { type BodyInfo, type EditToolCommand, shapes, type ToolCommand } from '@knead/generated';
 import { unitOf } from '../engine/session_state';
 import type { Command, ToolInfo, Vector3 } from '../engine/session_types';
 import { constraintInWords } from '../tools/held';

@@ -1,4 +1,4 @@
-import { fileFormats } from '../engine/generated';
+import { fileFormats } from '@knead/generated';
 import type { App } from './app';
 
 const meshFormats = fileFormats.filter((format) => format.content === 'triangles');

@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import { shapes, type ToolCommand } from '../engine/generated';
+import { shapes, type ToolCommand } from '@knead/generated';
 import type { Placing, ToolHost } from './host';
 
 /** Shapes whose own z axis points at the surface: the material of a plane lies below it, and a wedge presses with its ridge. */

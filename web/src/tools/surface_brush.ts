@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import type { BrushCommand } from '../engine/generated';
+import type { BrushCommand } from '@knead/generated';
 import type { Command, Vector3 } from '../engine/session_types';
 import type { GridPicker } from '../view/picking';
 import type { Hit, Viewer } from '../view/viewer';

@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import type { BodyInfo } from '../engine/generated';
+import type { BodyInfo } from '@knead/generated';
 import type { BodyPicture } from '../engine/session_types';
 import type { Display, Palette } from './display';
 import { boxOf, type DrawnBody, drawnBodies } from './near';

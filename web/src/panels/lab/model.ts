@@ -1,4 +1,4 @@
-import { EngineError } from '../../engine/session_types';
+import { KneadError } from '../../engine/session_types';
 import type { App } from '../app';
 import { change, type Change, type Direct, type Direction, withDegree } from './knots';
 import type { Basis, Curves, Gramians, LabModule } from './module';
@@ -167,7 +167,7 @@ export class LabModel {
   }
 
   private refused(error: unknown): void {
-    if (!(error instanceof EngineError)) throw error;
+    if (!(error instanceof KneadError)) throw error;
     const { what, where, remedy } = error.info;
     this.error = [where && `${where}:`, what + (remedy ? ';' : ''), remedy].filter(Boolean).join(' ');
     this.changed('surface');

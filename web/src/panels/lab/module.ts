@@ -1,5 +1,5 @@
-import { EngineError, uncoded } from '../../engine/session_types';
-import { start } from '../../engine/wasi';
+import { KneadError, uncoded } from '../../engine/session_types';
+import { start } from '@knead/wasi';
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -134,7 +134,7 @@ export class LabModule {
     const at = this.wasm.lab_text();
     const bytes = new Uint8Array(this.wasm.memory.buffer, at, this.wasm.lab_text_size()).slice();
     const value = JSON.parse(new TextDecoder().decode(bytes)) as unknown;
-    if (succeeded === 0) throw new EngineError({ ...uncoded, ...(value as { error: EngineError['info'] }).error });
+    if (succeeded === 0) throw new KneadError({ ...uncoded, ...(value as { error: KneadError['info'] }).error });
     return value as T;
   }
 }

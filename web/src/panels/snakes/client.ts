@@ -1,4 +1,4 @@
-import { EngineError, type EngineErrorInfo, errorOf } from '../../engine/session_types';
+import { KneadError, type EngineErrorInfo, errorOf } from '../../engine/session_types';
 import type { Snakes } from './module';
 import type { Reply, Request, Result } from './protocol';
 
@@ -17,7 +17,7 @@ export class SnakeClient {
     this.worker.onerror = (event) => {
       const what = event.message || 'the engine of snakes stopped';
       const info = errorOf('internal', what, 'close the panel and open the image again');
-      for (const { reject } of this.waiting.values()) reject(new EngineError(info));
+      for (const { reject } of this.waiting.values()) reject(new KneadError(info));
       this.waiting.clear();
       this.onError(info);
     };
@@ -45,7 +45,7 @@ export class SnakeClient {
     const waiting = this.waiting.get(reply.id);
     this.waiting.delete(reply.id);
     if (reply.kind === 'done') waiting?.resolve(reply.result);
-    else if (waiting) waiting.reject(new EngineError(reply.error));
+    else if (waiting) waiting.reject(new KneadError(reply.error));
     else this.onError(reply.error);
   }
 }

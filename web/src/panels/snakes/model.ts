@@ -1,5 +1,5 @@
 import { download } from '../../document/download';
-import { EngineError } from '../../engine/session_types';
+import { KneadError } from '../../engine/session_types';
 import type { App } from '../app';
 import { SnakeClient } from './client';
 import { greyImage, openImage, type Opened } from './files';
@@ -57,7 +57,7 @@ export class SnakeModel {
       this.selected = Math.min(this.selected, Math.max(0, snakes.states.length - 1));
       this.changed();
     };
-    this.client.onError = (error) => this.tell(new EngineError(error));
+    this.client.onError = (error) => this.tell(new KneadError(error));
   }
 
   close(): void {
@@ -70,7 +70,7 @@ export class SnakeModel {
   }
 
   tell(error: unknown): void {
-    const info = error instanceof EngineError ? error.info : null;
+    const info = error instanceof KneadError ? error.info : null;
     const text = info ? `${info.where && !info.place ? `${info.where}: ` : ''}${info.what}` : error instanceof Error ? error.message : String(error);
     this.app.notify({ kind: 'error', text: text.charAt(0).toUpperCase() + text.slice(1), ...(info?.remedy ? { remedy: info.remedy } : {}) });
   }
@@ -136,7 +136,7 @@ export class SnakeModel {
       return null;
     } catch (error) {
       if (tell) this.tell(error);
-      return error instanceof EngineError ? [error.info.what, error.info.remedy].filter(Boolean).join(': ') : String(error);
+      return error instanceof KneadError ? [error.info.what, error.info.remedy].filter(Boolean).join(': ') : String(error);
     }
   }
 

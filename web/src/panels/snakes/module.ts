@@ -1,5 +1,5 @@
-import { EngineError, uncoded } from '../../engine/session_types';
-import { start } from '../../engine/wasi';
+import { KneadError, uncoded } from '../../engine/session_types';
+import { start } from '@knead/wasi';
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -165,7 +165,7 @@ export class SnakeModule {
 
   private json<T>(succeeded: number): T {
     const value = JSON.parse(this.text()) as unknown;
-    if (succeeded === 0) throw new EngineError({ ...uncoded, ...(value as { error: EngineError['info'] }).error });
+    if (succeeded === 0) throw new KneadError({ ...uncoded, ...(value as { error: KneadError['info'] }).error });
     return value as T;
   }
 }

@@ -1,4 +1,4 @@
-import { EngineError, errorOf } from '../../engine/session_types';
+import { KneadError, errorOf } from '../../engine/session_types';
 import wasmUrl from './knead_snake.wasm?url';
 import { SnakeModule, type Snakes } from './module';
 import type { Reply, Request, Result } from './protocol';
@@ -69,8 +69,8 @@ function act(request: Request): Result {
   }
 }
 
-function infoOf(error: unknown): EngineError['info'] {
-  if (error instanceof EngineError) return error.info;
+function infoOf(error: unknown): KneadError['info'] {
+  if (error instanceof KneadError) return error.info;
   const what = error instanceof Error ? error.message : String(error);
   return errorOf('internal', what, 'close the panel and open the image again');
 }

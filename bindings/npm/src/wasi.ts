@@ -1,13 +1,18 @@
-import type { Rest } from './rest';
-
 /** What a library calls beside the system, by module and name. */
-type Imports = Record<string, Record<string, (...numbers: number[]) => void>>;
+type Imports = Record<string, Record<string, (...numbers: number[]) => number | void>>;
+
+/** Functions that are in a module of their own: what stands in for each, named by its place, until that has started. */
+export interface SecondModule {
+  standIn(place: string): (...numbers: (number | bigint)[]) => unknown;
+  /** What it belongs to, once that has started. */
+  join(core: WebAssembly.Exports): void;
+}
 
 /**
  * The few system calls that the compiled C++ library may make. There are no file system and no arguments; calls not
  * listed here return "not supported" (52).
  */
-function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memory, own: Imports, rest?: Rest): WebAssembly.Imports {
+function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memory, own: Imports, rest?: SecondModule): WebAssembly.Imports {
   const view = () => new DataView(memory().buffer);
   const known: Record<string, (...args: never[]) => number> = {
     clock_time_get: (_id: number, _precision: bigint, out: number) => {
@@ -15,7 +20,8 @@ function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memor
       return 0;
     },
     random_get: (out: number, size: number) => {
-      crypto.getRandomValues(new Uint8Array(memory().buffer, out, size));
+      const bytes = new Uint8Array(memory().buffer, out, size);
+      for (let k = 0; k < size; ++k) bytes[k] = 256 * Math.random(); // Node 18 has no `crypto`; seeds of hash tables
       return 0;
     },
     fd_write: (_fd: number, vectors: number, count: number, out: number) => {
@@ -45,7 +51,7 @@ function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memor
 
 /** Starts a compiled C++ library, of its module or its bytes or as it arrives, and returns its exports. `rest`: what was split from it. */
 export async function start<Exports extends { memory: WebAssembly.Memory; _initialize(): void }>(
-  library: WebAssembly.Module | BufferSource | Promise<Response>, own: Imports = {}, rest?: Rest,
+  library: WebAssembly.Module | BufferSource | Promise<Response>, own: Imports = {}, rest?: SecondModule,
 ): Promise<Exports> {
   const module =
     library instanceof WebAssembly.Module ? library : library instanceof Promise ? await WebAssembly.compileStreaming(library) : await WebAssembly.compile(library);

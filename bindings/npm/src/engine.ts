@@ -1,7 +1,6 @@
-import type { Queries } from './generated';
-import type { Rest } from './rest';
-import { type Command, EngineError, type EngineErrorInfo } from './session_types';
-import { start } from './wasi';
+import { KneadError } from './errors.js';
+import type { AnyCommand, EngineErrorInfo, Queries } from './generated.js';
+import { type SecondModule, start } from './wasi.js';
 
 /** The name of a query; what it is and answers is described in bindings/wasm/queries. */
 export type Query = keyof Queries;
@@ -20,22 +19,25 @@ interface Exports {
 
 /** What an answer has in the module's memory: its type, address and number of elements. */
 type Place = [type: keyof typeof arrays | 'string', at: number, count: number];
-type Reply = { error: EngineErrorInfo } | { answer: unknown; memory?: Record<string, Place> };
+type Reply = { error: EngineErrorInfo; file: string; line: number } | { answer: unknown; memory?: Record<string, Place> };
 
 const arrays = { Float32Array, Float64Array, Uint32Array, Uint8Array };
 
-/** The C++ session behind its one call (bindings/wasm/queries.hpp). Runs wherever WebAssembly does: in the worker, and in node for the tests. */
+/** The C++ session behind its one call (bindings/wasm/queries.hpp). Runs wherever WebAssembly does. */
 export class Engine {
-  /** Called from within a command that takes steps: how many are done, of how many. */
-  onProgress: (done: number, total: number) => void = () => {};
+  /** Called from within a command that takes steps: how many are done, of how many. With false the command stops. Must not throw. */
+  onProgress: (done: number, total: number) => boolean | void = () => {};
+  /** Asked within steps: whether to stop. Must not throw. */
+  stops: () => boolean = () => false;
 
   private constructor(private readonly wasm: Exports) {}
 
   /** `rest`: the second module, where the first is the core that was split from it. */
-  static async load(library: WebAssembly.Module | BufferSource, rest?: Rest): Promise<Engine> {
+  static async load(library: WebAssembly.Module | BufferSource, rest?: SecondModule): Promise<Engine> {
     let engine: Engine | null = null;
-    const told = (done: number, total: number) => engine?.onProgress(done, total);
-    engine = new Engine(await start<Exports>(library, { studio: { progress: told } }, rest));
+    const progress = (done: number, total: number) => (engine?.onProgress(done, total) === false ? 1 : 0);
+    const stops = () => (engine?.stops() ? 1 : 0);
+    engine = new Engine(await start<Exports>(library, { studio: { progress, stops } }, rest));
     return engine;
   }
 
@@ -61,7 +63,7 @@ export class Engine {
     }
     this.wasm.knead_call(json.length);
     const reply = JSON.parse(this.taken(['string', this.wasm.knead_text(), this.wasm.knead_text_size()]) as string) as Reply;
-    if ('error' in reply) throw new EngineError(reply.error);
+    if ('error' in reply) throw new KneadError(reply.error, reply.file, reply.line);
     const { answer, memory = {} } = reply;
     for (const [field, place] of Object.entries(memory)) {
       if (field === '') return this.taken(place) as Answer<Q>;
@@ -77,7 +79,7 @@ export class Engine {
   }
 
   /** One command, an entry of the history whatever it changes. */
-  execute(command: Command, join = false): void {
+  execute(command: AnyCommand, join = false): void {
     this.query('act', { commands: [command], join, keep: true });
   }
 }
