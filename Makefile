@@ -2,7 +2,7 @@
 # The work is done by CMake presets (CMakePresets.json) and the scripts in scripts/.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build wheel run studio test quick test-studio asan fuzz noexcept wasm format format-check lint check-long bench bench-compare instructions bench-studio figures examples clean
+.PHONY: help setup build wheel npm run studio test quick test-studio asan fuzz noexcept wasm format format-check lint check-long bench bench-compare instructions bench-studio figures examples clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -15,6 +15,9 @@ build: ## Build the command line: build/release/knead
 
 wheel: ## Package the Python module: out/dist/knead_cad-*.whl
 	@scripts/wheel.sh
+
+npm: ## Package the engine for JavaScript: out/dist/knead-cad-*.tgz
+	@scripts/npm.sh
 
 run: ## Sculpt the sample bonnet into out/, then serve the studio (SERVE=0: do not)
 	@scripts/run.sh

@@ -15,7 +15,7 @@ rooms=$(changes '^(src|include/knead|tests)/' | sed -nE 's!^(src|include/knead|t
 [ -z "$(changes '^bindings/')" ] || rooms+=$'\n'bindings
 [ -z "$(changes '\.(cpp|hpp|txt|md)$')" ] || rooms+=$'\n'house
 rooms=$(for room in $rooms; do [ ! -f "tests/$room/CMakeLists.txt" ] || [ "$room" = fuzz ] || echo "$room"; done | sort -u)
-web=$(changes '^(web/src|tests/web)/')
+web=$(changes '^(web/src|tests/web|bindings/npm/src)/')
 
 format() { changes '\.(cpp|hpp)$' | xargs -r clang-format --dry-run --Werror; }
 build() {

@@ -20,6 +20,10 @@ build_wasm() {
   scripts/configure.sh wasm KNEAD_BUILD_TESTS=ON
   cmake --build build/wasm --target gramian_values
 }
+npm_tests() {
+  scripts/npm.sh
+  studio_tests package npm
+}
 build_studio() {
   scripts/setup.sh web
   scripts/studio.sh
@@ -66,14 +70,15 @@ fi
 
 about=$([ -f build/release/build.ninja ] && echo "about 10 minutes where everything was built before" || echo "about 20 minutes from nothing")
 echo "test: builds the library, the command line, the Python package and their tests; the engine for WebAssembly; the studio. Runs the native tests,"
-echo "test: those of the package from its wheel, the studio's in node and in Chromium. On two cores $about; logs in build/log."
-stages test 7
+echo "test: those of the packages for Python and npm as they are packed, the studio's in node and in Chromium. On two cores $about; logs in build/log."
+stages test 8
 rm -f "$results/native.xml"
 stage "build" "" "make test" build
 stage "build for WebAssembly" "" "scripts/wasm.sh" build_wasm
 stage "native tests" "build" "ctest --preset release" native_tests native
 stage "Python package" "build" "scripts/python_test.sh" python_tests
 stage "build of the studio" "build for WebAssembly" "scripts/studio.sh" build_studio
+stage "npm package" "build of the studio" "scripts/npm_test.sh" npm_tests
 stage "studio in node" "build of the studio" "(cd web && npm test)" studio_tests test studio_node
 stage "studio in Chromium" "build of the studio" "(cd web && npm run e2e)" studio_tests e2e studio_chromium
 foreign=$(without_foreign_files | wc -l)

@@ -1,0 +1,22 @@
+import { Document, type Snapshot } from './document.js';
+import { type EngineSource, moduleFrom } from './loading.js';
+import { beginFresh, beginOpened, type CreateOptions, type FileBytes, type OpenOptions } from './opening.js';
+
+export { Document, Surface } from './document.js';
+export type { EngineSource } from './loading.js';
+export * from './types.js';
+
+/** A document of a CAD file: its bytes, which may be compressed. The edges of faces are held. */
+export async function open(file: FileBytes, options: OpenOptions & EngineSource): Promise<Document> {
+  return Document.begin(await moduleFrom(options), await beginOpened(file, options));
+}
+
+/** A document without a file: its command `new` makes surfaces, curves and volumes, and `save` writes STEP. */
+export async function create(options: CreateOptions & EngineSource): Promise<Document> {
+  return Document.begin(await moduleFrom(options), beginFresh(options));
+}
+
+/** The document of a snapshot, bit for bit, with undo and redo; nothing is computed. */
+export async function restore(snapshot: Snapshot, options: EngineSource): Promise<Document> {
+  return Document.begin(await moduleFrom(options), snapshot);
+}

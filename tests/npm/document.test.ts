@@ -1,0 +1,121 @@
+import type { Document } from '../../bindings/npm/src/index';
+import { bonnet, knead } from './support';
+
+// Documents in Node.
+
+const { create, open, restore, KneadError } = await knead();
+
+async function sheet(): Promise<Document> {
+  const doc = await create({ name: 'sheet' });
+  return doc.new('plane', { size: [100, 100], net: [12, 12] }).hold(2).tool('ball', { radius: 20, position: [50, 50, 10] });
+}
+
+/** What a call throws. */
+function thrown(call: () => unknown): InstanceType<typeof KneadError> {
+  try {
+    call();
+  } catch (error) {
+    expect(error).toBeInstanceOf(KneadError);
+    return error as InstanceType<typeof KneadError>;
+  }
+  throw new Error('nothing was thrown');
+}
+
+it('has a method for every command of a script, and each returns the document', async () => {
+  const doc = await sheet();
+  const { message } = thrown(() => doc.run([{ do: 'nothing' } as never]));
+  const names = /the commands are: ([\w, ]+)/.exec(message)![1]!.split(', ');
+  expect(names.length).toBeGreaterThan(40);
+  for (const name of names) expect(typeof (doc as never as Record<string, unknown>)[name], name).toBe('function');
+  expect(doc.select('#1').select({ surface: '#1' }).step()).toBe(doc);
+});
+
+it('takes the first field alone or by name, and numbers in typed arrays', async () => {
+  const one = await sheet(), other = await sheet();
+  one.step(3, { lambda: 20 }).move('ball', { by: [0, 0, 1] });
+  other.step({ count: 3, lambda: 20 }).move({ tool: 'ball', by: Float64Array.of(0, 0, 1) as never });
+  expect(other.surfaces[0]!.controlPoints).toEqual(one.surfaces[0]!.controlPoints);
+  expect(other.script).toBe(one.script);
+});
+
+it('says of an error what the library says, and has changed nothing', async () => {
+  const doc = await sheet();
+  const before = doc.state;
+  const error = thrown(() => doc.step(-1));
+  expect(error).toMatchObject({ name: 'KneadError', code: 'out_of_range', kind: 'input', where: 'count', values: {}, fixes: [], file: '', line: 0 });
+  expect(error.message).toBe('count: -1 is out of range; use numbers from 0 to 1000000');
+  expect(thrown(() => doc.move('ball', { by: [0, 0, NaN] }))).toMatchObject({ where: 'by[2]', what: 'NaN is no number', remedy: 'use a finite one' });
+  expect(thrown(() => doc.run('{"knead": 2, "commands": [{"do": "undo"}, {"do": "step", "count": -1}]}', { name: 'press.json' })))
+    .toMatchObject({ where: 'commands[1].count', file: 'press.json' });
+  expect(thrown(() => doc.run('{\n]', { name: 'press.json' }))).toMatchObject({ file: 'press.json', line: 2 });
+  expect(doc.state).toEqual(before);
+});
+
+it('carries out what an error says would help', async () => {
+  const doc = await open(bonnet(), { name: 'bonnet.step' });
+  doc.select('#285').hold(2).tool('ball', { radius: 160, at: [0.4, 0.5] }).step(3);
+  const error = thrown(() => doc.save());
+  expect(error).toMatchObject({ code: 'edge_left_open', kind: 'numerical', values: { surface: '#285' } });
+  doc.run(error.fixes.find(({ code }) => code === 'let_open')!);
+  expect(doc.save().length).toBeGreaterThan(80_000);
+});
+
+it('stops at false, at what is thrown and at a signal; whole steps stay', async () => {
+  const doc = await sheet();
+  expect(doc.step(50, { progress: (done) => done < 2 }).state.steps).toBe(2);
+  expect(() => doc.step(50, { progress: () => { throw new RangeError('mine'); } })).toThrow(new RangeError('mine'));
+  const abort = new AbortController();
+  expect(() => doc.run([{ do: 'step', count: 50 }, { do: 'hold', rows: 1 }], { signal: abort.signal, progress: () => abort.abort() })).toThrow(/abort/i);
+  expect(() => doc.step(50, { signal: abort.signal })).toThrow(/abort/i);
+  expect(doc.state).toMatchObject({ steps: 4, surfaces: [{ hold: 2 }] });
+  expect(doc.undo().undo().undo().state.steps).toBe(0);
+});
+
+it('is not used in a function that its own command calls', async () => {
+  const doc = await sheet();
+  expect(thrown(() => doc.step(2, { progress: () => void doc.undo() }))).toMatchObject({ kind: 'usage', what: 'the document is at work' });
+  expect(doc.step().state.steps).toBe(2);
+});
+
+it('is restored from a snapshot with undo and redo, which can be posted', async () => {
+  const doc = await open(bonnet(), { name: 'bonnet.step' });
+  doc.select('#285').tool('ball', { radius: 160, at: [0.4, 0.5] }).step(3).undo();
+  const again = await restore(structuredClone(doc.snapshot()));
+  expect(again.redo().surface('#285').controlPoints).toEqual(doc.redo().surface('#285').controlPoints);
+  again.undo().undo().undo();
+  expect(again.state).toMatchObject({ undo: false, name: 'bonnet.step' });
+  expect(Buffer.compare(again.save(), bonnet())).toBe(0);
+  const inches = await restore((await create({ unit: 'inch' })).snapshot());
+  expect(inches.new().surfaces[0]!.unit).toBe('inch');
+});
+
+it('names surfaces by id and by label, and makes the same of their numbers', async () => {
+  const doc = await open(bonnet(), { name: 'bonnet.step' });
+  expect(doc.surface('bonnet skin').id).toBe('#285');
+  expect(thrown(() => doc.surface('roof'))).toMatchObject({ what: 'there is no surface "roof"', remedy: 'the ids are: #285, #1044' });
+  const { degree, net, knots, weights, controlPoints } = doc.surface('#285').shape;
+  expect([controlPoints.length, knots[0].length, weights]).toEqual([3 * net[0] * net[1], net[0] + degree[0] + 1, null]);
+  const gone = await sheet();
+  const surface = gone.surfaces[0]!;
+  gone.undo().undo().undo();
+  expect(thrown(() => surface.controlPoints)).toMatchObject({ where: '#1', what: 'it is not in the document any more' });
+});
+
+it('writes other formats, and says what they would lose', async () => {
+  const doc = await sheet();
+  const back = await open(doc.save('sheet.igs'), { name: 'sheet.igs' });
+  expect(back.surfaces[0]!.controlPoints).toEqual(doc.surfaces[0]!.controlPoints);
+  expect(thrown(() => doc.save('sheet.stl'))).toMatchObject({ where: 'sheet.stl', what: '.stl holds triangles, which lose the surfaces' });
+  expect(doc.export('sheet.stl', { detail: 8 })).toMatchObject({ leftOut: [] });
+  const file = await open(bonnet(), { name: 'bonnet.step' });
+  expect(file.export('bonnet.stl', { tolerance: 10 }).file.length).toBeLessThan(file.export('bonnet.stl', { tolerance: 0.1 }).file.length);
+  expect(thrown(() => file.save('bonnet.igs')).message).toMatch(/lose the faces/);
+});
+
+it('opens what is compressed, and a Blob', async () => {
+  const packed = new Uint8Array(await new Response(new Blob([bonnet()]).stream().pipeThrough(new CompressionStream('gzip'))).arrayBuffer());
+  const doc = await open(new Blob([packed]), { name: 'bonnet.step.gz' });
+  expect(Buffer.compare(doc.save(), bonnet())).toBe(0);
+  await expect(open(packed, { name: 'bonnet.step.gz', maxUnpacked: 1000 })).rejects.toMatchObject({ name: 'KneadError', where: 'bonnet.step.gz' });
+  await expect(open('bonnet.step' as never)).rejects.toThrow('file: a file is opened from its bytes; give a Uint8Array, an ArrayBuffer or a Blob');
+});
