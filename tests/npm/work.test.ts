@@ -66,6 +66,19 @@ it.each([[true, 'whole steps stay'], [false, 'all of the command is taken back']
   expect(told.time).toBeLessThan(isolated ? 300 : 2000);
 });
 
+it('what progress throws in a page ends the command in the worker', async () => {
+  const page = await pageWith('worker', true);
+  const told = await page.evaluate(async () => {
+    const doc = await knead.create();
+    await doc.new({ size: [100, 100], net: [12, 12] }).hold(2).tool({ name: 'ball', radius: 20, position: [50, 50, 10] });
+    const error = await doc.step(100_000, { progress: () => { throw new RangeError('mine'); } }).then(() => null, String);
+    const stopped = (await doc.state).steps;
+    await doc.step(100_000, { progress: (done) => done < 3 });
+    return { error, few: stopped < 1000, fewer: (await doc.state).steps - stopped < 1000 };
+  });
+  expect(told).toEqual({ error: 'RangeError: mine', few: true, fewer: true });
+});
+
 it('arrays come over from a worker by themselves, and an error is the same error', async () => {
   const page = await pageWith('worker');
   const told = await page.evaluate(async () => {

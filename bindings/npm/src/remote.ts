@@ -19,7 +19,7 @@ export type Engine = WebAssembly.Module | Uint8Array;
 interface Waiting {
   resolve(value: unknown): void;
   reject(error: unknown): void;
-  progress?: Working['progress'];
+  told?: (done: number, total: number) => void;
 }
 
 export const stoppedWorker = (reason: string): KneadError =>
@@ -52,9 +52,15 @@ class Line {
       if (this.stop) Atomics.store(this.stop, 0, id);
     };
     return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject, progress: progress && ((done, total) => {
-        if (progress(done, total) === false) stop();
-      }) });
+      const told = progress && ((done: number, total: number) => {
+        try {
+          if (progress(done, total) === false) stop();
+        } catch (error) {
+          stop();
+          reject(error);
+        }
+      });
+      this.waiting.set(id, { resolve, reject, told });
       this.thread.hold?.(true);
       signal?.addEventListener('abort', stop, { once: true });
       this.thread.post({ ...call, id });
@@ -64,14 +70,7 @@ class Line {
   private answered(answer: Answer): void {
     const waiting = this.waiting.get(answer.id);
     if (!waiting) return;
-    if ('total' in answer) {
-      try {
-        waiting.progress?.(answer.done, answer.total);
-      } catch (error) {
-        waiting.reject(error);
-      }
-      return;
-    }
+    if ('total' in answer) return waiting.told?.(answer.done, answer.total);
     this.waiting.delete(answer.id);
     if (this.waiting.size === 0) this.thread.hold?.(false);
     if ('value' in answer) waiting.resolve(answer.value);

@@ -26,9 +26,9 @@ Expected<void> carry_out(Studio& studio, std::span<const Command> commands, cons
   Session& session = *studio.session;
   auto before = session.before(commands);
   for (std::size_t k = 0; k < commands.size() && !stopped; ++k) {
-    auto done = session.execute(commands[k], progress, within);
-    if (stopped || done) continue;
-    Error error = at(std::move(done.error()), k);
+    auto status = session.execute(commands[k], progress, within);
+    if (stopped || status) continue;
+    Error error = at(std::move(status.error()), k);
     session.go_back(std::move(before));
     return std::unexpected(std::move(error));
   }
@@ -49,8 +49,8 @@ void describe(ExecuteQuery& q, Fields& fields) {
 
 Expected<Nothing> ask(Studio& studio, const ExecuteQuery& q) {
   if (!studio.session) return nothing_open();
-  auto done = carry_out(studio, q.commands, [](Error error, std::size_t) { return error; });
-  if (!done) return std::unexpected(std::move(done.error()));
+  auto status = carry_out(studio, q.commands, [](Error error, std::size_t) { return error; });
+  if (!status) return std::unexpected(std::move(status.error()));
   return {};
 }
 
@@ -77,10 +77,11 @@ Expected<Nothing> ask(Studio& studio, const RunQuery& q) {
   if (!read)
     return std::unexpected(q.list ? read.error()
                                   : error_of_script(read.error(), q.script.data, q.name));
-  auto done = carry_out(studio, std::span(*read).subspan(implied), [&](Error error, std::size_t k) {
-    return error_at_command(std::move(error), studio.session->document(), q.name, k);
-  });
-  if (!done) return std::unexpected(std::move(done.error()));
+  auto status =
+      carry_out(studio, std::span(*read).subspan(implied), [&](Error error, std::size_t k) {
+        return error_at_command(std::move(error), studio.session->document(), q.name, k);
+      });
+  if (!status) return std::unexpected(std::move(status.error()));
   return {};
 }
 
