@@ -111,8 +111,8 @@ int run(int argc, char** argv) {
       knead::cli::add_export(app),   knead::cli::add_schema(app),  knead::cli::add_snake(app)};
   try {
     app.parse(joined_arguments(argc, argv));
-  } catch (const CLI::Success& done) {
-    return app.exit(done);  // --help, --version
+  } catch (const CLI::Success& success) {
+    return app.exit(success);  // --help, --version
   } catch (const CLI::ParseError& error) {
     return fail(usage_error(app, error, argc > 1 ? argv[1] : ""));
   }

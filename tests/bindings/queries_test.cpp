@@ -199,10 +199,10 @@ TEST_F(QueriesOfThePage, CommandsAreStoppedBetweenSteps) {
   sheet();
   answer("execute", {{"commands", {{{"do", "hold"}, {"rows", 1}}}}});
   int told = 0;
-  studio_.progress = [&](int done, int total) {
+  studio_.progress = [&](int steps, int total) {
     EXPECT_EQ(total, 9);
-    told = done;
-    return done < 3;
+    told = steps;
+    return steps < 3;
   };
   answer("execute",
          {{"commands", {{{"do", "step"}, {"count", 9}}, {{"do", "hold"}, {"rows", 2}}}}});

@@ -34,7 +34,8 @@ Expected<std::vector<SnakeResult>> run(const Image& image, const SnakeScript& sc
   if (!snakes) return std::unexpected(snakes.error());
   constexpr int at_a_time = 5;
   const int most = script.settings.max_iterations;
-  for (int done = 0; !snakes->ended() && work.tell(std::min(done, most), most); done += at_a_time) {
+  for (int steps = 0; !snakes->ended() && work.tell(std::min(steps, most), most);
+       steps += at_a_time) {
     if (auto more = snakes->advance(at_a_time); !more) return std::unexpected(more.error());
   }
   auto results = snakes->results();

@@ -33,11 +33,11 @@ OneAtATime::Taken::~Taken() {
 
 Work::Work(py::object progress) : progress_(std::move(progress)) {}
 
-bool Work::tell(int done, int all) {
+bool Work::tell(int count, int all) {
   if (stopped_ || progress_.is_none()) return go_on();
   const py::gil_scoped_acquire interpreter;
   try {
-    const py::object answer = progress_(done, all);
+    const py::object answer = progress_(count, all);
     stopped_ = answer.ptr() == Py_False;
   } catch (py::error_already_set& raised) {
     raised_.emplace(std::move(raised));

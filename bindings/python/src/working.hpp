@@ -47,7 +47,7 @@ class Work {
   explicit Work(py::object progress);
 
   /// False: stop.
-  bool tell(int done, int all);
+  bool tell(int count, int all);
   /// Asked often; looks for signals every 20 ms.
   bool go_on();
   /// Whether it was stopped.

@@ -19,8 +19,8 @@ Expected<void> carry_out(Studio& studio, std::span<const Command> commands, cons
     stopped = stopped || !goes;
     return goes;
   };
-  const auto progress = [&](int done, int all) {
-    return go_on(!studio.progress || studio.progress(done, all));
+  const auto progress = [&](int steps, int count) {
+    return go_on(!studio.progress || studio.progress(steps, count));
   };
   const auto within = [&] { return go_on(!studio.go_on || studio.go_on()); };
   Session& session = *studio.session;
@@ -162,8 +162,9 @@ Expected<WrittenFile> ask(Session& session, const FileQuery& q) {
     return std::unexpected(std::move(error));
   }
   const Document& document = session.document();
-  const bool own = document.source() != nullptr && (*format)->name == document.source()->format();
-  if (own) return without_loss(session.save());
+  const bool same_format =
+      document.source() != nullptr && (*format)->name == document.source()->format();
+  if (same_format) return without_loss(session.save());
   const SaveOptions how{.schema = q.schema == "ap242" ? "ap242" : "ap214"};
   // New files of faces are not written here; the error of that says so.
   return without_loss(session.save_as(**format, how));
