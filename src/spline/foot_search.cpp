@@ -194,9 +194,8 @@ FootResult FootSearch::nearest(const Point& x) const {
   }
   if (result.best.pressed[0] || result.best.pressed[1]) {
     for (const Foot& f : q.feet) {
-      const bool elsewhere = f.patch != result.best.patch ||
-                             std::abs(f.at[0] - result.best.at[0]) > 1e-3 ||
-                             std::abs(f.at[1] - result.best.at[1]) > 1e-3;
+      const auto apart = [&](int d) { return std::abs(f.at[d] - result.best.at[d]) > 1e-3; };
+      const bool elsewhere = f.patch != result.best.patch || apart(0) || apart(1);
       if (elsewhere && (f.jet[0] - result.best.jet[0]).norm() < 1e-9 * size_) {
         result.neighbours.push_back(f);
       }

@@ -53,10 +53,10 @@ void expect_consistent(const FaceMesh& mesh) {
 std::vector<std::array<int, 3>> corners_of(const FaceMesh& mesh) {
   std::vector<std::array<int, 3>> result;
   for (const auto& t : mesh.triangles) {
-    std::array<int, 3> corners{};
+    std::array<int, 3> triangle{};
     for (std::size_t k = 0; k < 3; ++k)
-      corners[k] = static_cast<int>(std::lround(mesh.points[t[k]].x()));
-    result.push_back(corners);
+      triangle[k] = static_cast<int>(std::lround(mesh.points[t[k]].x()));
+    result.push_back(triangle);
   }
   return result;
 }

@@ -364,7 +364,8 @@ class Inspection {
              std::to_string(lines.size()) + " lines; " + std::to_string(longest_file) +
                  " are allowed");
     }
-    for (std::size_t k = 0; k < lines.size(); ++k) {
+    const bool formatted = file.extension() == ".hpp" || file.extension() == ".cpp";
+    for (std::size_t k = 0; formatted && k < lines.size(); ++k) {
       if (const std::ptrdiff_t length = characters(lines[k]); length > longest_line) {
         report(file, static_cast<int>(k + 1),
                std::to_string(length) + " characters; " + std::to_string(longest_line) +

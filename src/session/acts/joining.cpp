@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "commands.hpp"
 #include "knead/session/session.hpp"
-#include "session_state.hpp"
+#include "session/commands.hpp"
+#include "session/session_state.hpp"
 
 namespace knead {
 namespace {
