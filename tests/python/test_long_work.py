@@ -62,6 +62,11 @@ class Progress(unittest.TestCase):
 
 
 class Interrupted(unittest.TestCase):
+    def setUp(self):
+        # What a shell starts in the background inherits that the signal is ignored.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+
     def interrupt_after(self, seconds):
         sent, clock = [], time.pthread_getcpuclockid(threading.main_thread().ident)
 

@@ -72,7 +72,8 @@ class Program(unittest.TestCase):
                 {"do": "new"}, {"do": "load", "gravity": [0, 0, -1]}, {"do": "step", "count": 1000000}]}))
             for program in PROGRAMS:
                 started = subprocess.Popen([program, "sculpt", "--new", "--script", script, "--output", pathlib.Path(folder, "out.step")],
-                                           stderr=subprocess.DEVNULL)
+                                           stderr=subprocess.DEVNULL,
+                                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
                 time.sleep(0.3)
                 started.send_signal(signal.SIGINT)
                 self.assertEqual(started.wait(), -signal.SIGINT, program)
