@@ -71,6 +71,26 @@ Expected<bool> Session::act(std::span<const Command> commands, const ActOptions&
   return false;
 }
 
+Expected<void> Session::run(std::span<const Command> commands, const ErrorAt& at,
+                            const Progress& progress, const GoOn& go_on) {
+  bool stopped = false;
+  const auto goes = [&stopped](bool on) {
+    stopped = stopped || !on;
+    return on;
+  };
+  const auto told = [&](int steps, int count) { return goes(!progress || progress(steps, count)); };
+  const auto within = [&] { return goes(!go_on || go_on()); };
+  Before before = this->before(commands);
+  for (std::size_t k = 0; k < commands.size() && !stopped; ++k) {
+    auto status = execute(commands[k], told, within);
+    if (stopped || status) continue;
+    Error error = at(std::move(status.error()), k);
+    go_back(std::move(before));
+    return std::unexpected(std::move(error));
+  }
+  return {};
+}
+
 void Session::drop_unchanged() {
   if (!can_undo() || !std::ranges::all_of(entries_[position_ - 1], may_change_nothing) ||
       !same_scene(*states_[position_ - 1], state()))

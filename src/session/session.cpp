@@ -266,71 +266,26 @@ int Session::moved_control_points(int surface) const {
   return moved;
 }
 
-namespace {
+// What a session shows of its state
 
-/// Whether a surface is that of the file but for the rounding of knots that were inserted and
-/// removed again: it stands as it was opened, on the knots of the file.
-bool only_rounded(const SceneSurface& s, const Surface& file) {
-  constexpr double roundings = 1e-13;  // of the largest coordinate
-  const Surface &now = *s.current, &opened = *s.opened;
-  const auto same = [](const Points& a, const Points& b) { return a.rows() == b.rows() && a == b; };
-  for (int d = 0; d < 2; ++d) {
-    if (!std::ranges::equal(now.knots(d).knots(), file.knots(d).knots())) return false;
-  }
-  if (!same(now.control_points(), opened.control_points()) ||
-      !std::ranges::equal(now.weights(), opened.weights()) ||
-      now.weights().size() != file.weights().size()) {
-    return false;
-  }
-  for (std::size_t k = 0; k < now.weights().size(); ++k) {
-    if (std::abs(now.weights()[k] - file.weights()[k]) > roundings * std::abs(file.weights()[k]))
-      return false;
-  }
-  const double largest = file.control_points().cwiseAbs().maxCoeff();
-  return (now.control_points() - file.control_points()).cwiseAbs().maxCoeff() <=
-         roundings * largest;
+const Document& Session::document_of(const SessionState& state) const {
+  return state.document ? *state.document : document_;
+}
+const Document& Session::document() const { return document_of(state()); }
+
+std::vector<SessionSurface> Session::surfaces() const {
+  std::vector<SessionSurface> list;
+  for (const SceneSurface& s : state().surfaces)
+    list.push_back({s.id, s.name, s.unit, s.opened, s.rest, s.current});
+  return list;
 }
 
-std::vector<DocumentSurface> present_surfaces(const Session& session) {
-  std::vector<DocumentSurface> surfaces;
-  const auto& scene = session.state().surfaces;
-  const auto append = [&](const SceneSurface& s) {
-    surfaces.push_back({s.id, s.name, s.unit, s.current});
-  };
-  if (session.document().is_fresh()) std::ranges::for_each(scene, append);
-  for (const DocumentSurface& s :
-       session.document().surfaces()) {  // converted ones come last in the scene
-    append(*std::ranges::find(scene, s.id, &SceneSurface::id));
-    if (surfaces.back().surface != s.surface &&
-        only_rounded(*std::ranges::find(scene, s.id, &SceneSurface::id), *s.surface)) {
-      surfaces.back().surface = s.surface;
-    }
-  }
-  return surfaces;
+std::vector<int> Session::selection() const { return state().selection(); }
+const std::vector<Tool>& Session::tools() const { return state().tools; }
+std::vector<StepRecord> Session::steps() const {
+  return {state().steps.begin(), state().steps.end()};
 }
-
-/// The curves and volumes as they are now.
-std::vector<DocumentBody> present_bodies(const Scene& scene) {
-  std::vector<DocumentBody> bodies;
-  for (const SceneBody& body : scene.bodies) {
-    std::visit([&](const auto& b) { bodies.push_back({b.id, b.name, b.unit, b.current}); }, body);
-  }
-  return bodies;
-}
-
-}  // namespace
-
-Expected<std::string> Session::save() const {
-  const auto parted = parted_edges();
-  if (!parted) return std::unexpected(parted.error());
-  if (auto none = check_parted(*parted); !none) return std::unexpected(none.error());
-  std::vector<std::string> followed;
-  for (const FollowedEdge& edge : state().followed) followed.push_back(edge.id);
-  return document().save(present_surfaces(*this), followed, present_bodies(state()));
-}
-
-Expected<std::string> Session::save_as(const Format& format, const SaveOptions& how) const {
-  return document().save_as(format, present_surfaces(*this), present_bodies(state()), how);
-}
+const std::vector<ModeRecord>& Session::modes() const { return state().modes; }
+const std::vector<ModeRecord>& Session::buckling() const { return state().buckling; }
 
 }  // namespace knead

@@ -149,5 +149,36 @@ TEST(Act, FindsTheFloorAgainInARestoredSession) {
   EXPECT_EQ(restored->journal().size(), 2U);
 }
 
+TEST(Run, MakesAnEntryOfEachCommandOrNone) {
+  Session session = opened_sheet();
+  const auto named = [](Error error, std::size_t k) {
+    error.where = "command " + std::to_string(k);
+    return error;
+  };
+  ASSERT_TRUE(session.run(all_of({pull, rubber}), named));
+  EXPECT_EQ(session.journal().size(), 4U);
+  expect_done(session, {undo});
+  const Points before = points_of(session);
+  const auto failed = session.run(all_of({undo, pull, nowhere}), named);
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().where, "command 2");
+  EXPECT_EQ(points_of(session), before);
+  EXPECT_TRUE(session.can_undo() && session.can_redo());
+}
+
+TEST(Run, ThatIsStoppedKeepsWhatIsDone) {
+  Session session = opened_sheet();
+  const auto unnamed = [](Error error, std::size_t) { return error; };
+  int told_of = 0;
+  ASSERT_TRUE(
+      session.run(all_of({pull, R"({"do":"step","count":5})", pull}), unnamed, [&](int steps, int) {
+        told_of = steps;
+        return steps < 2;
+      }));
+  EXPECT_EQ(told_of, 2);
+  EXPECT_EQ(session.steps().size(), 2U);
+  EXPECT_EQ(session.journal().size(), 4U) << "the last command was not begun";
+}
+
 }  // namespace
 }  // namespace knead

@@ -118,23 +118,13 @@ void PySession::run(const std::string& text, const std::string& name, bool list,
   if (!read) raise(list ? read.error() : error_of_script(read.error(), text, name));
   const std::span<const Command> commands = std::span(*read).subspan(implied);
   Work work(std::move(progress));
-  auto status = alone([&]() -> Expected<void> {
-    const auto carry_out = [&](const Command& command) {
-      return session_.execute(
-          command, [&](int step, int all) { return work.tell(step, all); },
-          [&] { return work.go_on(); });
-    };
-    // A command that fails has changed nothing; what went before it is taken back.
-    auto before = session_.before(commands);
-    for (std::size_t k = 0; k < commands.size(); ++k) {
-      auto one = carry_out(commands[k]);
-      if (work.stopped()) return {};
-      if (one) continue;
-      Error error = error_at_command(std::move(one.error()), session_.document(), name, k);
-      session_.go_back(std::move(before));
-      return std::unexpected(std::move(error));
-    }
-    return {};
+  auto status = alone([&] {
+    return session_.run(
+        commands,
+        [&](Error error, std::size_t k) {
+          return error_at_command(std::move(error), session_.document(), name, k);
+        },
+        [&](int step, int all) { return work.tell(step, all); }, [&] { return work.go_on(); });
   });
   work.finish();
   value_of(std::move(status));
@@ -210,82 +200,29 @@ std::string PySession::selected() {
   });
 }
 
-namespace {
-
-std::vector<std::string> sentences_of(const std::vector<LeftOut>& left_out) {
-  std::vector<std::string> result;
-  for (const LeftOut& left : left_out) result.push_back(sentence(left));
-  return result;
-}
-
-using FileBytes = Expected<std::pair<std::string, std::vector<std::string>>>;
-
-FileBytes without_loss(Expected<std::string> bytes) {
-  if (!bytes) return std::unexpected(std::move(bytes.error()));
-  return std::pair(*std::move(bytes), std::vector<std::string>());
-}
-
-/// In the format of the document's own file, or as a new file of another one.
-FileBytes saved_as(const Session& session, const Format& format, const SaveOptions& how) {
-  const Document& document = session.document();
-  if (document.source() != nullptr && format.name == document.source()->format())
-    return without_loss(session.save());
-  if (document.model() == nullptr || !holds_faces(format))
-    return without_loss(session.save_as(format, how));
-  auto made = save_faces(session, format, how);
-  if (!made) return std::unexpected(std::move(made.error()));
-  return std::pair(std::move(made->bytes), sentences_of(made->left_out));
-}
-
-/// The faces of the document as it would be saved, or else all surfaces, whole, as triangles.
-FileBytes meshed(const Session& session, const Format& format, double tolerance, int detail) {
-  if (session.document().model() == nullptr) {
-    std::vector<NamedSurface> surfaces;
-    SaveOptions options;
-    options.detail = detail;
-    for (const SceneSurface& s : session.state().surfaces) {
-      surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
-      options.unit = s.unit;
-    }
-    return without_loss(save_surfaces(surfaces, format, options));
-  }
-  auto saved = session.save();
-  if (!saved) return std::unexpected(std::move(saved.error()));
-  const auto file = open_source(*std::move(saved), session.document().name());
-  if (!file) return std::unexpected(file.error());
-  auto model = save_model(**file, format, tolerance);
-  if (!model) return std::unexpected(std::move(model.error()));
-  auto lines = std::move(model->warnings);
-  for (std::string& line : sentences_of(left_out_of_mesh(**file, model->skipped)))
-    lines.push_back(std::move(line));
-  return std::pair(std::move(model->bytes), std::move(lines));
-}
-
-}  // namespace
-
 py::tuple PySession::file(const std::string& name, double tolerance, int detail,
                           const std::string& schema, bool triangles_too) {
-  auto made = alone([&]() -> FileBytes {
-    if (name.empty()) return without_loss(session_.save());
+  auto made = alone([&]() -> Expected<WrittenFile> {
+    if (name.empty()) {
+      auto bytes = session_.save();
+      if (!bytes) return std::unexpected(std::move(bytes.error()));
+      return WrittenFile{*std::move(bytes), {}};
+    }
     const auto triangles = format_of_name(name, FormatContent::triangles);
-    if (triangles && triangles_too) return meshed(session_, **triangles, tolerance, detail);
-    if (triangles)
+    if (triangles && !triangles_too) {
       return usage_error(
           std::string((*triangles)->name) + " holds triangles, which lose the surfaces", name,
           "use export");
-    const auto format = format_of_name(name, FormatContent::surfaces);
-    if (!format) {
-      Error error = format.error();
-      error.remedy += "; triangles: " + list_of_endings(FormatContent::triangles);
-      return std::unexpected(std::move(error));
     }
-    SaveOptions how;
-    how.schema = schema == "ap242" ? "ap242" : "ap214";
-    auto saved = saved_as(session_, **format, how);
-    if (!saved) return saved;
-    auto bytes = compress_by_name(std::move(saved->first), name);
+    auto written = file_of(session_, name,
+                           {.schema = schema == "ap242" ? "ap242" : "ap214",
+                            .tolerance = tolerance,
+                            .detail = detail,
+                            .faces = &save_faces});
+    if (!written || triangles) return written;
+    auto bytes = compress_by_name(std::move(written->bytes), name);
     if (!bytes) return std::unexpected(std::move(bytes.error()));
-    return std::pair(*std::move(bytes), std::move(saved->second));
+    return WrittenFile{*std::move(bytes), std::move(written->left_out)};
   });
   auto [bytes, left_out] = value_of(std::move(made));
   py::list lines;

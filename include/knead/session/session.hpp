@@ -120,18 +120,14 @@ class Session {
                                    const ActOptions& options = {}, const Progress& progress = {},
                                    const GoOn& go_on = {});
 
-  /// A part of the history to go back to: what commands that are carried out one by one reach, with
-  /// what can be redone.
-  struct Before {
-    std::size_t first = 0, position = 0;  ///< its first state, and the present one
-    std::vector<std::shared_ptr<const SessionState>> states;
-    std::vector<std::vector<Command>> entries;
-  };
-  /// \param joined the first of the commands is joined with the entry before it. Cost: a pointer
-  /// per state.
-  [[nodiscard]] Before before(std::span<const Command> commands, bool joined = false) const;
-  /// Nothing but these commands has been carried out since.
-  void go_back(Before before);
+  /// What becomes of the error of a command; its number counts from 0.
+  using ErrorAt = std::function<Error(Error, std::size_t)>;
+  /// Carries out commands as a script does: each is an entry of the history. If one fails, the
+  /// session is what it was before the first, with what can be redone; if one is stopped, what it
+  /// and those before it have done stands. Errors: what `at` makes of that of the first command
+  /// that fails.
+  [[nodiscard]] Expected<void> run(std::span<const Command> commands, const ErrorAt& at,
+                                   const Progress& progress = {}, const GoOn& go_on = {});
 
   /// Takes the last entry of the history away where it is such settings and steps, and has changed
   /// nothing.
@@ -212,6 +208,19 @@ class Session {
 
   Expected<void> carry_out(const Command& command, const Progress& progress);
 
+  // A part of the history to go back to: what commands that are carried out one by one reach, with
+  // what can be redone.
+  struct Before {
+    std::size_t first = 0, position = 0;  // its first state, and the present one
+    std::vector<std::shared_ptr<const SessionState>> states;
+    std::vector<std::vector<Command>> entries;
+  };
+  // `joined`: the first of the commands is joined with the entry before it. Cost: a pointer per
+  // state.
+  [[nodiscard]] Before before(std::span<const Command> commands, bool joined = false) const;
+  // Nothing but these commands has been carried out since.
+  void go_back(Before before);
+
   [[nodiscard]] const Document& document_of(const SessionState& state) const;
   /// Restores the visible regions of surfaces whose edges are held, which a snapshot leaves to the
   /// document.
@@ -234,5 +243,29 @@ class Session {
 /// `save_faces` of that file.
 [[nodiscard]] Expected<FacesFile> save_faces(const Session& session, const Format& format,
                                              const SaveOptions& options = {}, bool convert = false);
+
+/// A file of a session's document.
+struct WrittenFile {
+  std::string bytes;
+  std::vector<std::string> left_out;  ///< what of the document it does not hold, a sentence each
+};
+
+/// How `file_of` writes.
+struct FileOptions {
+  std::string_view schema = "ap214";  ///< of STEP: "ap214" or "ap242"
+  /// Of triangles from faces, file units; 0: a two-thousandth of the model's diagonal.
+  double tolerance = 0;
+  int detail = 96;  ///< of triangles without faces: lines per direction of each surface
+  /// `save_faces`; null: new files of faces are an error, and a program need not link what writes
+  /// them.
+  Expected<FacesFile> (*faces)(const Session&, const Format&, const SaveOptions&, bool) = nullptr;
+};
+
+/// The document as a file of the format that the ending of a name says: its own, as
+/// `Session::save`; a new file of surfaces or of faces; or triangles, of the faces as they would be
+/// saved, or else of all surfaces, whole. Errors: those of what is called; an ending of no format
+/// (input).
+[[nodiscard]] Expected<WrittenFile> file_of(const Session& session, const std::string& name,
+                                            const FileOptions& options = {});
 
 }  // namespace knead
