@@ -7,7 +7,7 @@
 
 #include "answers.hpp"
 #include "knead/image/snake_script.hpp"
-#include "snake_room.hpp"
+#include "snake_page.hpp"
 
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 struct Held {
   std::vector<std::uint8_t> input;
   std::string text;
-  Room room;
+  SnakePage page;
   Lines lines;
   std::vector<std::uint8_t> pixels;
 };
@@ -38,12 +38,12 @@ int fail(const Error& error) { return fail_in(held().text, error); }
 
 /// How the snakes are, and where in the buffers.
 int state() {
-  held().lines = held().room.lines();
+  held().lines = held().page.lines();
   Json all = Json::array();
-  for (const SnakeResult& s : held().room.results()) {
+  for (const SnakeResult& s : held().page.results()) {
     all.push_back({{"closed", s.closed}, {"iterations", s.iterations}, {"resting", s.converged}});
   }
-  return answer({{"snakes", std::move(all)}, {"ended", held().room.ended()}});
+  return answer({{"snakes", std::move(all)}, {"ended", held().page.ended()}});
 }
 
 int state_after(const Expected<void>& status) { return status ? state() : fail(status.error()); }
@@ -64,12 +64,12 @@ KNEAD_EXPORT(snake_text_size) std::size_t snake_text_size() { return held().text
 
 /// The image from the input, four bytes a pixel.
 KNEAD_EXPORT(snake_image) int snake_image(int width, int height) {
-  return state_after(held().room.set_image(grey_of(held().input, width, height)));
+  return state_after(held().page.set_image(grey_of(held().input, width, height)));
 }
 
 /// The mask that `distance` counts from, likewise; 0 × 0: none.
 KNEAD_EXPORT(snake_mask) int snake_mask(int width, int height) {
-  held().room.set_mask(width > 0 ? std::optional(grey_of(held().input, width, height))
+  held().page.set_mask(width > 0 ? std::optional(grey_of(held().input, width, height))
                                  : std::nullopt);
   return state();
 }
@@ -77,48 +77,48 @@ KNEAD_EXPORT(snake_mask) int snake_mask(int width, int height) {
 /// The script in the input: settings, and snakes, of which those that are there go on unless
 /// `again` is 1.
 KNEAD_EXPORT(snake_script) int snake_script(int again) {
-  return state_after(held().room.set_script(input_text(), again != 0));
+  return state_after(held().page.set_script(input_text(), again != 0));
 }
 
 KNEAD_EXPORT(snake_advance) int snake_advance(int iterations) {
-  return state_after(held().room.advance(iterations));
+  return state_after(held().page.advance(iterations));
 }
 
 /// No snakes; the image and the mask stay.
 KNEAD_EXPORT(snake_clear) int snake_clear() {
-  held().room.remove_snakes();
+  held().page.remove_snakes();
   return state();
 }
 
 /// Keeps snakes, script and mask as they are; the text is {"kept": number}.
-KNEAD_EXPORT(snake_keep) int snake_keep() { return answer({{"kept", held().room.keep()}}); }
+KNEAD_EXPORT(snake_keep) int snake_keep() { return answer({{"kept", held().page.keep()}}); }
 
 /// All is as it was when it was kept.
 KNEAD_EXPORT(snake_restore) int snake_restore(int kept) {
-  return state_after(held().room.restore(kept));
+  return state_after(held().page.restore(kept));
 }
 
-KNEAD_EXPORT(snake_forget) void snake_forget(int kept) { held().room.forget(kept); }
+KNEAD_EXPORT(snake_forget) void snake_forget(int kept) { held().page.forget(kept); }
 
 /// Snakes that have ended may go on.
-KNEAD_EXPORT(snake_wake) int snake_wake() { return state_after(held().room.wake()); }
+KNEAD_EXPORT(snake_wake) int snake_wake() { return state_after(held().page.wake()); }
 
 /// The user's hand draws the point at the fraction `at` of a snake; snake −1: it lets go.
 KNEAD_EXPORT(snake_pull) int snake_pull(int snake, double at, double x, double y, double strength) {
-  if (snake < 0) return state_after(held().room.pull({}));
+  if (snake < 0) return state_after(held().page.pull({}));
   return state_after(
-      held().room.pull(Hand{static_cast<std::size_t>(snake), {at, {x, y}, strength}}));
+      held().page.pull(Hand{static_cast<std::size_t>(snake), {at, {x, y}, strength}}));
 }
 
 KNEAD_EXPORT(snake_move) int snake_move(int snake, int point, double x, double y) {
-  return state_after(held().room.move_point(static_cast<std::size_t>(snake), point, x, y));
+  return state_after(held().page.move_point(static_cast<std::size_t>(snake), point, x, y));
 }
 
 /// The text becomes the contours: 0 JSON (the image's name is in the input), 1 CSV, 2 SVG.
 KNEAD_EXPORT(snake_save) int snake_save(int kind) {
-  const auto& image = held().room.image();
+  const auto& image = held().page.image();
   if (!image) return fail({ErrorKind::usage, "there is no image", {}, "open one first"});
-  const auto snakes = held().room.results();
+  const auto snakes = held().page.results();
   held().text = kind == 0   ? snakes_json(snakes, input_text(), image->width, image->height)
                 : kind == 1 ? snakes_csv(snakes)
                             : snakes_svg(snakes, image->width, image->height);
@@ -128,13 +128,13 @@ KNEAD_EXPORT(snake_save) int snake_save(int kind) {
 /// Buffer 4 becomes pixels, a byte each: 0 white inside of the contours, 1 the energy that attracts
 /// them.
 KNEAD_EXPORT(snake_picture) int snake_picture(int kind) {
-  const auto& image = held().room.image();
+  const auto& image = held().page.image();
   if (!image) return fail({ErrorKind::usage, "there is no image", {}, "open one first"});
   if (kind == 1) {
-    held().pixels = held().room.energy();
+    held().pixels = held().page.energy();
   } else {
     held().pixels.clear();
-    for (const double x : snakes_mask(held().room.results(), image->width, image->height).values) {
+    for (const double x : snakes_mask(held().page.results(), image->width, image->height).values) {
       held().pixels.push_back(x > 0.5 ? 255 : 0);
     }
   }

@@ -10,7 +10,7 @@ async function sculpt(file: File): Promise<void> {
   const skin = (await doc.surfaces)[0]!;
   const { lower, upper } = await skin.info;
   const size = Math.max(...upper.map((x, k) => x - lower[k]!));
-  await doc.select(skin.id).hold({ mode: 'trim' });
+  await doc.select(skin.id).hold({ mode: 'position' });
   await doc.tool('ball', { shape: 'sphere', radius: 0.1 * size, at: 'middle' }).move('ball', { by: [0, 0, 0.07 * size] });
   await doc.step(15, { lambda: 20, progress: (done, total) => { bar.value = done / total; } });
 

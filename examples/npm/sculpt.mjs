@@ -12,7 +12,7 @@ try {
   const size = Math.max(...upper.map((x, k) => x - lower[k]));
   console.log(`${skin.id} ${skin.label}, about ${size.toPrecision(4)} ${skin.unit}`);
 
-  doc.select(skin.id).hold({ mode: 'trim' }); // the edges of its faces stay
+  doc.select(skin.id).hold({ mode: 'position' }); // the edges of its faces stay
   doc.tool('ball', { shape: 'sphere', radius: 0.1 * size, at: 'middle' }).move('ball', { by: [0, 0, 0.07 * size] });
   doc.step(15, { lambda: 20, progress: (done, total) => process.stderr.write(`\r${done}/${total}`) });
 

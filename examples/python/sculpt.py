@@ -12,7 +12,7 @@ def main(source: str, target: str) -> None:
     size = float(max(corners.max(axis=0) - corners.min(axis=0)))
     print(repr(skin))
 
-    doc.select(skin.id).hold(mode="trim")  # the edges of its faces stay
+    doc.select(skin.id).hold(mode="position")  # the edges of its faces stay
     doc.tool("ball", shape="sphere", radius=0.1 * size, at="middle")
     doc.move("ball", by=(0, 0, 0.07 * size))
     doc.step(15, lambda_=20, progress=sys.stderr.isatty())

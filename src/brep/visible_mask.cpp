@@ -182,9 +182,9 @@ VisibleMask::VisibleMask(const VisibleRegion& region,
         append(strip, next, share > 0.5 ? full : hidden);
         continue;
       }
-      append(strip, next, static_cast<int>(parts_.size()));
+      append(strip, next, static_cast<int>(cut_cells_.size()));
       const double x = xs[i] + std::clamp(sum.x / sum.area, 0., width);
-      parts_.push_back({{strip, j}, {x, y + std::clamp(sum.y / sum.area, 0., height)}, share});
+      cut_cells_.push_back({{strip, j}, {x, y + std::clamp(sum.y / sum.area, 0., height)}, share});
     }
     if (next < count) append(strip, count, below > 0.5 * width ? full : hidden);
   }

@@ -18,13 +18,13 @@ namespace knead {
 /// in the cells that they cross and in strips; memory in the cells crossed.
 class VisibleMask {
  public:
-  /// The state of a cell; 0 or more is the number of its `Part`.
+  /// The state of a cell; 0 or more is the number of its `CutCell`.
   static constexpr int full = -1, hidden = -2;
   /// Of a block of cells: they differ, or a part is among them.
   static constexpr int cut = 0;
 
   /// The visible part of a cell.
-  struct Part {
+  struct CutCell {
     std::array<int, 2> cell;
     std::array<double, 2> middle;  ///< its centroid, in fractions of the domain
     double share;  ///< of the cell's area, 1e-9 to 1 − 1e-9; less is hidden, more is full
@@ -36,7 +36,7 @@ class VisibleMask {
   [[nodiscard]] int state(int i, int j) const;
   /// Of the cells begin … end − 1: `full` or `hidden` if all are, else `cut`.
   [[nodiscard]] int state(const std::array<int, 2>& begin, const std::array<int, 2>& end) const;
-  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  [[nodiscard]] const std::vector<CutCell>& cut_cells() const { return cut_cells_; }
   /// Every cell is full.
   [[nodiscard]] bool whole() const;
 
@@ -46,7 +46,7 @@ class VisibleMask {
   };
   void append(int strip, int end, int state);
   std::vector<std::vector<Run>> strips_;
-  std::vector<Part> parts_;
+  std::vector<CutCell> cut_cells_;
 };
 
 }  // namespace knead

@@ -53,7 +53,7 @@ bool ContactFactor::factor(const PotentialState& state) {
   if (!factored) return false;
   inverse_.emplace(std::move(*factored));
   factored_ = state;
-  part_ = {};
+  subset_ = {};
   return true;
 }
 
@@ -66,9 +66,9 @@ ContactDirection ContactFactor::precondition(const Residual& rest,
                                              ContactNeighbourhood& near) const {
   ContactDirection to{rest.r, {}, 0};
   if (rest.r.beta != 0) {
-    to.d = rest.image - inverse_->solve_within(part_, near.hessian(factored_, rest.image));
+    to.d = rest.image - inverse_->solve_within(subset_, near.hessian(factored_, rest.image));
   } else {
-    to.d = inverse_->solve_within(part_, rest.r.e);
+    to.d = inverse_->solve_within(subset_, rest.r.e);
   }
   to.ad.e -= near.hessian(factored_, to.d);
   return to;
@@ -132,7 +132,7 @@ bool ContactFactor::find(const PotentialState& state, const Anchor& anchor,
       fresh = true;
       ++solves;
     }
-    if (part_.points != near.part().points) part_ = inverse_->part(near.part().points);
+    if (subset_.points != near.subset().points) subset_ = inverse_->subset(near.subset().points);
     bool enough = false;
     const Combination ad = conjugate_gradients(state, anchor, near, rest, target, enough, solves);
     const Points d = ad.image(anchor, near);

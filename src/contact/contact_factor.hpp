@@ -47,8 +47,8 @@ class ContactFactor {
   CoordinateSum system_;  // A + H₀
   std::optional<CoordinateRestriction> restriction_;
   std::optional<ConstrainedCholesky> inverse_;
-  ConstrainedCholesky::Part part_;  // of the neighbourhood
-  PotentialState factored_;         // where H₀ is the Hessian
+  ConstrainedCholesky::Subset subset_;  // of the neighbourhood
+  PotentialState factored_;             // where H₀ is the Hessian
 };
 
 }  // namespace knead

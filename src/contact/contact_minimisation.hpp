@@ -177,7 +177,7 @@ class Minimisation {
   bool take_in(View& view, const PotentialState& state) {
     if (!view.near.extend(state)) return false;
     view.directions.forget();
-    view.from.s_here = inverse_.backward_within(view.near.part(), view.from.z);
+    view.from.s_here = inverse_.backward_within(view.near.subset(), view.from.z);
     view.from.x_here = view.near.gather(problem_.start) + view.near.gather(view.from.y);
     view.from.force_here = view.near.grown(view.from.force_here);
     if (view.u.rows() > 0 || view.au.beta != 0) {
@@ -368,7 +368,8 @@ class Minimisation {
     const double before = view.quadratic + state_.potential;
     while (true) {
       const Round round = iterate_inside(view, progress);
-      y_ = view.from.y + inverse_.backward(view.from.z, view.au.beta, view.near.part(), view.au.e);
+      y_ =
+          view.from.y + inverse_.backward(view.from.z, view.au.beta, view.near.subset(), view.au.e);
       ++summary.solves;
       x_ = problem_.start + y_;
       // What acts inside is known already, but for the rounding of Y.

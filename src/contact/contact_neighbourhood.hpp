@@ -33,13 +33,13 @@ class ContactNeighbourhood {
     potential_.mark(state, marks);
     potential_.widen(marks);
     if (contains(marks)) return false;
-    std::vector<int> points = part_.points;
+    std::vector<int> points = subset_.points;
     for (std::size_t i = 0; i < marks.size(); ++i) {
       if (!marks[i] || inside_[i]) continue;
       inside_[i] = 1;
       points.push_back(static_cast<int>(i));
     }
-    part_ = inverse_.part(std::move(points));
+    subset_ = inverse_.subset(std::move(points));
     watched_ = potential_.watch(inside_);
     return true;
   }
@@ -50,21 +50,23 @@ class ContactNeighbourhood {
     return contains(marks);
   }
 
-  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(part_.points.size()); }
-  [[nodiscard]] const ConstrainedCholesky::Part& part() const { return part_; }
+  [[nodiscard]] Eigen::Index size() const {
+    return static_cast<Eigen::Index>(subset_.points.size());
+  }
+  [[nodiscard]] const ConstrainedCholesky::Subset& subset() const { return subset_; }
   /// The elements inside.
   [[nodiscard]] const WatchedElements& watched() const { return watched_; }
 
   [[nodiscard]] Points gather(const Points& all) const {
     Points here(size(), 3);
     for (Eigen::Index k = 0; k < size(); ++k)
-      here.row(k) = all.row(part_.points[static_cast<std::size_t>(k)]);
+      here.row(k) = all.row(subset_.points[static_cast<std::size_t>(k)]);
     return here;
   }
   /// Sets the rows of the neighbourhood.
   void scatter(const Points& here, Points& all) const {
     for (Eigen::Index k = 0; k < size(); ++k)
-      all.row(part_.points[static_cast<std::size_t>(k)]) = here.row(k);
+      all.row(subset_.points[static_cast<std::size_t>(k)]) = here.row(k);
   }
   /// The same array with zero rows for control points added since.
   [[nodiscard]] Points grown(const Points& here) const {
@@ -74,12 +76,12 @@ class ContactNeighbourhood {
   }
   /// A⁻¹ of forces here, restricted to the neighbourhood.
   [[nodiscard]] Points inverse(const Points& forces) const {
-    return inverse_.solve_within(part_, forces);
+    return inverse_.solve_within(subset_, forces);
   }
   /// The Hessian of contacts inside, applied to a direction here.
   [[nodiscard]] Points hessian(const PotentialState& state, const Points& direction) {
     scatter(direction, directions_);
-    for (const int i : part_.points) forces_.row(i).setZero();
+    for (const int i : subset_.points) forces_.row(i).setZero();
     potential_.apply_hessian(state, directions_, forces_);
     return gather(forces_);
   }
@@ -95,7 +97,7 @@ class ContactNeighbourhood {
   const ConstrainedCholesky& inverse_;
   const Potential& potential_;
   std::vector<char> inside_;
-  ConstrainedCholesky::Part part_;
+  ConstrainedCholesky::Subset subset_;
   WatchedElements watched_;
   Points directions_, forces_;  // of all control points, used inside only
 };

@@ -15,13 +15,13 @@ using detail::NetAcross;
 using detail::proportional;
 using detail::Terms;
 
-struct Frame {
+struct MirrorFrame {
   Point normal;
   std::array<Point, 2> tangents;
 };
 
 /// Tangents along axes if the normal is an axis: fewer coordinates are then coupled.
-Expected<Frame> frame_of(const MirrorPlane& plane) {
+Expected<MirrorFrame> mirror_frame(const MirrorPlane& plane) {
   if (!plane.point.allFinite() || !plane.normal.allFinite() || !(plane.normal.norm() > 0)) {
     return input_error("the plane has no position or no direction", "plane");
   }
@@ -29,7 +29,7 @@ Expected<Frame> frame_of(const MirrorPlane& plane) {
   Eigen::Index least = 0;
   n.cwiseAbs().minCoeff(&least);
   const Point t = n.cross(Point::Unit(least)).normalized();
-  return Frame{n, {t, n.cross(t)}};
+  return MirrorFrame{n, {t, n.cross(t)}};
 }
 
 struct EdgeRows {
@@ -140,7 +140,7 @@ Expected<std::array<Points, 2>> partners(const Surface& s, int direction) {
 // vanishes. Both require that the rest shape has the property.
 Expected<void> hold_symmetry_plane(const Surface& rest, SurfaceEdge edge, const MirrorPlane& plane,
                                    int order, double tolerance, double angle, ConstraintList& to) {
-  const auto frame = frame_of(plane);
+  const auto frame = mirror_frame(plane);
   if (!frame) return std::unexpected(frame.error());
   if (order != 0 && order != 1)
     return input_error(fmt::format("{} is not an order", order), "symmetry", "use 0 or 1");
@@ -195,7 +195,7 @@ Expected<void> hold_symmetry_plane(const Surface& rest, SurfaceEdge edge, const 
 // weights, and the shape itself, whose deviation is a length in space.
 Expected<MirrorReport> mirror_report(const Surface& rest, int direction, const MirrorPlane& plane,
                                      double tolerance) {
-  const auto frame = frame_of(plane);
+  const auto frame = mirror_frame(plane);
   if (!frame) return std::unexpected(frame.error());
   if (auto valid = detail::check_tolerance(tolerance, "mirror"); !valid)
     return std::unexpected(valid.error());
@@ -245,7 +245,7 @@ Expected<MirrorReport> keep_mirror(const Surface& rest, int direction, const Mir
                                    double tolerance, ConstraintList& to) {
   auto report = mirror_report(rest, direction, plane, tolerance);
   if (!report) return report;
-  const auto frame = frame_of(plane);
+  const auto frame = mirror_frame(plane);
   const char axis = direction == 0 ? 'u' : 'v';
   if (!report->insert.empty()) {
     return input_error(

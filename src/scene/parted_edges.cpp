@@ -193,10 +193,11 @@ Expected<void> check_parted(const std::vector<PartedEdge>& edges) {
                   worst->id, worst->distance, faces_in_words(worst->faces),
                   place_in_words(worst->place), worst->opened, worst->allowed, others),
       worst->id,
-      fmt::format(R"(before it moves hold it, {{"do":"hold","mode":"trim"}}, or let it follow, )"
-                  R"({{"do":"edge","edge":"{}","hold":"follow"}}; or let it open: )"
-                  R"({{"do":"select","surface":"{}"}}, {{"do":"hold","mode":"free"}})",
-                  worst->id, on),
+      fmt::format(
+          R"(before it moves hold it, {{"do":"hold","mode":"position"}}, or let it follow, )"
+          R"({{"do":"edge","edge":"{}","hold":"follow"}}; or let it open: )"
+          R"({{"do":"select","surface":"{}"}}, {{"do":"hold","mode":"open"}})",
+          worst->id, on),
       {ErrorCode::edge_left_open,
        {{"edge", worst->id},
         {"surface", on},

@@ -175,14 +175,14 @@ BrushHistory::BrushHistory(Eigen::Index samples)
 // sheet, the mean says nothing, and that of the place stays. For `flatten` the plane of least
 // squares, weighed alike, replaces both: its normal is the eigenvector of the covariance with the
 // least eigenvalue. It needs a spread in two directions.
-BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSamples& samples,
-                                           const BrushPlace& place) {
-  Frame frame{place, place.at, place.normal};
+BrushHistory::Pose BrushHistory::pose_at(const Brush& brush, const BrushSamples& samples,
+                                         const BrushPlace& place) {
+  Pose pose{place, place.at, place.normal};
   const double radius = radius_of(brush, place.pen.pressure), reach = radius * radius;
   const auto lean = [&] {
     if (leans(brush.kind) && !place.pen.axis.isZero(0))
-      frame.normal = leaned(frame.normal, place.pen.axis);
-    return frame;
+      pose.normal = leaned(pose.normal, place.pen.axis);
+    return pose;
   };
   Point normal = Point::Zero(), middle = Point::Zero();
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -201,33 +201,33 @@ BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSample
     known += w * n.squaredNorm();
     count += w > 0 ? 1 : 0;
   }
-  if (normal.norm() > opposed * known) frame.normal = normal.normalized();
+  if (normal.norm() > opposed * known) pose.normal = normal.normalized();
   if (brush.kind != BrushKind::flatten || count < fewest_of_plane) return lean();
   middle /= total;
   spread = spread / total - middle * middle.transpose();
   const auto axes = detail::symmetric_eigen(spread);
   if (!axes || !(axes->values[1] > 1e-6 * axes->values[2])) return lean();  // on a line
-  frame.middle = place.at + middle;
+  pose.middle = place.at + middle;
   const Point across = axes->vectors.col(0);
-  frame.normal = across.dot(frame.normal) < 0 ? Point(-across) : across;
+  pose.normal = across.dot(pose.normal) < 0 ? Point(-across) : across;
   return lean();
 }
 
 /// d at full weight, of the kinds that have a mean along the path.
-Point BrushHistory::asked_at(const Frame& frame, const Brush& brush, const BrushSamples& samples,
+Point BrushHistory::asked_at(const Pose& pose, const Brush& brush, const BrushSamples& samples,
                              Eigen::Index g, const Points& fair) {
   const Point n = samples.normals.row(g);
   switch (brush.kind) {
     case BrushKind::push:
     case BrushKind::crease:
-      return -brush.height * frame.normal;
+      return -brush.height * pose.normal;
     case BrushKind::pull:
     case BrushKind::ridge:
-      return brush.height * frame.normal;
+      return brush.height * pose.normal;
     case BrushKind::inflate:
-      return brush.height * (n.squaredNorm() > 0 ? n : frame.normal);
+      return brush.height * (n.squaredNorm() > 0 ? n : pose.normal);
     case BrushKind::flatten:
-      return (frame.middle - samples.points.row(g).transpose()).dot(frame.normal) * frame.normal;
+      return (pose.middle - samples.points.row(g).transpose()).dot(pose.normal) * pose.normal;
     case BrushKind::smooth:
       return fair.row(g);
     default:
@@ -238,8 +238,8 @@ Point BrushHistory::asked_at(const Frame& frame, const Brush& brush, const Brush
 // One piece of the path. The weight is that of its nearest point, of which the largest of all
 // pieces counts; the mean is the trapezoidal rule between its ends. So u converges as places become
 // dense, and does not count how many there are.
-void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Frame& from,
-                       const Frame& to, double length, const Points& fair) {
+void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Pose& from,
+                       const Pose& to, double length, const Points& fair) {
   const Point piece = to.place.at - from.place.at;
   const double square = piece.squaredNorm();
   for (Eigen::Index g = 0; g < samples.points.rows(); ++g) {
@@ -267,7 +267,7 @@ void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Fr
       continue;
     }
     weight_[g] = std::max(weight_[g], profile);
-    for (const Frame* end : {&from, &to}) {  // the trapezoidal rule
+    for (const Pose* end : {&from, &to}) {  // the trapezoidal rule
       const double reach = radius_of(brush, end->place.pen.pressure),
                    off = (x - end->place.at).norm();
       if (off >= reach) continue;
@@ -286,14 +286,14 @@ void BrushHistory::go_to(const Brush& brush, const BrushSamples& samples, const 
   assert(samples.points.rows() == weight_.size());
   if (!begun_) {
     begun_ = true;
-    first_ = last_ = frame_at(brush, samples, place);
+    first_ = last_ = pose_at(brush, samples, place);
     add(brush, samples, first_, first_, first_length * brush.radius, fair);
     return;
   }
   const double turn = std::abs(place.pen.pressure - last_.place.pen.pressure);
   const double length = (place.at - last_.place.at).norm() + first_length * brush.radius * turn;
   if (length == 0 || acts_about_one_place(brush.kind)) return;
-  const Frame next = frame_at(brush, samples, place);
+  const Pose next = pose_at(brush, samples, place);
   add(brush, samples, last_, next, length, fair);
   last_ = next;
 }

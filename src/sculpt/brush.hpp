@@ -147,21 +147,21 @@ class BrushHistory {
 
  private:
   /// A place with the plane that the samples near it lie about.
-  struct Frame {
+  struct Pose {
     BrushPlace place;
     Point middle = Point::Zero(), normal = Point::Zero();
   };
-  [[nodiscard]] static Frame frame_at(const Brush& brush, const BrushSamples& samples,
-                                      const BrushPlace& place);
-  [[nodiscard]] static Point asked_at(const Frame& frame, const Brush& brush,
+  [[nodiscard]] static Pose pose_at(const Brush& brush, const BrushSamples& samples,
+                                    const BrushPlace& place);
+  [[nodiscard]] static Point asked_at(const Pose& pose, const Brush& brush,
                                       const BrushSamples& samples, Eigen::Index g,
                                       const Points& fair);
-  void add(const Brush& brush, const BrushSamples& samples, const Frame& from, const Frame& to,
+  void add(const Brush& brush, const BrushSamples& samples, const Pose& from, const Pose& to,
            double length, const Points& fair);
   [[nodiscard]] Point about_first(const Brush& brush, const Point& x) const;
 
   bool begun_ = false, reaches_ = false;
-  Frame first_, last_;
+  Pose first_, last_;
   Eigen::VectorXd weight_, total_;  // ŵ and ∫ w dl
   Points sum_;                      // ∫ w d dl
 };

@@ -74,7 +74,7 @@ Expected<void> read_commands(const Json& list, std::vector<Command>& commands) {
 
 bool is_default_hold(const Command& command) {
   const auto* hold = fields_of<HoldCommand>(command);
-  return hold != nullptr && hold->mode == HoldMode::trim && hold->all.value_or(false);
+  return hold != nullptr && hold->mode == HoldMode::position && hold->all.value_or(false);
 }
 
 /// Undoes what scripts begin with.
@@ -171,7 +171,7 @@ std::string script_json(const std::vector<Command>& commands) {
 
 Command default_hold() {
   HoldCommand hold;
-  hold.mode = HoldMode::trim;
+  hold.mode = HoldMode::position;
   hold.all = true;
   return make_command(hold);
 }

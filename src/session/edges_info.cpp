@@ -75,7 +75,7 @@ std::vector<EdgesInfo> edges_info(const Session& session) {
   return infos;
 }
 
-std::string room_json(const Session& session, std::size_t surface) {
+std::string edge_distance_json(const Session& session, std::size_t surface) {
   const SceneSurface& s = session.state().surfaces[surface];
   std::shared_ptr<const VisibleRegion> region = s.visible;
   if (!region) {

@@ -58,17 +58,17 @@ std::vector<Fix> fixes_at_edges(ErrorCode code, const DiagnosticValues& v) {
     case ErrorCode::step_folds_beside_edge:
       if (v.hold == "follow")
         return {{FixCode::let_follow, {let_edge(edge, EdgeCondition::follow)}}};
-      return {{FixCode::let_go, {let_edge(edge, EdgeCondition::free)}}};
+      return {{FixCode::let_go, {let_edge(edge, EdgeCondition::open)}}};
     case ErrorCode::edge_would_open:
     case ErrorCode::edge_would_turn:
       return {{FixCode::let_follow, follow}};
     case ErrorCode::edge_left_open:
-      return {{FixCode::let_open, {selected(v.surface.value_or("")), held_by(HoldMode::free)}}};
+      return {{FixCode::let_open, {selected(v.surface.value_or("")), held_by(HoldMode::open)}}};
     case ErrorCode::seam_would_open:
       return {{FixCode::let_part, {without_seams()}}};
     case ErrorCode::edges_unknown:
       return {{FixCode::hold_rows, {make_command(HoldCommand{})}},
-              {FixCode::let_open, {held_by(HoldMode::free)}}};
+              {FixCode::let_open, {held_by(HoldMode::open)}}};
     case ErrorCode::edge_face_not_spline:
       if (v.others.empty()) return {};
       return {{FixCode::convert_and_follow,
@@ -108,7 +108,7 @@ std::vector<Fix> fixes_for(const Diagnostic& diagnostic) {
     case ErrorCode::step_not_finite:
       return {{FixCode::hold_rows, {make_command(HoldCommand{})}}};
     case ErrorCode::surface_loose:
-      return {{FixCode::hold_edges, {held_by(HoldMode::trim)}},
+      return {{FixCode::hold_edges, {held_by(HoldMode::position)}},
               {FixCode::hold_rows, {make_command(HoldCommand{})}}};
     case ErrorCode::nothing_free:
     case ErrorCode::nothing_free_at_brush:

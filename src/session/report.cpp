@@ -75,7 +75,7 @@ std::vector<std::pair<std::string, Points>> shapes_on(const SessionState& state,
 }
 
 std::string_view hold_of(const TrimReport::Edge& edge) {
-  constexpr std::string_view names[] = {"free", "position", "clamped", "curvature"};
+  constexpr std::string_view names[] = {"open", "position", "tangent", "curvature"};
   return edge.follows ? "follow" : names[edge.held.order + 1];
 }
 

@@ -33,8 +33,8 @@ struct Restate {
   }
   Command operator()(const TrimHolds& c) const {
     HoldCommand hold;
-    hold.mode = c.order < 0 ? HoldMode::free
-                            : static_cast<HoldMode>(static_cast<int>(HoldMode::trim) + c.order);
+    hold.mode = c.order < 0 ? HoldMode::open
+                            : static_cast<HoldMode>(static_cast<int>(HoldMode::position) + c.order);
     return make_command(hold);
   }
   Command operator()(const TrimEdgeHold& c) const {
@@ -134,8 +134,8 @@ std::optional<Constraint> constraint_of<2>(const Command& command) {
   if (const auto* c = fields_of<HoldCommand>(command)) {
     const HoldMode mode = c->mode.value_or(HoldMode::rows);
     if (mode == HoldMode::rows) return std::nullopt;
-    if (mode == HoldMode::free) return TrimHolds{-1};
-    return TrimHolds{static_cast<int>(mode) - static_cast<int>(HoldMode::trim)};
+    if (mode == HoldMode::open) return TrimHolds{-1};
+    return TrimHolds{static_cast<int>(mode) - static_cast<int>(HoldMode::position)};
   }
   if (const auto* c = fields_of<FreezeCommand>(command)) return c->freeze;
   if (const auto* c = fields_of<KeepCommand>(command)) return c->keep;

@@ -77,13 +77,14 @@ Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a,
 }
 
 // Points that depend on others bring the unknowns of their definitions. These are numbered anew, 0
-// … `count` − 1 in order of appearance, so that a solve within the part handles short arrays only.
-ConstrainedCholesky::Part ConstrainedCholesky::part(std::vector<int> points) const {
-  Part part{std::move(points), {}, 0, {}};
-  if (!cholesky_) return part;
-  part.terms = space_.terms(part.points);
+// … `count` − 1 in order of appearance, so that a solve within the subset handles short arrays
+// only.
+ConstrainedCholesky::Subset ConstrainedCholesky::subset(std::vector<int> points) const {
+  Subset subset{std::move(points), {}, 0, {}};
+  if (!cholesky_) return subset;
+  subset.terms = space_.terms(subset.points);
   std::vector<int> unknowns, place(static_cast<std::size_t>(space_.free_count()), -1);
-  for (ConstraintSpace::Term& term : part.terms) {
+  for (ConstraintSpace::Term& term : subset.terms) {
     int& at = place[static_cast<std::size_t>(term.unknown)];
     if (at < 0) {
       at = static_cast<int>(unknowns.size());
@@ -91,26 +92,26 @@ ConstrainedCholesky::Part ConstrainedCholesky::part(std::vector<int> points) con
     }
     term.unknown = at;
   }
-  part.count = static_cast<int>(unknowns.size());
-  part.factor = cholesky_->part(unknowns);
-  return part;
+  subset.count = static_cast<int>(unknowns.size());
+  subset.factor = cholesky_->subset(unknowns);
+  return subset;
 }
 
 namespace {
 
-/// Tᵀ b over the unknowns of a part.
+/// Tᵀ b over the unknowns of a subset.
 template <class Values>
-Values reduced(const ConstrainedCholesky::Part& part, const Values& b) {
-  Values y = Values::Zero(part.count, b.cols());
-  for (const ConstraintSpace::Term& t : part.terms)
+Values reduced(const ConstrainedCholesky::Subset& subset, const Values& b) {
+  Values y = Values::Zero(subset.count, b.cols());
+  for (const ConstraintSpace::Term& t : subset.terms)
     y.row(t.unknown) += t.coefficient * b.row(t.row);
   return y;
 }
 
 template <class Values>
-Values expanded(const ConstrainedCholesky::Part& part, const Values& y, Eigen::Index rows) {
+Values expanded(const ConstrainedCholesky::Subset& subset, const Values& y, Eigen::Index rows) {
   Values x = Values::Zero(rows, y.cols());
-  for (const ConstraintSpace::Term& t : part.terms)
+  for (const ConstraintSpace::Term& t : subset.terms)
     x.row(t.row) += t.coefficient * y.row(t.unknown);
   return x;
 }
@@ -121,12 +122,12 @@ Eigen::VectorXd flat(const Points& b) {
 
 }  // namespace
 
-Points ConstrainedCholesky::solve_within(const Part& part, const Points& b) const {
+Points ConstrainedCholesky::solve_within(const Subset& subset, const Points& b) const {
   if (!cholesky_) return Points::Zero(b.rows(), 3);
   if (!space_.coupled())
-    return expanded(part, cholesky_->solve_within(part.factor, reduced(part, b)), b.rows());
+    return expanded(subset, cholesky_->solve_within(subset.factor, reduced(subset, b)), b.rows());
   const Eigen::VectorXd x =
-      expanded(part, cholesky_->solve_within(part.factor, reduced(part, flat(b))), b.size());
+      expanded(subset, cholesky_->solve_within(subset.factor, reduced(subset, flat(b))), b.size());
   return Eigen::Map<const Points>(x.data(), b.rows(), 3);
 }
 
@@ -136,30 +137,30 @@ ConstrainedCholesky::Half ConstrainedCholesky::forward(const Points& b) const {
   return cholesky_->forward(Eigen::VectorXd(space_.reduce(b).col(0)));
 }
 
-Points ConstrainedCholesky::backward_within(const Part& part, const Half& half) const {
-  const auto rows = static_cast<Eigen::Index>(part.points.size());
+Points ConstrainedCholesky::backward_within(const Subset& subset, const Half& half) const {
+  const auto rows = static_cast<Eigen::Index>(subset.points.size());
   if (!cholesky_) return Points::Zero(rows, 3);
   if (!space_.coupled()) {
     Points y;
-    cholesky_->backward_within(part.factor, half, y);
-    return expanded(part, y, rows);
+    cholesky_->backward_within(subset.factor, half, y);
+    return expanded(subset, y, rows);
   }
   Eigen::VectorXd y;
-  cholesky_->backward_within(part.factor, half, y);
-  const Eigen::VectorXd x = expanded(part, y, 3 * rows);
+  cholesky_->backward_within(subset.factor, half, y);
+  const Eigen::VectorXd x = expanded(subset, y, 3 * rows);
   return Eigen::Map<const Points>(x.data(), rows, 3);
 }
 
-Points ConstrainedCholesky::backward(const Half& half, double share, const Part& part,
+Points ConstrainedCholesky::backward(const Half& half, double share, const Subset& subset,
                                      const Points& b) const {
   if (!cholesky_) return Points::Zero(space_.size(), 3);
   if (!space_.coupled()) {
     Points y;
-    cholesky_->backward(half, share, part.factor, reduced(part, b), y);
+    cholesky_->backward(half, share, subset.factor, reduced(subset, b), y);
     return space_.expand_points(y);
   }
   Eigen::VectorXd y;
-  cholesky_->backward(half, share, part.factor, reduced(part, flat(b)), y);
+  cholesky_->backward(half, share, subset.factor, reduced(subset, flat(b)), y);
   return space_.expand(y);
 }
 

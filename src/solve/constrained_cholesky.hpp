@@ -37,23 +37,24 @@ class ConstrainedCholesky {
   /// The X = T y that solves Tᵀ A X = Tᵀ B, for B of N × 3. Cost: O(nonzeros of the factor).
   [[nodiscard]] Points solve(const Points& b) const;
 
-  /// The part used by a solve when right sides are zero except at some points.
-  struct Part {
+  /// The subset used by a solve when right sides are zero except at some points.
+  struct Subset {
     std::vector<int> points;
     std::vector<ConstraintSpace::Term> terms;  ///< rows of T of those points, over `count` unknowns
     int count = 0;
-    SparseCholesky::Part factor;
+    SparseCholesky::Subset factor;
   };
-  [[nodiscard]] Part part(std::vector<int> points) const;
-  /// X at the points of the part, for B given there and zero elsewhere, both in the order of the
+  [[nodiscard]] Subset subset(std::vector<int> points) const;
+  /// X at the points of the subset, for B given there and zero elsewhere, both in the order of the
   /// points. Cost and bits: see `SparseCholesky::solve_within`.
-  [[nodiscard]] Points solve_within(const Part& part, const Points& b) const;
+  [[nodiscard]] Points solve_within(const Subset& subset, const Points& b) const;
   /// The first half of a solve, with Bᵀ X; the second half where X is needed only at the points of
-  /// the part; the second half everywhere, for share · B + E b with b at the points of the part.
+  /// the subset; the second half everywhere, for share · B + E b with b at the points of the
+  /// subset.
   using Half = SparseCholesky::Half;
   [[nodiscard]] Half forward(const Points& b) const;
-  [[nodiscard]] Points backward_within(const Part& part, const Half& half) const;
-  [[nodiscard]] Points backward(const Half& half, double share, const Part& part,
+  [[nodiscard]] Points backward_within(const Subset& subset, const Half& half) const;
+  [[nodiscard]] Points backward(const Half& half, double share, const Subset& subset,
                                 const Points& b) const;
 
   [[nodiscard]] const ConstraintSpace& space() const { return space_; }

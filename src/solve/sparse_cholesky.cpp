@@ -120,18 +120,18 @@ Values whole(const Panels& panels, const Eigen::VectorXi& order, const Values& b
   return x;
 }
 
-// Only rows of the part's panels are cleared and used; the rest of `y` stays as it was allocated.
+// Only rows of the subset's panels are cleared and used; the rest of `y` stays as it was allocated.
 template <class Values>
-Values within(const Panels& panels, const SparseCholesky::Part& part, const Values& b) {
+Values within(const Panels& panels, const SparseCholesky::Subset& subset, const Values& b) {
   Work<Values> y(panels.work_rows());
-  panels.clear<columns<Values>>(y.data(), part.panels);
-  for (std::size_t k = 0; k < part.rows.size(); ++k)
-    put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
-  panels.forward<columns<Values>>(y.data(), part.panels);
-  panels.backward<columns<Values>>(y.data(), part.panels);
+  panels.clear<columns<Values>>(y.data(), subset.panels);
+  for (std::size_t k = 0; k < subset.rows.size(); ++k)
+    put<Values>(y, subset.rows[k], b, static_cast<Eigen::Index>(k));
+  panels.forward<columns<Values>>(y.data(), subset.panels);
+  panels.backward<columns<Values>>(y.data(), subset.panels);
   Values x(b.rows(), b.cols());
-  for (std::size_t k = 0; k < part.rows.size(); ++k)
-    take<Values>(y, part.rows[k], x, static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < subset.rows.size(); ++k)
+    take<Values>(y, subset.rows[k], x, static_cast<Eigen::Index>(k));
   return x;
 }
 
@@ -149,26 +149,26 @@ SparseCholesky::Half first_half(const Panels& panels, const Eigen::VectorXi& ord
 }
 
 template <class Values>
-void second_half_within(const Panels& panels, const SparseCholesky::Part& part,
+void second_half_within(const Panels& panels, const SparseCholesky::Subset& subset,
                         const SparseCholesky::Half& z, Values& x) {
   Work<Values> y(panels.work_rows());
-  panels.copy<columns<Values>>(z.values.data(), y.data(), part.panels);
-  panels.backward<columns<Values>>(y.data(), part.panels);
-  x.resize(static_cast<Eigen::Index>(part.rows.size()), x.cols());
-  for (std::size_t k = 0; k < part.rows.size(); ++k)
-    take<Values>(y, part.rows[k], x, static_cast<Eigen::Index>(k));
+  panels.copy<columns<Values>>(z.values.data(), y.data(), subset.panels);
+  panels.backward<columns<Values>>(y.data(), subset.panels);
+  x.resize(static_cast<Eigen::Index>(subset.rows.size()), x.cols());
+  for (std::size_t k = 0; k < subset.rows.size(); ++k)
+    take<Values>(y, subset.rows[k], x, static_cast<Eigen::Index>(k));
 }
 
 // x = A⁻¹ (share · B + E b) = L⁻ᵀ (share · z + L⁻¹ E b): the forward sweep of E b runs in its reach
 // alone, and one backward sweep serves both.
 template <class Values>
 void second_half(const Panels& panels, const Eigen::VectorXi& order, const SparseCholesky::Half& z,
-                 double share, const SparseCholesky::Part& part, const Values& b, Values& x) {
+                 double share, const SparseCholesky::Subset& subset, const Values& b, Values& x) {
   Work<Values> y(panels.work_rows());
   y.clear();
-  for (std::size_t k = 0; k < part.rows.size(); ++k)
-    put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
-  panels.forward<columns<Values>>(y.data(), part.panels);
+  for (std::size_t k = 0; k < subset.rows.size(); ++k)
+    put<Values>(y, subset.rows[k], b, static_cast<Eigen::Index>(k));
+  panels.forward<columns<Values>>(y.data(), subset.panels);
   Eigen::Map<Eigen::VectorXd>(y.data(), columns<Values> * order.size()) += share * z.values;
   panels.backward<columns<Values>>(y.data(), panels.all());
   x.resize(order.size(), x.cols());
@@ -184,18 +184,18 @@ Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const {
   return whole(factor_->panels, factor_->order, b);
 }
 
-SparseCholesky::Part SparseCholesky::part(std::span<const int> unknowns) const {
-  Part part;
-  for (const int i : unknowns) part.rows.push_back(factor_->order[i]);
-  part.panels = factor_->panels.reach(part.rows);
-  return part;
+SparseCholesky::Subset SparseCholesky::subset(std::span<const int> unknowns) const {
+  Subset subset;
+  for (const int i : unknowns) subset.rows.push_back(factor_->order[i]);
+  subset.panels = factor_->panels.reach(subset.rows);
+  return subset;
 }
 
-Points SparseCholesky::solve_within(const Part& part, const Points& b) const {
-  return within(factor_->panels, part, b);
+Points SparseCholesky::solve_within(const Subset& subset, const Points& b) const {
+  return within(factor_->panels, subset, b);
 }
-Eigen::VectorXd SparseCholesky::solve_within(const Part& part, const Eigen::VectorXd& b) const {
-  return within(factor_->panels, part, b);
+Eigen::VectorXd SparseCholesky::solve_within(const Subset& subset, const Eigen::VectorXd& b) const {
+  return within(factor_->panels, subset, b);
 }
 
 SparseCholesky::Half SparseCholesky::forward(const Points& b) const {
@@ -205,20 +205,21 @@ SparseCholesky::Half SparseCholesky::forward(const Eigen::VectorXd& b) const {
   return first_half(factor_->panels, factor_->order, b);
 }
 
-void SparseCholesky::backward_within(const Part& part, const Half& z, Points& x) const {
-  second_half_within(factor_->panels, part, z, x);
+void SparseCholesky::backward_within(const Subset& subset, const Half& z, Points& x) const {
+  second_half_within(factor_->panels, subset, z, x);
 }
-void SparseCholesky::backward_within(const Part& part, const Half& z, Eigen::VectorXd& x) const {
-  second_half_within(factor_->panels, part, z, x);
+void SparseCholesky::backward_within(const Subset& subset, const Half& z,
+                                     Eigen::VectorXd& x) const {
+  second_half_within(factor_->panels, subset, z, x);
 }
 
-void SparseCholesky::backward(const Half& z, double share, const Part& part, const Points& b,
+void SparseCholesky::backward(const Half& z, double share, const Subset& subset, const Points& b,
                               Points& x) const {
-  second_half(factor_->panels, factor_->order, z, share, part, b, x);
+  second_half(factor_->panels, factor_->order, z, share, subset, b, x);
 }
-void SparseCholesky::backward(const Half& z, double share, const Part& part,
+void SparseCholesky::backward(const Half& z, double share, const Subset& subset,
                               const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
-  second_half(factor_->panels, factor_->order, z, share, part, b, x);
+  second_half(factor_->panels, factor_->order, z, share, subset, b, x);
 }
 
 }  // namespace knead

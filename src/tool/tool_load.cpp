@@ -219,7 +219,7 @@ void ToolLoad<D>::show(std::shared_ptr<const VisibleRegion> region) {
     if (mask->whole()) return;
     part_values_.clear();
     std::array<double, max_degree + 1> n;
-    for (const VisibleMask::Part& part : mask->parts()) {
+    for (const VisibleMask::CutCell& part : mask->cut_cells()) {
       for (std::size_t d = 0; d < 2; ++d) {
         const KnotVector& knots = knots_[d];
         const int p = knots.degree(),

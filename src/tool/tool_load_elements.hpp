@@ -179,7 +179,7 @@ typename ToolLoad<D>::Sample ToolLoad<D>::visible_part(const Sample& whole, int 
                                                        const Points& x, int first) const {
   Sample s = whole;
   s.part = part;
-  s.weight *= mask_->parts()[static_cast<std::size_t>(part)].share;
+  s.weight *= mask_->cut_cells()[static_cast<std::size_t>(part)].share;
   double denominator = 0;
   s.place.setZero();
   for_each_function(s.at, s.part, [&](int row, double n) {

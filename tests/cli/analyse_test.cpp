@@ -7,7 +7,7 @@ namespace {
 
 const Json strut = {
     command("new", {{"size", {10, 1}}, {"degree", {4, 2}}, {"net", {12, 3}}}),
-    command("edge", {{"which", "u0"}, {"hold", "clamped"}}),
+    command("edge", {{"which", "u0"}, {"hold", "tangent"}}),
     command("material", {{"model", "shell"}, {"young", 1.2e6}, {"thickness", 0.1}, {"density", 1}}),
     command("force", {{"kind", "line"}, {"edge", "u1"}, {"vector", {-0.5, 0, 0}}}),
     command("evolve", {{"mode", "static"}}),

@@ -71,7 +71,7 @@ TEST(Export, ASculptedFileBecomesTheSameFileOfAnotherFormatAtOnce) {
                    command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.5}}}),
                    command("move", {{"by", {0, 0, 0.05}}, {"relative", true}}),
                    command("step", {{"count", 2}, {"lambda", 10}}),
-                   command("hold", {{"mode", "free"}, {"all", true}})}));
+                   command("hold", {{"mode", "open"}, {"all", true}})}));
   const std::string step = workshop / "a.step", at_once = workshop / "a.igs",
                     after = workshop / "b.igs";
   ASSERT_EQ(knead({"sculpt", bonnet(), "-o", step, "--script", script}).code, 0);

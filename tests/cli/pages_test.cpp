@@ -56,7 +56,7 @@ TEST(Pages, ThePlateShownHasTheDeflectionStated) {
   };
   EXPECT_NEAR(deflection(script), 0.00126532, 5e-9);
   std::string supported = script;
-  supported.replace(supported.find("clamped"), 7, "position");
+  supported.replace(supported.find("tangent"), 7, "position");
   EXPECT_NEAR(deflection(supported), 0.00406235, 5e-9);
 }
 

@@ -26,9 +26,10 @@ TEST(RealFiles, TheReportHasTheAnglesAtASmoothEdgeThatFollows) {
   KNEAD_NEEDS(file);
   const Workshop workshop;
   const std::string out = workshop / "out.step", report = workshop / "report.json";
-  const Json commands = {
-      command("select", {{"surfaces", {"#2649", "#2692"}}}), command("hold", {{"mode", "trim"}}),
-      command("edge", {{"which", "#1831"}, {"hold", "follow"}}), command("step")};
+  const Json commands = {command("select", {{"surfaces", {"#2649", "#2692"}}}),
+                         command("hold", {{"mode", "position"}}),
+                         command("edge", {{"which", "#1831"}, {"hold", "follow"}}),
+                         command("step")};
   const Outcome run = knead({"sculpt", file, "-o", out, "--script",
                              workshop.script_of_all(commands), "--report", report});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -84,7 +85,7 @@ TEST(RealFiles, APartOfAnAssemblyChangesInAllItsPlaces) {
   const Workshop workshop;
   const std::string out = workshop / "out.step", report = workshop / "report.json";
   const Json commands = {
-      command("select", {{"surface", nut->at("surfaces")[0]}}), command("hold", {{"mode", "free"}}),
+      command("select", {{"surface", nut->at("surfaces")[0]}}), command("hold", {{"mode", "open"}}),
       command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
       command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),
       command("step", {{"lambda", 10}})};
@@ -110,7 +111,7 @@ TEST_P(StepFile, TakesADentInItsFirstSurface) {
   const std::string out = workshop / "out.step", report = workshop / "report.json";
   const Json commands = {
       command("select", {{"surface", s.at("id")}}),
-      command("hold", {{"mode", "free"}}),
+      command("hold", {{"mode", "open"}}),
       command("hold", {{"rows", 1}}),
       command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
       command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),

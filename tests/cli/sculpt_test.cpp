@@ -23,7 +23,7 @@ Json dent(const std::string& id, int steps = 2) {
 }
 
 /// Lets the edges of faces open: what was done is written all the same.
-const Json may_open = command("hold", {{"mode", "free"}, {"all", true}});
+const Json may_open = command("hold", {{"mode", "open"}, {"all", true}});
 
 /// Sculpts the sample, lets edges open and returns the path of the result.
 std::string sculpted(const Workshop& workshop, Json commands,
@@ -365,14 +365,14 @@ TEST(Sculpt, AnEdgeIsLeftOpenOnlyWhereItIsFreed) {
   EXPECT_FALSE(std::filesystem::exists(workshop / "open.step"));
   EXPECT_FALSE(std::filesystem::exists(workshop / "open.step.json"));
   const Outcome held =
-      run({command("select", {{"surface", skin}}), command("hold", {{"mode", "trim"}}), lift});
+      run({command("select", {{"surface", skin}}), command("hold", {{"mode", "position"}}), lift});
   EXPECT_EQ(held.code, 4);
   EXPECT_NE(
       held.err.find("#203 on #285 between the faces #39 and #807 is held, and would open by 2.47"),
       std::string::npos)
       << held.err;
   const Outcome freed =
-      run({command("select", {{"surface", skin}}), command("hold", {{"mode", "free"}}), lift});
+      run({command("select", {{"surface", skin}}), command("hold", {{"mode", "open"}}), lift});
   EXPECT_EQ(freed.code, 0) << freed.err;
   const auto notes = report_of(workshop / "open.step").at("notes");
   EXPECT_EQ(std::ranges::count_if(notes,

@@ -70,7 +70,7 @@ struct Contact {
     near.extend({});
     anchor.z = inverse.forward(r);
     anchor.rs = anchor.z.squared_norm;
-    anchor.s_here = inverse.backward_within(near.part(), anchor.z);
+    anchor.s_here = inverse.backward_within(near.subset(), anchor.z);
   }
 
   [[nodiscard]] Combination start() const { return {1, Points::Zero(near.size(), 3)}; }
@@ -123,7 +123,7 @@ TEST(ContactDirections, CorrectByWhatWasShownOfAnotherSystem) {
   c.springs = Springs({20, 21, 22, 30, 31, 40, 44, 53}, 1.1e3,
                       5);  // one lets go, one touches; all a little stiffer
   c.near.extend({});
-  c.anchor.s_here = c.inverse.backward_within(c.near.part(), c.anchor.z);
+  c.anchor.s_here = c.inverse.backward_within(c.near.subset(), c.anchor.z);
   directions.forget();
   static_cast<void>(
       directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, alone));

@@ -67,7 +67,7 @@ const std::vector<std::vector<std::string>> edits = {
      R"("mode": "collision"})",
      R"({"do": "move", "tool": "ball", "by": [0, 0, 0.1]})",
      R"({"do": "step", "count": 2, "lambda": 20})", R"({"do": "release"})"},
-    {R"({"do": "edge", "which": "u0", "hold": "free"})",
+    {R"({"do": "edge", "which": "u0", "hold": "open"})",
      R"({"do": "force", "at": [0.5, 0.5], "to": [0, 0, 1]})", R"({"do": "step"})",
      R"({"do": "undo"})", R"({"do": "redo"})"},
     {R"({"do": "refine", "region": [[0, 0.5], [0, 1]]})", R"({"do": "elevate", "by": [1, 0]})",

@@ -65,7 +65,7 @@ export const program = (entry: string, after = ''): string => `import { open, Kn
 try {
   const bytes = new Uint8Array(await (await fetch('/bonnet.step')).arrayBuffer());
   const doc = await open(bytes, { name: 'bonnet.step' });
-  await doc.select('#285').hold({ mode: 'trim' });
+  await doc.select('#285').hold({ mode: 'position' });
   await doc.tool({ name: 'ball', radius: 160, at: [0.4, 0.5] });
   await doc.step(5);
   const out = await doc.save();

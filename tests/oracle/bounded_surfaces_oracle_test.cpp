@@ -32,7 +32,7 @@ TEST_P(BoundedSheetsInOcct, StayClosed) {
   const auto status = testing::run(
       session, R"({"do":"select","surfaces":[")" + sheets.surfaces[0] + R"(",")" +
                    sheets.surfaces[1] + R"("]},{"do":"edge","which":")" + model.edges[*shared].id +
-                   R"(","hold":"free"},)" +
+                   R"(","hold":"follow"},)" +
                    fmt::format(R"({{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]}},
       {{"do":"tool","name":"ball","radius":{},"rigid":true,"position":[{},{},{}]}},
       {{"do":"evolve","mode":"static"}})",

@@ -33,7 +33,7 @@ Press anywhere(const std::string& id) {
   Press result;
   result.script =
       R"({"knead":2,"commands":[{"do":"select","surface":")" + id +
-      R"("},{"do":"hold","mode":"free"},{"do":"hold","rows":1},)"
+      R"("},{"do":"hold","mode":"open"},{"do":"hold","rows":1},)"
       R"({"do":"tool","radius":0.1,"relative":true,"at":[0.4,0.45]},)"
       R"({"do":"move","by":[0.03,0.04,0.05],"relative":true},{"do":"step","lambda":10}]})";
   return result;
@@ -96,7 +96,7 @@ TEST_P(FormatOracle, APressLeavesTopologyAndGapsAsTheyWere) {
   for (const brep::SplineSurface* s : chosen()) {
     SCOPED_TRACE(s->id);
     const auto pressed =
-        s->faces > 0 ? press(*source_->model(), *s, "trim") : Expected<Press>(anywhere(s->id));
+        s->faces > 0 ? press(*source_->model(), *s, "position") : Expected<Press>(anywhere(s->id));
     ASSERT_TRUE(pressed) << pressed.error().message();
     Session session(Document::from(source_));
     const auto bytes = carried_out(session, pressed->script);

@@ -141,7 +141,7 @@ std::string Pair::script(const brep::Model& file, Motion motion) const {
   std::string text =
       R"({"knead":2,"commands":[{"do":"select","surfaces":[)" + quoted(surfaces) + "]}";
   for (const std::string& edge : edges)
-    text += R"(,{"do":"edge","which":")" + edge + R"(","hold":"free"})";
+    text += R"(,{"do":"edge","which":")" + edge + R"(","hold":"follow"})";
   const std::string ball = R"(,{"do":"tool","name":"ball","radius":)";
   if (motion == Motion::grab) {
     const auto near = visible_near(file.find_surface(surfaces[0])->surface, {}, place);

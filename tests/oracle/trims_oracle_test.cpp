@@ -124,7 +124,7 @@ void PressedFace::press_all(const std::string& mode) {
           << "edge " << k;
       gap_before = std::max(gap_before, edges_before[k].gap);
       gap = std::max(gap, edges_after[k].gap);
-      if (mode == "trim-g1") {
+      if (mode == "tangent") {
         EXPECT_LE(edges_after[k].turn, same_angle) << "edge " << k;
       }
       turn = std::max(turn, edges_after[k].turn);
@@ -151,9 +151,9 @@ void PressedFace::press_all(const std::string& mode) {
   }
 }
 
-TEST_P(PressedFace, StaysWithItsNeighboursWhereItsEdgesAreHeld) { press_all("trim"); }
+TEST_P(PressedFace, StaysWithItsNeighboursWhereItsEdgesAreHeld) { press_all("position"); }
 
-TEST_P(PressedFace, KeepsItsTangentPlanesToo) { press_all("trim-g1"); }
+TEST_P(PressedFace, KeepsItsTangentPlanesToo) { press_all("tangent"); }
 
 INSTANTIATE_TEST_SUITE_P(Files, PressedFace, ::testing::ValuesIn(testing::step_files()),
                          testing::file_test_name);

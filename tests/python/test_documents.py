@@ -66,7 +66,7 @@ class Sculpting(unittest.TestCase):
         skin = doc["#285"]
         self.assertIs(type(skin.shape), knead.Surface)
         before = skin.control_points
-        doc.select("#285").material(alpha=(1, 0, 1), beta=(0.003,) * 3).hold(mode="trim")
+        doc.select("#285").material(alpha=(1, 0, 1), beta=(0.003,) * 3).hold(mode="position")
         doc.tool("ball", shape="sphere", radius=160, at=(0.4, 0.5), mode="collision").move("ball", by=(0, 0, 125))
         doc.step(15, lambda_=20).move("ball", by=(0, 0, -25)).step(15, lambda_=20)
         by_script = knead.open(str(BONNET)).run(SAMPLES / "bonnet.json")

@@ -33,7 +33,7 @@ Surface sheet() {
   return *session.state().surfaces[0].current;
 }
 
-const char* const held = R"({"do":"hold","mode":"trim","all":true})";
+const char* const held = R"({"do":"hold","mode":"position","all":true})";
 const char* const ball = R"({"do":"tool","name":"b","radius":30,"position":[50,50,25]})";
 const char* const press = R"({"do":"step","count":15,"lambda":20})";
 
@@ -97,7 +97,7 @@ TEST(BareSurface, HoldsItsSidesInEveryFormat) {
 
 TEST(BareSurface, IsFreeWhereAskedAndThatIsNoted) {
   Session session = opened({sheet()}, "step");
-  run(session, {held, select(session), R"({"do":"hold","mode":"free"})", ball, press});
+  run(session, {held, select(session), R"({"do":"hold","mode":"open"})", ball, press});
   EXPECT_GT(motion(session)[0], 1);
   EXPECT_TRUE(notes(session, "nothing holds " + id_of(session)));
   EXPECT_TRUE(testing::has_note(session.state().notes, ErrorCode::surface_loose));
@@ -107,7 +107,7 @@ TEST(BareSurface, LetsASideGoByItsName) {
   for (const char* field : {"which", "edge"}) {
     Session session = opened({sheet()}, "step");
     run(session, {held, select(session),
-                  fmt::format(R"({{"do":"edge","{}":"u0","hold":"free"}})", field), ball, press});
+                  fmt::format(R"({{"do":"edge","{}":"u0","hold":"open"}})", field), ball, press});
     const SceneSurface& s = session.state().surfaces[0];
     const auto moved = [&](double u, double v) {
       const KnotVector &a = s.current->knots(0), &b = s.current->knots(1);
@@ -172,7 +172,7 @@ TEST(BareSurface, AShellThatNothingHoldsIsNoted) {
   for (const char* act : {R"({"do":"step","count":2,"lambda":20})",
                           R"({"do":"stroke","tool":"b","path":[[50,50,25]]})"}) {
     Session session = opened({sheet()}, "step");
-    run(session, {held, select(session), R"({"do":"hold","mode":"free"})", shell, ball, act});
+    run(session, {held, select(session), R"({"do":"hold","mode":"open"})", shell, ball, act});
     EXPECT_TRUE(notes(session, "nothing holds " + id_of(session))) << act;
     Session kept = opened({sheet()}, "step");
     run(kept, {held, select(kept), shell, ball, act});

@@ -115,7 +115,7 @@ TEST(ActiveCurve, BendsAsAClampedBeam) {
   // β w'''' = q with both ends clamped: w = q x² (1 − x)² / (24 β), a polynomial of degree 4.
   run(session, {R"({"do":"new","shape":"curve","degree":4,"net":9})",
                 R"({"do":"scaling","mode":"raw"})", R"({"do":"material","alpha":[0],"beta":[2]})",
-                R"({"do":"edge","hold":"clamped"})", R"({"do":"load","vector":[0,0,-48]})",
+                R"({"do":"edge","hold":"tangent"})", R"({"do":"load","vector":[0,0,-48]})",
                 R"({"do":"evolve","mode":"static"})", R"({"do":"step"})"});
   for (int k = 0; k <= 10; ++k) {
     const double x = k / 10.;
@@ -183,7 +183,7 @@ TEST(ActiveVolume, StretchesAsItsEquationSays) {
 TEST(ActiveVolume, ABallDentsItAndItsHeldSideKeepsItsBits) {
   Session session = fresh();
   run(session, {R"({"do":"new","shape":"volume","net":[8,8,5]})",
-                R"({"do":"edge","which":"w0","hold":"clamped"})",
+                R"({"do":"edge","which":"w0","hold":"tangent"})",
                 R"({"do":"tool","radius":0.3,"position":[0.5,0.5,1.2],"rigid":true})",
                 R"({"do":"evolve","lambda":20})"});
   const Points before = control_points_of(body(session));
@@ -298,7 +298,7 @@ TEST(Body, CommandsOfSurfacesSayThatACurveIsSelected) {
                               R"({"do":"pin","control_points":[[9]]})",
                               R"({"do":"force","kind":"line","edge":"u0","vector":[0,0,1]})",
                               R"({"do":"force","at":[2],"to":[0,0,0]})",
-                              R"({"do":"hold","mode":"trim"})",
+                              R"({"do":"hold","mode":"position"})",
                               R"({"do":"tool","at":[0.5,0.5]})",
                               R"({"do":"points","rows_u":[0],"by":[0,0,1]})",
                               R"({"do":"refine","region":[[0,1],[0,1]]})",

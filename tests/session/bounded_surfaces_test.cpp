@@ -88,9 +88,10 @@ TEST_P(PressedBoundedSurfaces, KeepTheirEdges) {
 }
 
 TEST_P(PressedBoundedSurfaces, StayClosedWhereTheirEdgeFollows) {
-  const std::string bytes = pressed(
-      R"({"do":"edge","which":")" + shared_edges(*source_->model()).at(0) + R"(","hold":"free"},)",
-      2, 1, 0.1);
+  const std::string bytes =
+      pressed(R"({"do":"edge","which":")" + shared_edges(*source_->model()).at(0) +
+                  R"(","hold":"follow"},)",
+              2, 1, 0.1);
   EXPECT_GT(moved_, 0.08 * sheets_.scale);
   expect_closed(bytes);
   double lowest = std::numeric_limits<double>::infinity();
@@ -111,7 +112,7 @@ TEST_P(PressedBoundedSurfaces, LeadTheirOwnEdgesAlong) {
   // Along y = 0.
   const std::string stored = model.edges[brep::edges_around(model.faces[0]).front()].id;
   const std::string bytes =
-      pressed(R"({"do":"edge","which":")" + stored + R"(","hold":"free"},)", 1, 0.1, 0.1);
+      pressed(R"({"do":"edge","which":")" + stored + R"(","hold":"follow"},)", 1, 0.1, 0.1);
   EXPECT_GT(moved_, 0.05 * sheets_.scale);
   expect_closed(bytes);
 }

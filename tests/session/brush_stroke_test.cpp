@@ -263,7 +263,7 @@ TEST(BrushStroke, ATrimmedFaceStaysWithinItsEdges) {
         {R"("kind":"inflate","height":20)", beside},
         {R"("kind":"crease","height":20)", beside}}) {
     Session session = open_sample();
-    run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"trim"})",
+    run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"position"})",
                   fmt::format(R"({{"do":"brush",{},"radius":200,"path":[{}]}})", fields, path)});
     const SceneSurface& s = first(session);
     const auto report = trim_report(s);

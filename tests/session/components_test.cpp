@@ -43,7 +43,7 @@ TEST(Components, OfAnEdgeKeepTheirBitsAndTheOthersMove) {
 
 TEST(Components, OfAClampedEdgeHoldItsSlopeToo) {
   const Session session =
-      dragged_sheet({R"({"do":"edge","which":"v0","hold":"clamped","components":"zy"})"});
+      dragged_sheet({R"({"do":"edge","which":"v0","hold":"tangent","components":"zy"})"});
   for (int i = 0; i < 10; ++i) {
     EXPECT_EQ(kept_components(session, 10 * i), (Components{false, true, true})) << i;
     EXPECT_EQ(kept_components(session, 10 * i + 1), (Components{false, true, true})) << i;
@@ -90,12 +90,12 @@ TEST(Components, OfAPinThatMovesGoThereAlone) {
 TEST(Components, OfAnEdgeAreHeldAndFreedOneByOne) {
   Session session = fresh();
   run(session, {new_sheet, R"({"do":"edge","which":"v0"})",
-                R"({"do":"edge","which":"v0","hold":"free","components":"x"})",
-                R"({"do":"edge","which":"v0","hold":"clamped","components":"z"})", pull_load,
+                R"({"do":"edge","which":"v0","hold":"open","components":"x"})",
+                R"({"do":"edge","which":"v0","hold":"tangent","components":"z"})", pull_load,
                 R"({"do":"step"})"});
   EXPECT_EQ(kept_components(session, 30), (Components{false, true, true}));
   EXPECT_EQ(kept_components(session, 31), (Components{false, false, true}));
-  run(session, {R"({"do":"edge","which":"v0","hold":"free"})"});
+  run(session, {R"({"do":"edge","which":"v0","hold":"open"})"});
   EXPECT_TRUE(first(session).constraints.empty());
 }
 
@@ -112,7 +112,7 @@ TEST(Components, AreUndoneAndInSnapshots) {
   Session session = fresh();
   run(session, {new_sheet, R"({"do":"edge","which":"v1"})"});
   const SessionState before = session.state();
-  run(session, {R"({"do":"edge","which":"v1","hold":"clamped","components":"xz"})",
+  run(session, {R"({"do":"edge","which":"v1","hold":"tangent","components":"xz"})",
                 R"({"do":"pin","at":[0.5,0.5],"components":"y"})"});
   const auto restored = Session::restore(session.document(), session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();

@@ -24,7 +24,7 @@ using testing::TwoSheets;
 const std::string convert = R"({"do":"convert","surface":"#20"})";
 
 std::string free_edge(const TwoSheets& sheets) {
-  return R"({"do":"edge","which":")" + TwoSheets::name(sheets.edge) + R"(","hold":"free"})";
+  return R"({"do":"edge","which":")" + TwoSheets::name(sheets.edge) + R"(","hold":"follow"})";
 }
 
 TEST(Convert, TheSurfaceJoinsTheSceneWithItsEdgesHeld) {
@@ -111,8 +111,8 @@ TEST(Convert, NeighboursOfTheSelectionAreFound) {
 
 TEST(Convert, RegionsBesideItKnowItsNewForm) {
   Session session = opened(two_sheets(false, true));
-  ASSERT_TRUE(
-      run(session, R"({"do":"select","surface":"#10"},{"do":"hold","mode":"trim"},)" + convert));
+  ASSERT_TRUE(run(session,
+                  R"({"do":"select","surface":"#10"},{"do":"hold","mode":"position"},)" + convert));
   ASSERT_TRUE(session.state().surfaces[0].visible);
   std::set<std::string> supports;
   for (const TrimEdge& edge : session.state().surfaces[0].visible->edges) {

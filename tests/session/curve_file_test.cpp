@@ -143,7 +143,7 @@ TEST(CurveFile, OfOneCurveAloneHasItSelected) {
   Session session(document_of(*made.save()));
   EXPECT_EQ(session.state().body, 0);
   // As scripts begin: the edges of all faces are held, of which there are none.
-  run(session, {R"({"do":"hold","mode":"trim","all":true})",
+  run(session, {R"({"do":"hold","mode":"position","all":true})",
                 R"({"do":"tool","radius":1,"position":[2.6,0,0]})", R"({"do":"step","count":4})"});
   EXPECT_GT(largest_displacement(session.state().bodies[0]), 0.1);
   EXPECT_NE(*session.save(), *made.save());

@@ -78,7 +78,7 @@ TEST(PointsCommand, WhatIsDisplacedStaysDisplacedByAsMuch) {
 
 TEST(PointsCommand, HandsMoveWhatIsHeldAndItIsHeldThere) {
   Session session =
-      on_sheet({R"({"do":"edge","hold":"clamped"})", R"({"do":"hold","rows":1})",
+      on_sheet({R"({"do":"edge","hold":"tangent"})", R"({"do":"hold","rows":1})",
                 R"({"do":"pin","control_points":[[4,4]]})", R"({"do":"pin","at":[0.3,0.6]})",
                 R"({"do":"points","which":[5,44,26,36],"by":[0,0,1]})"});
   expect_at_rest(session);
@@ -195,7 +195,7 @@ TEST(WeightsCommand, MakeAQuarterOfACylinderOfASheet) {
 
 TEST(WeightsCommand, OfAFilesSurfaceAreSavedAndReadBack) {
   Session session = open_sample();
-  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"free"})",
+  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"open"})",
                 R"({"do":"weights","which":[60,61],"weight":3})"});
   ASSERT_FALSE(first(session).opened->rational());
   const auto saved = step::File::parse(*session.save(), "saved");
@@ -207,7 +207,7 @@ TEST(WeightsCommand, OfAFilesSurfaceAreSavedAndReadBack) {
 
 TEST(KnotsCommand, ChangeTheShapeForGoodAndAreSaved) {
   Session session = open_sample();
-  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"free"})"});
+  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"open"})"});
   const KnotVector before = first(session).current->knots(0);
   std::vector<double> knots(before.knots().begin(), before.knots().end());
   const auto middle = static_cast<std::size_t>(before.count() + before.degree()) / 2;
@@ -229,7 +229,7 @@ TEST(KnotsCommand, ChangeTheShapeForGoodAndAreSaved) {
 TEST(KnotsCommand, KeepConstraintsWhereTheyLead) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,10],"degree":[2,2],"net":[5,5]})",
-                R"({"do":"edge","hold":"clamped"})", R"({"do":"points","which":[12],"by":[0,0,1]})",
+                R"({"do":"edge","hold":"tangent"})", R"({"do":"points","which":[12],"by":[0,0,1]})",
                 R"({"do":"knots","direction":"v","knots":[0,0,0,0.2,0.9,1,1,1]})"});
   expect_at_rest(session);
   run(session, {R"({"do":"symmetry","mirror":"u"})"});

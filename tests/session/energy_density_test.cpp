@@ -98,7 +98,7 @@ TEST(HeldPoints, CoverEveryWayOfHolding) {
   EXPECT_EQ(count(held({}), 0), 100);
   EXPECT_EQ(count(held({R"({"do":"hold","rows":2})"}), 1), 100 - 36);
   EXPECT_EQ(held({R"({"do":"pin","control_points":[[3,4]]})"})[34], 1);
-  EXPECT_EQ(count(held({R"({"do":"edge","which":"u0","hold":"clamped"})"}), 1), 20);
+  EXPECT_EQ(count(held({R"({"do":"edge","which":"u0","hold":"tangent"})"}), 1), 20);
   EXPECT_EQ(count(held({R"({"do":"freeze","region":[[0.5,0.5],[0.5,0.5]]})"}), 1), 16)
       << "one span of degree 3";
   EXPECT_EQ(count(held({R"({"do":"pin","at":[0.5,0.5]})"}), 2), 16);

@@ -24,7 +24,7 @@ std::string edge_command(const TwoSheets& sheets, const std::string& hold) {
 TEST(FollowCommands, AnEdgeFreedInVersion2MovesWithItsFacesAndStaysClosed) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto status = run(session, both + "," + edge_command(sheets, "free") + "," + press);
+  const auto status = run(session, both + "," + edge_command(sheets, "follow") + "," + press);
   ASSERT_TRUE(status) << status.error().message();
   const SessionState& state = session.state();
   ASSERT_EQ(state.followed.size(), 1U);
@@ -59,7 +59,7 @@ TEST(FollowCommands, ASmoothEdgeStaysSmooth) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   const auto status =
-      run(session, both + "," + edge_command(sheets, "free") + "," + no_seams + "," + press);
+      run(session, both + "," + edge_command(sheets, "follow") + "," + no_seams + "," + press);
   ASSERT_TRUE(status) << status.error().message();
   EXPECT_TRUE(is_smooth(*session.state().followed[0].course));
   const Parting apart = parted(session);
@@ -113,7 +113,7 @@ TEST(FollowCommands, DirectionsAcrossAnEdgeAreOneInSpaceWhateverTheParameters) {
 TEST(FollowCommands, WhatWouldCreaseASmoothEdgeIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free")));
+  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "follow")));
   const auto status = run_on(
       session, R"({"do":"select","surface":"#10"},{"do":"points","which":[0,1],"by":[0,0,0.1]})");
   ASSERT_FALSE(status);
@@ -125,9 +125,9 @@ TEST(FollowCommands, WhatWouldCreaseASmoothEdgeIsRefused) {
 TEST(FollowCommands, AnEdgeHeldAgainIsStillWrittenWhereItWent) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + "," + press));
+  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "follow") + "," + press));
   const auto before = session.save();
-  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"trim"})"));
+  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"position"})"));
   EXPECT_EQ(*session.save(), *before);
 }
 
@@ -135,7 +135,7 @@ TEST(FollowCommands, TheFaceThatWouldHaveToFollowIsNamed) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   const auto alone =
-      run(session, R"({"do":"select","surface":"#10"},)" + edge_command(sheets, "free"));
+      run(session, R"({"do":"select","surface":"#10"},)" + edge_command(sheets, "follow"));
   ASSERT_FALSE(alone);
   EXPECT_EQ(alone.error().kind, ErrorKind::input);
   EXPECT_NE(alone.error().what.find("#20"), std::string::npos);
@@ -144,7 +144,8 @@ TEST(FollowCommands, TheFaceThatWouldHaveToFollowIsNamed) {
 
   const TwoSheets flat = two_sheets(false, true);
   Session other = opened(flat);
-  const auto plane = run(other, R"({"do":"select","surface":"#10"},)" + edge_command(flat, "free"));
+  const auto plane =
+      run(other, R"({"do":"select","surface":"#10"},)" + edge_command(flat, "follow"));
   ASSERT_FALSE(plane);
   EXPECT_NE(plane.error().what.find("#20 PLANE"), std::string::npos) << plane.error().message();
 }
@@ -152,7 +153,7 @@ TEST(FollowCommands, TheFaceThatWouldHaveToFollowIsNamed) {
 TEST(FollowCommands, WithOneOfItsFacesNoLongerSelectedTheStepIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  const auto status = run(session, both + "," + edge_command(sheets, "free") +
+  const auto status = run(session, both + "," + edge_command(sheets, "follow") +
                                        R"(,{"do":"select","surface":"#10"},)" + press);
   ASSERT_FALSE(status);
   EXPECT_NE(status.error().message().find("#20"), std::string::npos) << status.error().message();
@@ -161,8 +162,8 @@ TEST(FollowCommands, WithOneOfItsFacesNoLongerSelectedTheStepIsRefused) {
 TEST(FollowCommands, WhatPartsTheFacesIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  ASSERT_TRUE(run(
-      session, both + "," + edge_command(sheets, "free") + R"(,{"do":"select","surface":"#10"})"));
+  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "follow") +
+                               R"(,{"do":"select","surface":"#10"})"));
   const auto status = run_on(session, R"({"do":"points","which":[2],"by":[0,0,0.1]})");
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().kind, ErrorKind::numerical);
@@ -174,8 +175,9 @@ TEST(FollowCommands, WhatPartsTheFacesIsRefused) {
 TEST(FollowCommands, AnEdgeThatMayOpenIsNoted) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  ASSERT_TRUE(run_on(session, R"({"do":"select","surface":"#10"},{"do":"hold","mode":"trim"},)" +
-                                  edge_command(sheets, "open")));
+  ASSERT_TRUE(
+      run_on(session, R"({"do":"select","surface":"#10"},{"do":"hold","mode":"position"},)" +
+                          edge_command(sheets, "open")));
   EXPECT_TRUE(session.state().followed.empty());
   ASSERT_EQ(session.state().notes.size(), 1U);
   EXPECT_NE(session.state().notes[0].find("#20"), std::string::npos);
@@ -183,7 +185,7 @@ TEST(FollowCommands, AnEdgeThatMayOpenIsNoted) {
 
 TEST(FollowCommands, AJournalSaysWhatFollowsAndWhatMayOpen) {
   const TwoSheets sheets = two_sheets();
-  for (const char* const hold : {"free", "follow", "open"}) {
+  for (const char* const hold : {"follow", "open"}) {
     Session session = opened(sheets), again = opened(sheets);
     ASSERT_TRUE(run(session, both + "," + edge_command(sheets, hold)));
     const std::string script = script_json(session.journal());
@@ -202,7 +204,7 @@ TEST(FollowCommands, AJournalSaysWhatFollowsAndWhatMayOpen) {
 TEST(FollowCommands, ASnapshotKeepsWhatFollows) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + "," + press));
+  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "follow") + "," + press));
   auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")),
                                    session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
@@ -234,7 +236,8 @@ TEST(FollowStrokes, AGrooveAcrossAnEdgeIsLeftOnBothSidesOfIt) {
   for (const std::string& seams : {std::string(R"({"do":"seams","couple":true})"), no_seams}) {
     const TwoSheets sheets = two_sheets();
     Session session = opened(sheets);
-    ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + "," + seams + "," + clay));
+    ASSERT_TRUE(
+        run(session, both + "," + edge_command(sheets, "follow") + "," + seams + "," + clay));
     const std::size_t ready = session.journal().size();
     const auto status =
         run_on(session, R"({"do":"stroke","path":[[0.6,0.5,0.15],[1.4,0.5,0.15]]})");
@@ -260,7 +263,7 @@ TEST(FollowStrokes, AnOpenStrokeGoesOverAnEdgeInParts) {
   const TwoSheets sheets = two_sheets();
   Session whole = opened(sheets), parts = opened(sheets);
   for (Session* s : {&whole, &parts}) {
-    ASSERT_TRUE(run(*s, both + "," + edge_command(sheets, "free") + "," + no_seams + "," + clay));
+    ASSERT_TRUE(run(*s, both + "," + edge_command(sheets, "follow") + "," + no_seams + "," + clay));
   }
   ASSERT_TRUE(run_on(whole, R"({"do":"stroke","path":[[0.6,0.5,0.15],[1.4,0.5,0.15]]})"));
   ASSERT_TRUE(run_on(parts, R"({"do":"stroke","path":[[0.6,0.5,0.15],[0.9,0.5,0.15]],"open":true},
@@ -287,7 +290,7 @@ TEST(FollowStrokes, ABrushOverAnEdgeMovesBothFaces) {
     for (const std::string& seams : {std::string(R"({"do":"seams","couple":true})"), no_seams}) {
       const TwoSheets sheets = two_sheets();
       Session session = opened(sheets);
-      const auto status = run(session, both + "," + edge_command(sheets, "free") + "," + seams +
+      const auto status = run(session, both + "," + edge_command(sheets, "follow") + "," + seams +
                                            R"(,{"do":"brush","radius":0.35,)" + kind + "}");
       ASSERT_TRUE(status) << status.error().message();
       const Parting apart = parted(session);

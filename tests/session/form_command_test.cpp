@@ -27,7 +27,7 @@ const Volume& volume(const Session& session) {
 Session rod(const std::vector<std::string>& more) {
   Session session = fresh();
   run(session, {R"({"do":"new","shape":"curve","size":10,"degree":3,"net":30})",
-                R"({"do":"edge","which":"u0","hold":"clamped"})",
+                R"({"do":"edge","which":"u0","hold":"tangent"})",
                 R"({"do":"material","model":"fundamental","w1":100,"w2":1000})",
                 R"({"do":"evolve","mode":"static"})"});
   run(session, more);
@@ -81,7 +81,7 @@ TEST(FormCommand, ABlockIsPulledAsItsMetricHasIt) {
 /// A rod 10 long between two clamped ends, and a ball above its middle.
 Session clamped_rod(const std::string& more = "") {
   Session session = rod(
-      {R"({"do":"edge","which":"u1","hold":"clamped"})",
+      {R"({"do":"edge","which":"u1","hold":"tangent"})",
        R"({"do":"tool","name":"ball","radius":1,"position":[5,0,1],"stiffness":1e5)" + more + "}"});
   return session;
 }

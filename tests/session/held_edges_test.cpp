@@ -94,7 +94,7 @@ TEST(HeldEdges, TangentPlanesThatAreHeldDoNotTurn) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   const Error error =
-      refused(session, left + R"(,{"do":"hold","mode":"trim-g1"},{"do":"elevate","by":[1,1]},
+      refused(session, left + R"(,{"do":"hold","mode":"tangent"},{"do":"elevate","by":[1,1]},
       {"do":"points","which":[4],"by":[0,0,0.2]})");
   EXPECT_TRUE(says(error.what, "are held, and would turn by")) << error.message();
   EXPECT_EQ(testing::code_of(error), ErrorCode::edge_would_turn);
@@ -104,8 +104,8 @@ TEST(HeldEdges, TangentPlanesThatAreHeldDoNotTurn) {
 TEST(HeldEdges, WeightsThatWouldOpenOneStay) {
   TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  ASSERT_TRUE(run_on(session, left + R"(,{"do":"hold","mode":"free"},{"do":"elevate","by":[1,1]},
-      {"do":"points","which":[7],"by":[0.2,0,0]},{"do":"hold","mode":"trim"})"));
+  ASSERT_TRUE(run_on(session, left + R"(,{"do":"hold","mode":"open"},{"do":"elevate","by":[1,1]},
+      {"do":"points","which":[7],"by":[0.2,0,0]},{"do":"hold","mode":"position"})"));
   const Error error = refused(run_on(session, R"({"do":"weights","which":[7],"weight":3})"));
   EXPECT_TRUE(says(error.what, "is held, and would open by")) << error.message();
 }
@@ -146,9 +146,9 @@ TEST(PartedEdges, WhatWasNeverHeldIsNotWrittenOpen) {
       << bytes.error().message();
   EXPECT_EQ(testing::code_of(bytes.error()), ErrorCode::edge_left_open);
   EXPECT_TRUE(says(bytes.error().what, "at (1, 0, 0)")) << bytes.error().message();
-  EXPECT_TRUE(says(bytes.error().remedy, R"({"do":"hold","mode":"free"})")) << bytes.error().remedy;
+  EXPECT_TRUE(says(bytes.error().remedy, R"({"do":"hold","mode":"open"})")) << bytes.error().remedy;
   // As the remedy says.
-  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"free"})"));
+  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"open"})"));
   const auto open = session.save();
   ASSERT_TRUE(open) << open.error().message();
   ASSERT_EQ(session.parted_edges()->size(), 2U);
@@ -170,7 +170,7 @@ TEST(PartedEdges, TheFreedAreStillFreedInASnapshotAndAScript) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   ASSERT_TRUE(
-      run_on(session, R"({"do":"hold","mode":"free","all":true},)" + left + "," + lift_corner));
+      run_on(session, R"({"do":"hold","mode":"open","all":true},)" + left + "," + lift_corner));
   const auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")),
                                          session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
@@ -179,7 +179,7 @@ TEST(PartedEdges, TheFreedAreStillFreedInASnapshotAndAScript) {
   EXPECT_TRUE(session.save()) << "they are free as before";
   ASSERT_TRUE(run_on(session, R"({"do":"release"})"));
   EXPECT_TRUE(session.save());
-  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"trim"})"));
+  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"position"})"));
   EXPECT_FALSE(session.save()) << "they are held where they are not any more";
 }
 
@@ -251,11 +251,11 @@ std::vector<int> orders_of(const Session& session, std::size_t surface) {
 }
 
 TEST(SecondFace, IsHeldAsTheFirst) {
-  for (const std::string& order : {std::string("trim"), std::string("trim-g1")}) {
+  for (const std::string& order : {std::string("position"), std::string("tangent")}) {
     const TwoSheets sheets = two_sheets();
     Session session = opened(sheets);
     ASSERT_TRUE(run_on(session, left + R"(,{"do":"hold","mode":")" + order + R"("},)" + both));
-    EXPECT_EQ(orders_of(session, 1), std::vector<int>(4, order == "trim" ? 0 : 1));
+    EXPECT_EQ(orders_of(session, 1), std::vector<int>(4, order == "position" ? 0 : 1));
     ASSERT_TRUE(run_on(session, R"({"do":"edge","hold":"follow","edge":")" +
                                     TwoSheets::name(sheets.edge) + "\"}"));
     EXPECT_EQ(std::ranges::count(orders_of(session, 1), -1), 1);
@@ -275,18 +275,18 @@ TEST(SecondFace, IsHeldWhereAnEdgeFollowsThatWasAskedOfBoth) {
   const std::string follow =
       R"({"do":"edge","hold":"follow","edge":")" + TwoSheets::name(sheets.edge) + "\"}";
   ASSERT_TRUE(run_on(session, both + "," + follow + "," + left +
-                                  R"(,{"do":"hold","mode":"trim"},)" + both + "," + follow));
+                                  R"(,{"do":"hold","mode":"position"},)" + both + "," + follow));
   for (const std::size_t k : {0U, 1U}) EXPECT_EQ(std::ranges::count(orders_of(session, k), 0), 3);
 }
 
 TEST(SecondFace, IsHeldAsItIsSaid) {
   const TwoSheets sheets = two_sheets();
-  const std::string said[] = {R"({"do":"hold","mode":"free"})", R"({"do":"hold","rows":1})",
+  const std::string said[] = {R"({"do":"hold","mode":"open"})", R"({"do":"hold","rows":1})",
                               R"({"do":"pin","at":[0.5,0.5]})"};
   for (const std::string& command : said) {
     Session session = opened(sheets);
     ASSERT_TRUE(run_on(session, right_alone + "," + command + "," + left +
-                                    R"(,{"do":"hold","mode":"trim"},)" + both));
+                                    R"(,{"do":"hold","mode":"position"},)" + both));
     EXPECT_FALSE(holds_trims(session.state().surfaces[1].constraints)) << command;
   }
   // Where the first is not held, nor is the second.
@@ -307,7 +307,7 @@ TEST(SecondFace, ASeamThatWasNearlySmoothStaysSo) {
   Session session = opened(sheets);
   const auto status =
       run(session, both + R"(,{"do":"edge","edge":")" + TwoSheets::name(sheets.edge) +
-                       R"(","hold":"free"},
+                       R"(","hold":"follow"},
       {"do":"seams","couple":false},)" +
                        press);
   ASSERT_TRUE(status) << status.error().message();

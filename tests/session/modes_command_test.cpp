@@ -79,7 +79,7 @@ TEST(ModesCommand, OfACantileveredPanelAreThoseMeasured) {
                    c),
        R"({"do":"elevate","by":[1,2]})", R"({"do":"refine","region":[[0,1],[0,1]]})",
        R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"refine","region":[[0,1],[0,1]]})",
-       R"({"do":"edge","which":"v0","hold":"clamped"})",
+       R"({"do":"edge","which":"v0","hold":"tangent"})",
        R"({"do":"material","model":"shell","young":206800,"poisson":0.3,"thickness":3.048,)"
        R"("density":7.86e-9})",
        R"({"do":"modes","count":5})"});
@@ -123,7 +123,7 @@ TEST(BucklingCommand, OfAStrutIsThatOfEuler) {
   // Clamped at one end: P = π² E I / (4 L²), here per width; ν = 0.
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,1],"degree":[4,2],"net":[12,3]})",
-                R"({"do":"edge","which":"u0","hold":"clamped"})",
+                R"({"do":"edge","which":"u0","hold":"tangent"})",
                 R"({"do":"material","model":"shell","young":1.2e6,"thickness":0.1})",
                 R"({"do":"force","kind":"line","edge":"u1","vector":[-0.5,0,0]})",
                 R"({"do":"buckling","count":2})"});
@@ -156,7 +156,7 @@ TEST(BucklingCommand, NamesWhatIsWrong) {
   EXPECT_EQ(refusal(session, R"({"do":"modes","count":0})").where, "count");
   run(session, {R"({"do":"material","model":"shell","young":1,"thickness":0.1})"});
   EXPECT_EQ(refusal(session, R"({"do":"modes"})").where, "density");
-  run(session, {R"({"do":"edge","which":"u0","hold":"clamped"})"});
+  run(session, {R"({"do":"edge","which":"u0","hold":"tangent"})"});
   EXPECT_EQ(refusal(session, R"({"do":"buckling"})").where, "load");
   run(session, {R"({"do":"force","kind":"line","edge":"u1","vector":[1,0,0]})"});
   EXPECT_EQ(refusal(session, R"({"do":"buckling"})").where, "load");  // it pulls

@@ -22,7 +22,7 @@ Session opened(const Surface& surface) {
       open_source(*save_surfaces(named, *find_format("step"), {.unit = "mm"}), "made.step");
   Session session(Document::from(*source));
   run(session,
-      {R"({"do":"hold","mode":"trim","all":true})",
+      {R"({"do":"hold","mode":"position","all":true})",
        fmt::format(R"({{"do":"select","surface":"{}"}})", session.state().surfaces[0].id)});
   return session;
 }
@@ -112,7 +112,7 @@ TEST(MotionLaw, AStrokeOnAWavySheetGoesAsDeepAsTheBallWent) {
 TEST(MotionLaw, AStrokeThatMovesFreeSidesFurtherSaysHowFar) {
   Session session = opened(testing::uniform_sheet(3, 12, 12, 100, 100));
   run(session,
-      {R"({"do":"material","preset":"clay"})", R"({"do":"edge","which":"u0","hold":"free"})",
+      {R"({"do":"material","preset":"clay"})", R"({"do":"edge","which":"u0","hold":"open"})",
        R"({"do":"tool","name":"b","radius":247,"position":[55,45,2000]})",
        R"({"do":"stroke","tool":"b","path":[[55,45,240]]})"});
   EXPECT_GT(furthest(session), 1.06 * 7);

@@ -121,9 +121,9 @@ void act(Random& random, unsigned seed, Tally& tally) {
   Case c = random_case(random);
   Session& session = c.session;
   const std::string id = session.state().surfaces[0].id;
-  run(session, {R"({"do":"hold","mode":"trim","all":true})",
+  run(session, {R"({"do":"hold","mode":"position","all":true})",
                 fmt::format(R"({{"do":"select","surface":"{}"}})", id)});
-  if (!c.held) run(session, {R"({"do":"edge","which":"u0","hold":"free"})"});
+  if (!c.held) run(session, {R"({"do":"edge","which":"u0","hold":"open"})"});
   if (random.odds(2)) run(session, {R"({"do":"material","preset":"clay"})"});
   const Surface shape = *session.state().surfaces[0].current;
   const double size = bounding_box(shape).diagonal(),

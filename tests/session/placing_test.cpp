@@ -81,7 +81,7 @@ TEST(PlacedPoints, SymmetriesStandUnderALattice) {
 }
 
 TEST(PlacedPoints, WhatALatticeMovesIsHeldInItsNewPlace) {
-  Session session = on_sheet({R"({"do":"edge","hold":"clamped"})", R"({"do":"hold","rows":1})",
+  Session session = on_sheet({R"({"do":"edge","hold":"tangent"})", R"({"do":"hold","rows":1})",
                               R"({"do":"pin","control_points":[[4,4]]})",
                               R"({"do":"pin","at":[0.3,0.6]})", pull_all});
   EXPECT_GT(at(*first(session).current, 0.5, 0.5)[2], 0.1);

@@ -137,7 +137,7 @@ std::string random_command(Random& random, const Similarity& m, bool settings = 
     case 13:
       return fmt::format(R"({{"do":"edge","which":"{}","hold":"{}"}})",
                          random.whole(0, 1) == 0 ? "u0" : "v1",
-                         random.whole(0, 1) == 0 ? "position" : "clamped");
+                         random.whole(0, 1) == 0 ? "position" : "tangent");
     case 14:
       return fmt::format(R"({{"do":"freeze","region":[[{0:.17g},{0:.17g}],[{1:.17g},{1:.17g}]]}})",
                          s, t);

@@ -67,7 +67,7 @@ void bend(const std::vector<std::filesystem::path>& files, int& sculpted, int& l
         continue;
       SCOPED_TRACE(path.filename().string() + " " + s.id);
       run(session,
-          {R"({"do":"select","surface":")" + s.id + R"("})", R"({"do":"hold","mode":"free"})",
+          {R"({"do":"select","surface":")" + s.id + R"("})", R"({"do":"hold","mode":"open"})",
            R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55],"touches":"all"})",
            R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
       if (const auto status = session.execute(make_command(StepCommand{1, 3, {}})); !status) {
@@ -84,7 +84,7 @@ void bend(const std::vector<std::filesystem::path>& files, int& sculpted, int& l
         ++lines;
       }
       run(session,
-          {R"({"do":"undo"})", R"({"do":"edge","hold":"clamped"})", R"({"do":"step","lambda":3})"});
+          {R"({"do":"undo"})", R"({"do":"edge","hold":"tangent"})", R"({"do":"step","lambda":3})"});
       EXPECT_LE(session.state().steps.back().violation, 1e-10 * size);
       const auto bytes = session.save();
       ASSERT_TRUE(bytes) << bytes.error().message();

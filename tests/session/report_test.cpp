@@ -80,7 +80,7 @@ TEST(ReportEdges, SaysHowTheEdgesOfFacesAreHeld) {
   ASSERT_TRUE(document);
   Session session(*std::move(document));
   EXPECT_TRUE(report_edges(session).empty()) << "nothing moved, and nothing is held";
-  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"trim-g1"})"});
+  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"tangent"})"});
   const auto edges = report_edges(session);
   ASSERT_EQ(edges.size(), 1u);
   const SceneSurface& s = session.state().surfaces[static_cast<std::size_t>(edges[0].surface)];
@@ -88,7 +88,7 @@ TEST(ReportEdges, SaysHowTheEdgesOfFacesAreHeld) {
   const EdgesReport& report = edges[0];
   ASSERT_FALSE(report.edges.empty());
   for (const EdgeReport& edge : report.edges) {
-    EXPECT_EQ(edge.hold, "clamped") << edge.id;
+    EXPECT_EQ(edge.hold, "tangent") << edge.id;
     EXPECT_TRUE(edge.held) << edge.id;
   }
   EXPECT_TRUE(report_followed(session).empty()) << "no angles are reported";
@@ -100,7 +100,7 @@ TEST(ReportEdges, SaysWhichAreFree) {
   auto document = Document::open(bonnet);
   ASSERT_TRUE(document);
   Session session(*std::move(document));
-  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"trim"})"});
+  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"position"})"});
   const auto held = report_edges(session);
   ASSERT_EQ(held.size(), 1u);
   ASSERT_FALSE(held[0].edges.empty());
@@ -110,7 +110,7 @@ TEST(ReportEdges, SaysWhichAreFree) {
   const auto opened = report_edges(session);
   ASSERT_EQ(opened.size(), 1u);
   EXPECT_EQ(opened[0].edges.front().id, first.id);
-  EXPECT_EQ(opened[0].edges.front().hold, "free");
+  EXPECT_EQ(opened[0].edges.front().hold, "open");
   EXPECT_FALSE(opened[0].edges.front().held);
 }
 
@@ -136,7 +136,7 @@ TEST(ResultGrids, HaveTheDisplacementAndTheModes) {
   run(session, {R"({"do":"new","size":[100,100],"net":[9,9]})",
                 R"({"do":"material","model":"shell","young":70000,"thickness":1,"poisson":0.3,)"
                 R"("density":1e-6})",
-                R"({"do":"edge","hold":"clamped"})", R"({"do":"modes","count":2})"});
+                R"({"do":"edge","hold":"tangent"})", R"({"do":"modes","count":2})"});
   const auto grids = result_grids(session, 5);
   ASSERT_TRUE(grids);
   ASSERT_EQ(grids->size(), 1u);

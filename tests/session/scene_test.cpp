@@ -108,7 +108,7 @@ TEST(Scene, EqualInputsAreWhatAModelDependsOn) {
         R"({"do":"seams","couple":false})", R"({"do":"evolve","lambda":2})",
         R"({"do":"material","mass":3})", R"({"do":"smooth","poles":false})",
         R"({"do":"scaling","mode":"raw"})", R"({"do":"tool","radius":0.5,"position":[5,5,9]})",
-        R"({"do":"keep","u":0.5})", R"({"do":"edge","which":"u0","hold":"free"})"}) {
+        R"({"do":"keep","u":0.5})", R"({"do":"edge","which":"u0","hold":"open"})"}) {
     run(session, {other});
     EXPECT_NE(model_input(session.state(), session.state().evolution), before) << other;
     run(session, {R"({"do":"undo"})"});

@@ -23,7 +23,7 @@ const std::vector<std::string> press = {
     R"({"do":"tool","name":"ball","radius":160,"at":[0.4,0.5]})",
     R"({"do":"move","tool":"ball","by":[0,0,120]})", R"({"do":"step","count":4})"};
 
-const std::string may_open = R"({"do":"hold","mode":"free","all":true})";
+const std::string may_open = R"({"do":"hold","mode":"open","all":true})";
 
 TEST(Session, PressesAToolIntoARealFileAndReadsTheSameBitsBack) {
   Session session = open_sample();
@@ -33,7 +33,7 @@ TEST(Session, PressesAToolIntoARealFileAndReadsTheSameBitsBack) {
   EXPECT_LT(session.largest_displacement(index), 40.1);
   EXPECT_GT(session.moved_control_points(index), 10);
   EXPECT_FALSE(session.save()) << "the edges of the face open";
-  run(session, {R"({"do":"hold","mode":"free"})"});
+  run(session, {R"({"do":"hold","mode":"open"})"});
   const auto bytes = session.save();
   ASSERT_TRUE(bytes);
   const auto again = step::File::parse(*bytes, "saved");
@@ -261,7 +261,7 @@ TEST_P(SessionOnFile, EverySurfaceCanBeSculptedOrSaysWhyNot) {
     SCOPED_TRACE(s.id);
     ++tried;
     run(session,
-        {R"({"do":"select","surface":")" + s.id + R"("})", R"({"do":"hold","mode":"free"})"});
+        {R"({"do":"select","surface":")" + s.id + R"("})", R"({"do":"hold","mode":"open"})"});
     const auto tool = session.execute(*parse_command(
         R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55],"touches":"all"})"));
     if (!tool) {  // some are one point

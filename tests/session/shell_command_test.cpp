@@ -25,7 +25,7 @@ const ShellMaterial& shell_of(const Session& session) {
 // A cantilever 10 long, 1 wide and 0.1 thick, E = 1.2e6, ν = 0, clamped at u = 0.
 
 const std::vector<std::string> cantilever_commands = {
-    R"({"do":"new","size":[10,1],"net":[19,4]})", R"({"do":"edge","which":"u0","hold":"clamped"})",
+    R"({"do":"new","size":[10,1],"net":[19,4]})", R"({"do":"edge","which":"u0","hold":"tangent"})",
     R"({"do":"material","model":"shell","young":1.2e6,"poisson":0,"thickness":0.1})",
     R"({"do":"evolve","mode":"static"})"};
 
@@ -168,7 +168,7 @@ TEST(ShellCommand, WithoutMassThereIsNoWeight) {
 TEST(ShellCommand, FormsSwingWithoutGainingEnergy) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,1],"net":[19,4]})",
-                R"({"do":"edge","which":"u0","hold":"clamped"})",
+                R"({"do":"edge","which":"u0","hold":"tangent"})",
                 R"({"do":"material","model":"fundamental","w1":1,"w2":10,"mass":1,"damping":0})",
                 R"({"do":"evolve","mode":"static"})",
                 R"({"do":"force","name":"pull","kind":"line","edge":"u1","vector":[0,0,0.5]})",
@@ -258,7 +258,7 @@ TEST(ShellCommand, NamesWhatIsWrong) {
   run(session, {R"({"do":"load","vector":[0,0,1]})"});
   EXPECT_EQ(refusal(session, R"({"do":"evolve","mode":"static"})").kind,
             ErrorKind::numerical);  // nothing holds it
-  run(session, {R"({"do":"load"})", R"({"do":"edge","hold":"clamped"})",
+  run(session, {R"({"do":"load"})", R"({"do":"edge","hold":"tangent"})",
                 R"({"do":"evolve","mode":"static"})"});
   EXPECT_EQ(refusal(session, R"({"do":"step","increments":0})").where, "increments");
   run(session, {R"({"do":"evolve","mode":"dynamic"})"});

@@ -15,7 +15,7 @@ using testing::run;
 
 Session strip(const std::vector<std::string>& load,
               const std::vector<std::string>& holds = {
-                  R"({"do":"edge","which":"u0","hold":"clamped"})"}) {
+                  R"({"do":"edge","which":"u0","hold":"tangent"})"}) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,1],"net":[12,4]})"});
   run(session, holds);

@@ -82,7 +82,7 @@ Session pressed_box(bool spline_floor, const std::vector<std::string>& press) {
   Session session = opened(thin_box(spline_floor));
   const std::string id = session.state().surfaces[0].id;
   run(session, {fmt::format(R"({{"do":"select","surface":"{}"}})", id),
-                R"({"do":"hold","mode":"trim"})", R"({"do":"material","preset":"clay"})",
+                R"({"do":"hold","mode":"position"})", R"({"do":"material","preset":"clay"})",
                 R"({"do":"tool","name":"b","radius":2,"position":[5,5,9]})"});
   run(session, press);
   return session;
@@ -251,7 +251,7 @@ TEST(ThroughWalls, FacesThatMeetAtEdgesAreNotNoted) {
     for (const double side : {1., -1.}) {
       const Point at = *middle - side * 0.8 * inward, away = *middle - side * 4 * inward;
       run(session, {fmt::format(R"({{"do":"select","surface":"{}"}})", s.id),
-                    R"({"do":"hold","mode":"trim"})", R"({"do":"refine","permission":"auto"})",
+                    R"({"do":"hold","mode":"position"})", R"({"do":"refine","permission":"auto"})",
                     R"({"do":"material","preset":"clay"})",
                     fmt::format(R"({{"do":"tool","name":"t","radius":1.5,"position":[{},{},{}]}})",
                                 away.x(), away.y(), away.z()),
@@ -271,7 +271,7 @@ TEST(ThroughWalls, ACurvedHullPressedIsNotNoted) {
     const Point at = place - 0.6 * radius * inward, away = place - 3 * radius * inward;
     run(session,
         {fmt::format(R"({{"do":"select","surface":"{}"}})", session.state().surfaces[0].id),
-         R"({"do":"hold","mode":"trim"})", R"({"do":"material","preset":"clay"})",
+         R"({"do":"hold","mode":"position"})", R"({"do":"material","preset":"clay"})",
          R"({"do":"refine","permission":"auto"})",
          fmt::format(R"({{"do":"tool","name":"t","radius":{},"position":[{},{},{}]}})", radius,
                      away.x(), away.y(), away.z()),
@@ -298,7 +298,7 @@ Session pressed_sphere(double depth) {
   Session session = testing::fresh();
   run(session,
       {R"({"do":"new","shape":"sphere","radius":1})", R"({"do":"refine","region":[[0,1],[0,1]]})",
-       R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"hold","mode":"trim"})",
+       R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"hold","mode":"position"})",
        R"({"do":"material","preset":"clay"})",
        R"({"do":"tool","name":"b","radius":0.5,"position":[0,0,9]})",
        fmt::format(R"({{"do":"stroke","tool":"b","path":[[0,0,{}]]}})", 1.5 - depth)});

@@ -134,7 +134,7 @@ TEST(TrimCommands, AFoldBesideAHeldEdgeNamesIt) {
     EXPECT_NE(error.remedy.find(R"({"do":"edge","edge":")" + edge + R"(","hold":"follow"})"),
               std::string::npos);
   }
-  const Error freed = refused(R"({"do":"edge","edge":")" + d.hole + R"(","hold":"free"},)",
+  const Error freed = refused(R"({"do":"edge","edge":")" + d.hole + R"(","hold":"follow"},)",
                               "[0.8,0.5]", "[-0.2,0,0]");
   EXPECT_NE(freed.what.find("folds #10"), std::string::npos) << freed.message();
   EXPECT_EQ(testing::code_of(freed), ErrorCode::step_folds);
@@ -155,7 +155,7 @@ const std::string in_hole =
     R"({"do":"tool","name":"ball","radius":0.09,"rigid":true,"position":[0.6,0.5,0.03])";
 
 TEST(TrimCommands, AToolInAHoleTouchesNothing) {
-  for (const char* hold : {"", R"({"do":"hold","mode":"free"},)"}) {
+  for (const char* hold : {"", R"({"do":"hold","mode":"open"},)"}) {
     Session session(document(disc().file));
     const auto result =
         run(session, hold + in_hole + R"(},{"do":"evolve","mode":"acm"},{"do":"step"})");
@@ -171,7 +171,7 @@ TEST(TrimCommands, AToolInAHoleTouchesNothing) {
 TEST(TrimCommands, AToolTouchesAllOfASurfaceWhereThatIsAsked) {
   const std::string step = R"(,{"do":"evolve","mode":"acm"},{"do":"step"})";
   Session asked(document(disc().file)), edited(document(disc().file)), first(document(disc().file));
-  const std::string free = R"({"do":"hold","mode":"free"},)";
+  const std::string free = R"({"do":"hold","mode":"open"},)";
   ASSERT_TRUE(run(asked, free + in_hole + R"(,"touches":"all"})" + step));
   ASSERT_TRUE(run(edited, free + in_hole + R"(},{"do":"edit_tool","touches":"all"})" + step));
   ASSERT_TRUE(run_on(first, in_hole + R"(,"touches":"all"})" + step));
@@ -216,7 +216,7 @@ TEST(TrimCommands, AStepOverWhatIsHeldCanBeAllowed) {
 TEST(TrimCommands, AnEdgeThatIsFreedMayMove) {
   const Disc d = disc();
   Session session(document(d.file));
-  ASSERT_TRUE(run(session, R"({"do":"edge","which":")" + d.hole + R"(","hold":"free"},
+  ASSERT_TRUE(run(session, R"({"do":"edge","which":")" + d.hole + R"(","hold":"follow"},
     {"do":"tool","radius":0.08,"at":[0.45,0.5]},{"do":"move","by":[0,0,0.06]},
     {"do":"evolve","mode":"static"})"));
   const auto report = trim_report(session.state().surfaces[0]);
@@ -234,7 +234,7 @@ TEST(TrimCommands, AnEdgeThatIsFreedMayMove) {
 TEST(TrimCommands, AnEdgeThatThereIsNotIsNamedWithThoseThereAre) {
   const Disc d = disc();
   Session session(document(d.file));
-  const auto result = run(session, R"({"do":"edge","which":"#5","hold":"free"})");
+  const auto result = run(session, R"({"do":"edge","which":"#5","hold":"follow"})");
   ASSERT_FALSE(result);
   EXPECT_NE(result.error().remedy.find(d.edge), std::string::npos);
 }
@@ -256,15 +256,15 @@ TEST(TrimCommands, WhereNoEdgesAreHeldItIsNoted) {
 
 TEST(TrimCommands, EveryHoldReplacesTheOneBefore) {
   Session session(document(disc().file));
-  ASSERT_TRUE(run(session, R"({"do":"hold","mode":"trim-g2"})"));
+  ASSERT_TRUE(run(session, R"({"do":"hold","mode":"curvature"})"));
   ASSERT_EQ(session.state().surfaces[0].constraints.size(), 1U);
   EXPECT_EQ(std::get<TrimHolds>(session.state().surfaces[0].constraints[0].constraint).order, 2);
   ASSERT_TRUE(run_on(session, R"({"do":"hold","rows":1})"));
   EXPECT_TRUE(session.state().surfaces[0].constraints.empty());
   EXPECT_EQ(session.state().surfaces[0].hold_rows, 1);
-  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"trim"})"));
+  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"position"})"));
   EXPECT_EQ(session.state().surfaces[0].hold_rows, 0);
-  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"free"})"));
+  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"open"})"));
   EXPECT_FALSE(holds_trims(session.state().surfaces[0].constraints));
 }
 
@@ -272,7 +272,7 @@ TEST(TrimCommands, ASnapshotKeepsTheHold) {
   const Disc d = disc();
   Session session(document(d.file));
   ASSERT_TRUE(
-      run(session, R"({"do":"edge","which":")" + d.hole + R"(","hold":"clamped"},)" + pressed));
+      run(session, R"({"do":"edge","which":")" + d.hole + R"(","hold":"tangent"},)" + pressed));
   auto restored = Session::restore(document(d.file), session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
   const SceneSurface &a = session.state().surfaces[0], &b = restored->state().surfaces[0];

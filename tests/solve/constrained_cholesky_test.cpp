@@ -146,8 +146,8 @@ TEST(ConstrainedCholesky, CoupledCoordinatesGiveTheSameSolutionWhereNothingCoupl
   EXPECT_LE((coupled->solve(b) - x).norm(), 1e-11 * x.norm());
 }
 
-/// Right sides that are zero but at a few points: the part of the factor that they touch gives the
-/// solution there, and from there everywhere, to the bits of the whole solve.
+/// Right sides that are zero but at a few points: the subset of the factor that they touch gives
+/// the solution there, and from there everywhere, to the bits of the whole solve.
 TEST(ConstrainedCholesky, APartOfTheFactorGivesTheBitsOfTheWhole) {
   const Problem p(
       testing::relief(testing::uniform_clamped(3, 17), testing::uniform_clamped(2, 13), 5));
@@ -163,20 +163,20 @@ TEST(ConstrainedCholesky, APartOfTheFactorGivesTheBitsOfTheWhole) {
     const auto system = ConstrainedCholesky::factor(a, space);
     ASSERT_TRUE(system);
     for (const std::vector<int>& points : choices) {
-      const auto part = system->part(points);
+      const auto subset = system->subset(points);
       const Points here = random_points(static_cast<int>(points.size()), 6);
       Points b = Points::Zero(size, 3);
       for (std::size_t k = 0; k < points.size(); ++k)
         b.row(points[k]) = here.row(static_cast<Eigen::Index>(k));
-      const Points x = system->solve(b), within = system->solve_within(part, here);
+      const Points x = system->solve(b), within = system->solve_within(subset, here);
       const Points everywhere = random_points(size, 8);
       const auto half = system->forward(everywhere);
-      EXPECT_EQ(system->backward(half, 0, part, here), x);
+      EXPECT_EQ(system->backward(half, 0, subset, here), x);
       const Points whole = system->solve(everywhere);
-      EXPECT_EQ(system->backward(half, 1, part, Points::Zero(here.rows(), 3)), whole);
+      EXPECT_EQ(system->backward(half, 1, subset, Points::Zero(here.rows(), 3)), whole);
       const double squared = everywhere.cwiseProduct(whole).sum();
       EXPECT_NEAR(half.squared_norm, squared, 1e-12 * squared);
-      const Points second_within = system->backward_within(part, half);
+      const Points second_within = system->backward_within(subset, half);
       for (std::size_t k = 0; k < points.size(); ++k) {
         EXPECT_EQ(within.row(static_cast<Eigen::Index>(k)), x.row(points[k])) << points[k];
         EXPECT_EQ(second_within.row(static_cast<Eigen::Index>(k)), whole.row(points[k]))

@@ -209,23 +209,23 @@ TEST(DissectedPanels, SolveWithinAPartByTheBitsOfTheWhole) {
     const Points here = random_points(static_cast<Eigen::Index>(unknowns.size()), 5);
     for (std::size_t k = 0; k < unknowns.size(); ++k)
       b.row(unknowns[k]) = here.row(static_cast<Eigen::Index>(k));
-    const auto part = dissected->part(unknowns);
+    const auto subset = dissected->subset(unknowns);
     const Points whole = dissected->solve(b);
     for (const int threads : testing::thread_counts) {
       const Points within =
-          with_threads(threads, [&] { return dissected->solve_within(part, here); });
+          with_threads(threads, [&] { return dissected->solve_within(subset, here); });
       for (std::size_t k = 0; k < unknowns.size(); ++k) {
         EXPECT_EQ(within.row(static_cast<Eigen::Index>(k)), whole.row(unknowns[k])) << threads;
       }
     }
     const auto half = dissected->forward(b);
     Points back;
-    dissected->backward_within(part, half, back);
+    dissected->backward_within(subset, half, back);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       EXPECT_EQ(back.row(static_cast<Eigen::Index>(k)), whole.row(unknowns[k]));
     }
     Points all;
-    dissected->backward(half, 0.25, part, here, all);
+    dissected->backward(half, 0.25, subset, here, all);
     EXPECT_LE((p.a * all - 1.25 * b).norm(), 1e-11 * b.norm());
   }
 }

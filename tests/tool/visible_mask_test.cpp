@@ -48,7 +48,7 @@ std::array<double, 3> moments(const VisibleMask& mask,
   if (state == VisibleMask::hidden) return {0, 0, 0};
   if (state == VisibleMask::full)
     return {area, area * (xs[a] + xs[a + 1]) / 2, area * (ys[b] + ys[b + 1]) / 2};
-  const auto& part = mask.parts()[static_cast<std::size_t>(state)];
+  const auto& part = mask.cut_cells()[static_cast<std::size_t>(state)];
   return {part.share * area, part.share * area * part.middle[0],
           part.share * area * part.middle[1]};
 }

@@ -18,34 +18,34 @@ describe('an edge of a face', () => {
   });
 
   it('is counted where it would open, before it does', () => {
-    const info = (hold: 'free' | 'follow' | 'position') => ({ hold: 0, pins: 0, constraints: [
-      { do: 'hold', mode: 'trim' }, { do: 'edge', edge: '#7', hold }] }) as unknown as SurfaceInfo;
+    const info = (hold: 'open' | 'follow' | 'position') => ({ hold: 0, pins: 0, constraints: [
+      { do: 'hold', mode: 'position' }, { do: 'edge', edge: '#7', hold }] }) as unknown as SurfaceInfo;
     expect(heldInWords(info('position'), ['#7', '#8'], ['#7', '#8'])).toBe('2 edges held');
-    expect(heldInWords(info('free'), ['#7', '#8'], ['#7', '#8'])).toBe('1 of 2 edges held, one opens when it moves');
-    expect(heldInWords(info('free'), ['#7', '#8'], ['#8'])).toBe('1 of 2 edges held');
+    expect(heldInWords(info('open'), ['#7', '#8'], ['#7', '#8'])).toBe('1 of 2 edges held, one opens when it moves');
+    expect(heldInWords(info('open'), ['#7', '#8'], ['#8'])).toBe('1 of 2 edges held');
     expect(heldInWords(info('follow'), ['#7', '#8'], ['#7', '#8'])).toBe('1 of 2 edges held');
   });
 
   it('counts once where two selected faces meet, as held if neither lets it go', () => {
     const held = (...constraints: object[]) => ({ hold: 0, pins: 0, constraints }) as unknown as SurfaceInfo;
-    const all = { do: 'hold', mode: 'trim' }, follow = { do: 'edge', edge: '#7', hold: 'follow' };
+    const all = { do: 'hold', mode: 'position' }, follow = { do: 'edge', edge: '#7', hold: 'follow' };
     const pair = (first: SurfaceInfo, second: SurfaceInfo) => heldTogether([
       { info: first, edges: ['#6', '#7'], open: ['#7'] }, { info: second, edges: ['#7', '#8', '#9'], open: ['#7', '#8'] }]);
     expect(pair(held(all), held(all))).toBe('4 edges held');
     expect(pair(held(all, follow), held(all, follow))).toBe('3 of 4 edges held');
     expect(pair(held(all, follow), held(follow))).toBe('1 of 4 edges held, one opens when it moves');
     expect(pair(held(all), held())).toBe('1 of 4 edges held, 2 open when it moves');
-    expect(pair(held(all), held({ do: 'hold', mode: 'free' }))).toBe('1 of 4 edges held, 2 open when it moves');
+    expect(pair(held(all), held({ do: 'hold', mode: 'open' }))).toBe('1 of 4 edges held, 2 open when it moves');
   });
 
   it('is a side of a surface of the file on which no face lies, and no edge at all of a closed one', () => {
     const bare = (...constraints: object[]) => ({ id: '#5', hold: 0, pins: 0, faces: 0, bare: true, constraints }) as unknown as SurfaceInfo;
-    const all = { do: 'hold', mode: 'trim' }, sides = ['u0', 'u1', 'v0', 'v1'] as const;
+    const all = { do: 'hold', mode: 'position' }, sides = ['u0', 'u1', 'v0', 'v1'] as const;
     expect(heldInWords(bare(all), sides)).toBe('4 edges held');
-    expect(heldInWords(bare(all, { do: 'edge', edge: 'u0', hold: 'free' }), sides)).toBe('3 of 4 edges held');
+    expect(heldInWords(bare(all, { do: 'edge', edge: 'u0', hold: 'open' }), sides)).toBe('3 of 4 edges held');
     expect(heldTogether([{ info: bare(all), edges: sides, open: [] }, { info: { ...bare(all), id: '#6' }, edges: sides, open: [] }])).toBe('8 edges held');
     expect(heldInWords(bare(all), [])).toBe('Its place held');
-    expect(heldInWords(bare({ do: 'hold', mode: 'free' }), [])).toBe('Nothing held');
+    expect(heldInWords(bare({ do: 'hold', mode: 'open' }), [])).toBe('Nothing held');
     expect(heldInWords({ ...bare(all), bare: false }, [])).toBe('Nothing held');
   });
 });

@@ -62,5 +62,5 @@ it('hands arrays out as copies, and bytes over beside the JSON', async () => {
   engine.query('fresh', { name: 'another' });
   engine.query('restore', { snapshot, name: 'sheet', source: new Uint8Array() });
   expect(engine.query('state').surfaces).toEqual(state.surfaces);
-  expect(engine.query('script_opening')).toMatchObject([{ do: 'hold', mode: 'trim', all: true }]);
+  expect(engine.query('script_opening')).toMatchObject([{ do: 'hold', mode: 'position', all: true }]);
 });

@@ -10,7 +10,7 @@ import type { Command } from '@studio/engine/session_types';
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));
 const bonnet = new Uint8Array(readFileSync(join(root, 'samples/bonnet.step')));
-const defaultHold: Command = { do: 'hold', mode: 'trim', all: true };
+const defaultHold: Command = { do: 'hold', mode: 'position', all: true };
 
 /** The control points after a script as the command line runs it. */
 async function run(script: string, file: Uint8Array | null): Promise<Float64Array[]> {

@@ -54,7 +54,7 @@ describe('a snapshot', () => {
     engine.query('open', { file: bonnet, name: 'bonnet.step' });
     const { id } = engine.query('state').surfaces[0]!;
     engine.execute({ do: 'select', surface: id });
-    engine.execute({ do: 'hold', mode: 'free' }); // the edges of the face may open
+    engine.execute({ do: 'hold', mode: 'open' }); // the edges of the face may open
     engine.execute({ do: 'hold', rows: 2 });
     engine.execute({ do: 'drag', at: [0.5, 0.5], by: [0, 0, 20] });
     const other = await load();

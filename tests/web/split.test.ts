@@ -62,7 +62,7 @@ it('presses a file of STEP, held along its trims, without the second', async () 
   expect(await same((engine) => {
     engine.query('open', { file: bonnet, name: 'bonnet.step' });
     const { surfaces } = engine.query('state');
-    run(engine, [{ do: 'select', surface: surfaces[0]!.id }, { do: 'hold', mode: 'trim' }, { do: 'material', preset: 'clay' },
+    run(engine, [{ do: 'select', surface: surfaces[0]!.id }, { do: 'hold', mode: 'position' }, { do: 'material', preset: 'clay' },
       { do: 'tool', name: 'ball', radius: 100, at: [0.5, 0.5], plasticity: 1 }, { do: 'step' }]);
   })).toBe(false);
 });

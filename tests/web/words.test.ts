@@ -67,7 +67,7 @@ describe('what the engine refuses', () => {
     const engine = await Engine.load(wasm);
     engine.query('open', { file: new Uint8Array(readFileSync(fileURLToPath(new URL('../../samples/bonnet.step', import.meta.url)))), name: 'bonnet.step' });
     engine.execute({ do: 'select', surface: '#285' });
-    engine.execute({ do: 'hold', mode: 'trim' });
+    engine.execute({ do: 'hold', mode: 'position' });
     const error = (() => {
       try {
         engine.execute({ do: 'edge', edge: '#43', hold: 'follow' });
@@ -122,7 +122,7 @@ describe('an edge that would open', () => {
   });
 
   it('is saved once it is let go', () => {
-    const commands: Command[] = [{ do: 'select', surface: '#10' }, { do: 'hold', mode: 'free' }];
+    const commands: Command[] = [{ do: 'select', surface: '#10' }, { do: 'hold', mode: 'open' }];
     const { text, actions } = adviceOn(told('edge_left_open', { edge: '#7', distance: 0.25, faces: ['#1', '#2'] }, [{ code: 'let_open', commands }]));
     expect(text).toBe('Nothing was saved: the edge #7 would be left 0.25 from the faces #1 and #2.');
     expect(actions).toEqual([{ label: 'Let it open', commands }]);

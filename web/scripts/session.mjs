@@ -41,7 +41,7 @@ function look(engine) {
     engine.query('picture', { surface: k, detail: 48, window: { lower: [0.2, 0.2], upper: [0.6, 0.6], tolerance: 0.1 } });
     engine.query('control_points', { surface: k });
     engine.query('face_edges', { surface: k });
-    engine.query('room', { surface: k });
+    engine.query('edge_distance', { surface: k });
     engine.query('trims', { surface: k });
   }
   for (const k of state.tools.keys()) engine.query('tool_picture', { tool: k });
@@ -104,7 +104,7 @@ export function session(engine, scenes, file) {
     engine.query('assembly');
     engine.query('context');
     const { surfaces } = look(engine);
-    if (scene.file) act(engine, [{ do: 'select', surface: surfaces[0].id }, { do: 'hold', mode: 'trim' }, ...clay]);
+    if (scene.file) act(engine, [{ do: 'select', surface: surfaces[0].id }, { do: 'hold', mode: 'position' }, ...clay]);
     const { lower, upper } = surfaces[0];
     const radius = 0.05 * Math.hypot(...upper.map((x, axis) => x - lower[axis]));
     engine.execute({ do: 'step' });

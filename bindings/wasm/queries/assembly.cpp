@@ -21,13 +21,13 @@ void describe(PartPlace& p, Fields& fields) {
              {.help = "from the part's coordinates to the model's: three rows of four"});
 }
 
-struct Part {
+struct PartAnswer {
   std::string name, unit;
   std::vector<std::string> surfaces, faces, curves;
   std::vector<PartPlace> places;
 };
 
-void describe(Part& p, Fields& fields) {
+void describe(PartAnswer& p, Fields& fields) {
   fields.name("part", "Geometry with coordinates of its own.");
   fields.add("name", p.name);
   fields.add("unit", p.unit);
@@ -39,7 +39,7 @@ void describe(Part& p, Fields& fields) {
 
 struct Assembly {
   std::string unit;
-  std::vector<Part> parts;
+  std::vector<PartAnswer> parts;
   std::vector<std::string> warnings;
 };
 
@@ -67,8 +67,8 @@ Expected<std::optional<Assembly>> assembly(Session& session) {
   }
   Assembly answer{assembly->unit, {}, assembly->warnings};
   for (const brep::Part& part : assembly->parts) {
-    Part& to = answer.parts.emplace_back(
-        Part{part.name, part.unit, part.surfaces, part.faces, part.curves, {}});
+    PartAnswer& to = answer.parts.emplace_back(
+        PartAnswer{part.name, part.unit, part.surfaces, part.faces, part.curves, {}});
     std::unordered_set<std::string> known;
     for (const std::string& face : part.faces) {
       const auto on = below.find(face);

@@ -11,9 +11,9 @@ Expected<std::string> checked_edges(Session& session, int number) {
   return checked_edges_json(session, static_cast<std::size_t>(number));
 }
 
-Expected<std::string> room(Session& session, int number) {
+Expected<std::string> edge_distance(Session& session, int number) {
   if (!has_surface(session, number)) return "null";
-  return room_json(session, static_cast<std::size_t>(number));
+  return edge_distance_json(session, static_cast<std::size_t>(number));
 }
 
 struct ReadingQuery {
@@ -57,10 +57,11 @@ Expected<std::string> ask(Session& session, const FaceReadingQuery& q) {
 std::vector<Query> reading_queries() {
   return {query<std::vector<CheckedEdgeInfo>, checked_edges>(
               "checked_edges", "How the faces on a surface meet their neighbours."),
-          query<std::optional<double>, room>("room",
-                                             "How far the visible middle of a surface is from the "
-                                             "nearest edge of a face, in units of the "
-                                             "file; null where no edges are known."),
+          query<std::optional<double>, edge_distance>(
+              "edge_distance",
+              "How far the visible middle of a surface is from the "
+              "nearest edge of a face, in units of the "
+              "file; null where no edges are known."),
           query<ReadingQuery>(), query<FaceReadingQuery>()};
 }
 

@@ -27,8 +27,8 @@ namespace knead {
 /// it gives back the same command.
 [[nodiscard]] std::string to_json(const Command& command);
 
-/// The first command of a session by default: {"do": "hold", "mode": "trim", "all": true}, so that
-/// every face still fits its neighbours.
+/// The first command of a session by default: {"do": "hold", "mode": "position", "all": true}, so
+/// that every face still fits its neighbours.
 [[nodiscard]] Command default_hold();
 
 /// The commands of a script {"knead": 2, "commands": [...]}, the first of them `default_hold`.

@@ -45,7 +45,7 @@ struct Outcome {
 struct EdgeReport {
   std::string id;
   std::string_view
-      hold;  ///< "follow", or what of it is held: "free", "position", "clamped", "curvature"
+      hold;  ///< "follow", or what of it is held: "open", "position", "tangent", "curvature"
   bool held = false;  ///< its place, at least
   bool along_lines =
       true;                ///< it runs along knot lines or ends of the domain only: no more is held

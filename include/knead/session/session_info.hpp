@@ -20,7 +20,7 @@ class TypeScript;
 /// How large a tool the visible part of a surface has room for: the distance of its visible middle
 /// from the nearest edge of a face, file units. "null" if no edges of faces are known. Cost: that
 /// of `visible_middle`.
-[[nodiscard]] std::string room_json(const Session& session, std::size_t surface);
+[[nodiscard]] std::string edge_distance_json(const Session& session, std::size_t surface);
 
 /// How the faces on a surface meet their neighbours, [{id, faces, gap, opened_gap, angle,
 /// opened_angle, curvature, opened_curvature, unknown}, …], as measured by `check_edges`; angles in

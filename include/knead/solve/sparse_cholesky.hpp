@@ -36,18 +36,18 @@ class SparseCholesky {
   /// The same for one column.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
-  /// The part of the factor that a solve uses when right sides are zero except at some unknowns.
-  struct Part {
+  /// The subset of the factor that a solve uses when right sides are zero except at some unknowns.
+  struct Subset {
     std::vector<int> rows;    ///< those unknowns, as rows of the factor
     std::vector<int> panels;  ///< of the factor
   };
   /// Cost: O(rows of those panels).
-  [[nodiscard]] Part part(std::span<const int> unknowns) const;
-  /// A X = B for B given at the unknowns of the part, in their order, and X needed only there.
-  /// Cost: O(nonzeros of the part), on a tensor net a fraction of the whole that shrinks with its
+  [[nodiscard]] Subset subset(std::span<const int> unknowns) const;
+  /// A X = B for B given at the unknowns of the subset, in their order, and X needed only there.
+  /// Cost: O(nonzeros of the subset), on a tensor net a fraction of the whole that shrinks with its
   /// size. Same bits as `solve`.
-  [[nodiscard]] Points solve_within(const Part& part, const Points& b) const;
-  [[nodiscard]] Eigen::VectorXd solve_within(const Part& part, const Eigen::VectorXd& b) const;
+  [[nodiscard]] Points solve_within(const Subset& subset, const Points& b) const;
+  [[nodiscard]] Eigen::VectorXd solve_within(const Subset& subset, const Eigen::VectorXd& b) const;
 
   /// z of L z = B, the first half of a solve, in the order of the factor.
   struct Half {
@@ -56,14 +56,15 @@ class SparseCholesky {
   };
   [[nodiscard]] Half forward(const Points& b) const;
   [[nodiscard]] Half forward(const Eigen::VectorXd& b) const;
-  /// The second half where X is needed only at the unknowns of the part: half the cost of
+  /// The second half where X is needed only at the unknowns of the subset: half the cost of
   /// `solve_within`.
-  void backward_within(const Part& part, const Half& z, Points& x) const;
-  void backward_within(const Part& part, const Half& z, Eigen::VectorXd& x) const;
-  /// All of X with A X = share · L z + E B, where E B is B at the unknowns of the part: half the
+  void backward_within(const Subset& subset, const Half& z, Points& x) const;
+  void backward_within(const Subset& subset, const Half& z, Eigen::VectorXd& x) const;
+  /// All of X with A X = share · L z + E B, where E B is B at the unknowns of the subset: half the
   /// work of `solve`, and half of `solve_within`.
-  void backward(const Half& z, double share, const Part& part, const Points& b, Points& x) const;
-  void backward(const Half& z, double share, const Part& part, const Eigen::VectorXd& b,
+  void backward(const Half& z, double share, const Subset& subset, const Points& b,
+                Points& x) const;
+  void backward(const Half& z, double share, const Subset& subset, const Eigen::VectorXd& b,
                 Eigen::VectorXd& x) const;
 
   [[nodiscard]] int size() const { return size_; }

@@ -62,8 +62,8 @@ double diagonal_of(const Scene& scene, const Surroundings* around) {
 
 }  // namespace
 
-Expected<ModelFacets::Part> ModelFacets::part_of(std::shared_ptr<const Surface> surface,
-                                                 Surroundings::Shown shown, double tolerance) {
+Expected<ModelFacets::FacetTree> ModelFacets::tree_of(std::shared_ptr<const Surface> surface,
+                                                      Surroundings::Shown shown, double tolerance) {
   ChordOptions options;
   options.detail = 1;
   options.tolerance =
@@ -73,7 +73,7 @@ Expected<ModelFacets::Part> ModelFacets::part_of(std::shared_ptr<const Surface> 
   const auto &us = (*lines)[0].parameters, &vs = (*lines)[1].parameters;
   const auto grid = evaluate_grid<2>(*surface, {us, vs});
   if (!grid) return std::unexpected(grid.error());
-  Part part{std::move(surface), std::move(shown), {}, {}};
+  FacetTree part{std::move(surface), std::move(shown), {}, {}};
   const auto columns = static_cast<std::uint32_t>(vs.size());
   std::vector<Point> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -113,13 +113,13 @@ Expected<void> ModelFacets::refresh(const Scene& scene, bool opened,
       if (const auto found = around->shown.find(s.id); found != around->shown.end())
         shown = found->second;
     }
-    const std::size_t part = around ? around->part_of(s.id) : 0;
+    const std::size_t part = around ? around->tree_of(s.id) : 0;
     if (parts_[k].of == drawn && parts_[k].part == part &&
         parts_[k].shown.visible == shown.visible && parts_[k].shown.sense == shown.sense &&
         diagonal == diagonal_) {
       continue;
     }
-    auto made = part_of(drawn, shown, chord * diagonal);
+    auto made = tree_of(drawn, shown, chord * diagonal);
     if (!made) {
       parts_.clear();
       return std::unexpected(made.error());
@@ -132,8 +132,8 @@ Expected<void> ModelFacets::refresh(const Scene& scene, bool opened,
   diagonal_ = diagonal;
   if (!changed) return {};
   std::vector<Eigen::AlignedBox3d> boxes;
-  for (const Part& part : parts_) boxes.push_back(part.tree.box());
-  for (const Part& part : others_) boxes.push_back(part.tree.box());
+  for (const FacetTree& part : parts_) boxes.push_back(part.tree.box());
+  for (const FacetTree& part : others_) boxes.push_back(part.tree.box());
   boxes_ = BoxTree(boxes);
   return {};
 }
@@ -141,7 +141,7 @@ Expected<void> ModelFacets::refresh(const Scene& scene, bool opened,
 void ModelFacets::see(const Surroundings* around) {
   std::map<std::size_t, Triangles> by_part;
   if (around != nullptr) {
-    for (const FaceMesh& face : around->faces) by_part[around->part_of(face.id)].add(face);
+    for (const FaceMesh& face : around->faces) by_part[around->tree_of(face.id)].add(face);
   }
   others_.clear();
   for (auto& [part, found] : by_part) {
@@ -165,7 +165,7 @@ std::optional<double> ModelFacets::thickness(int surface, const Point& from,
   const double near = 2 * chord * diagonal_;
   double to = std::numeric_limits<double>::infinity();
   boxes_.along(ray, to, [&](std::uint32_t k) {
-    const Part& part = k < parts_.size() ? parts_[k] : others_[k - parts_.size()];
+    const FacetTree& part = k < parts_.size() ? parts_[k] : others_[k - parts_.size()];
     if (part.part != parts_[static_cast<std::size_t>(surface)].part) return;
     const bool is_own = k == static_cast<std::uint32_t>(surface);
     (void)part.tree.nearest(ray, to, [&](const TriangleTree::Hit& hit) {

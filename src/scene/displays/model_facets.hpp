@@ -44,24 +44,24 @@ class ModelFacets {
                                                 const Point& inward) const;
 
  private:
-  struct Part {
+  struct FacetTree {
     std::shared_ptr<const Surface> of;
     Surroundings::Shown shown;
     TriangleTree tree;
     std::vector<Eigen::Vector2d> fractions;  ///< of the domain, by point; empty: all of it is shown
     std::size_t part = 0;                    ///< of an assembly
   };
-  [[nodiscard]] static Expected<Part> part_of(std::shared_ptr<const Surface> surface,
-                                              Surroundings::Shown shown, double tolerance);
+  [[nodiscard]] static Expected<FacetTree> tree_of(std::shared_ptr<const Surface> surface,
+                                                   Surroundings::Shown shown, double tolerance);
 
   /// Keeps the faces around, by their parts of an assembly; null: none.
   void see(const Surroundings* around);
 
   std::shared_ptr<const Surroundings> around_;
   double diagonal_ = 0;
-  std::vector<Part> parts_;   ///< by surface
-  std::vector<Part> others_;  ///< the faces around
-  BoxTree boxes_;             ///< of both, in this order
+  std::vector<FacetTree> parts_;   ///< by surface
+  std::vector<FacetTree> others_;  ///< the faces around
+  BoxTree boxes_;                  ///< of both, in this order
 };
 
 }  // namespace knead

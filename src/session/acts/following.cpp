@@ -185,7 +185,7 @@ Expected<void> check_followed(const Scene& scene, const Scene& before) {
                       in_degrees(accepted_bend(*apart))),
           "edge",
           R"(refine the surfaces near the edge with {"do":"refine"}, move it less, )"
-          R"(or hold it "clamped")",
+          R"(or hold it "tangent")",
           {ErrorCode::edge_would_part, {{"edge", edge.id}}});
     }
     const auto stuck = stuck_vertex(scene, *edge.course);

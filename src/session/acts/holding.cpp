@@ -53,7 +53,7 @@ Error opened_edge(const MovedTrim& worst, const std::string& surface,
   const bool opens = worst.distance > 0;
   return Error(ErrorKind::numerical, what + "; this was refused", "edge",
                fmt::format(R"(move less of the surface, or let what moves follow: {}; )"
-                           R"({{"do":"hold","mode":"free"}} lets it open)",
+                           R"({{"do":"hold","mode":"open"}} lets it open)",
                            all_follow(ids)))
       .with({opens ? ErrorCode::edge_would_open : ErrorCode::edge_would_turn,
              {{"edge", worst.id},
@@ -88,7 +88,7 @@ bool nothing_said(const SceneSurface& s) {
 
 }  // namespace
 
-Expected<void> keep(Act& act, const Constraint& constraint) {
+Expected<void> add_constraint(Act& act, const Constraint& constraint) {
   if (auto surface = selected(act); !surface) return std::unexpected(surface.error());
   for (SceneSurface& s : selected_surfaces(act.state)) {
     s.constraints.push_back({constraint, s.current});
@@ -204,8 +204,9 @@ Error all_held(const Scene& scene, const std::string& tool) {
     std::string what;
     if (s.hold_rows > 0) {
       what = fmt::format("hold of {} rows on its net of {} x {}", s.hold_rows, m, n);
-      remedy = R"(hold the edges of the face instead, {"do":"hold","mode":"trim"}, or fewer rows, )"
-               R"(or refine first)";
+      remedy =
+          R"(hold the edges of the face instead, {"do":"hold","mode":"position"}, or fewer rows, )"
+          R"(or refine first)";
       say(ErrorCode::nothing_free_in_rows, {"surface", s.id},
           {"rows", static_cast<double>(s.hold_rows)});
     } else if (holds_trims(s.constraints)) {

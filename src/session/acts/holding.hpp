@@ -10,7 +10,7 @@ namespace knead {
 // What holds the selected surfaces.
 
 /// Keeps a constraint on the selected surfaces, after trying that it can be made.
-[[nodiscard]] Expected<void> keep(Act& act, const Constraint& constraint);
+[[nodiscard]] Expected<void> add_constraint(Act& act, const Constraint& constraint);
 /// Whether the constraints there are can be made, and met together: what cannot is refused now, not
 /// at the next step. No matrix is factored.
 [[nodiscard]] Expected<void> check_constraints(Act& act);

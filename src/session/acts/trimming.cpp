@@ -54,9 +54,9 @@ Error fold_error(const SceneSurface& s, const Eigen::Vector2d& at) {
                  fmt::format(R"(press less deep or farther from it, )"
                              R"(or {}: {{"do":"edge","edge":"{}","hold":"{}"}})",
                              side ? "let it go" : "let the edge follow", edge->id,
-                             side ? "free" : "follow"))
+                             side ? "open" : "follow"))
         .with({ErrorCode::step_folds_beside_edge,
-               {{"surface", s.id}, {"edge", edge->id}, {"hold", side ? "free" : "follow"}}});
+               {{"surface", s.id}, {"edge", edge->id}, {"hold", side ? "open" : "follow"}}});
   }
   return Error(ErrorKind::numerical, fmt::format("the step folds {} and was refused", place),
                "step",
@@ -82,7 +82,7 @@ Expected<const VisibleRegion*> visible(Act& act, SceneSurface& surface) {
       error.what = fmt::format("the edges of the faces on {} cannot be followed: {}", surface.id,
                                error.what);
       error.remedy =
-          R"(hold something else: {"do":"hold","rows":2}, or {"do":"hold","mode":"free"})";
+          R"(hold something else: {"do":"hold","rows":2}, or {"do":"hold","mode":"open"})";
       return std::unexpected(
           std::move(error).with({ErrorCode::edges_unknown, {{"surface", surface.id}}}));
     }

@@ -35,9 +35,9 @@ void forget(SceneSurface& s, const std::string& id) {
   });
 }
 
-/// Holds or frees one edge of the faces on those selected surfaces that have it.
+/// Holds one edge of the faces, or lets it follow or open, on those selected surfaces that have it.
 Expected<void> hold_face_edge(Act& act, const EdgeCommand& c) {
-  const bool follow = c.hold == EdgeCondition::follow || c.hold == EdgeCondition::free;
+  const bool follow = c.hold == EdgeCondition::follow;
   // The order of derivatives that are held is the condition's own number; beyond curvature nothing
   // is.
   const int order = c.hold > EdgeCondition::curvature ? -1 : static_cast<int>(c.hold);
@@ -111,11 +111,10 @@ std::span<const Choice> choices(SideChoice) {
 std::span<const Choice> choices(EdgeCondition) {
   static constexpr Choice list[] = {
       {"position", EdgeCondition::position, "where it is"},
-      {"clamped", EdgeCondition::clamped, "with its tangent planes"},
+      {"tangent", EdgeCondition::tangent, "with its tangent planes"},
       {"curvature", EdgeCondition::curvature, "with its curvatures too"},
-      {"free", EdgeCondition::free, "not held; an edge of a face follows"},
       {"follow", EdgeCondition::follow, "an edge of faces that all move together"},
-      {"open", EdgeCondition::open, "an edge of a face, which may part from its neighbours"}};
+      {"open", EdgeCondition::open, "not held; an edge of a face may part from its neighbours"}};
   return list;
 }
 
@@ -151,9 +150,9 @@ void hold_sides(SceneShape<D>& s, const std::vector<Side>& sides, EdgeCondition 
     for (std::size_t d = 0; d < 3; ++d) hold->components[d] = hold->components[d] && !components[d];
     return std::ranges::none_of(hold->components, std::identity());
   });
-  if (condition == EdgeCondition::free) return;
+  if (condition == EdgeCondition::open) return;
   const int order = condition == EdgeCondition::position  ? 0
-                    : condition == EdgeCondition::clamped ? 1
+                    : condition == EdgeCondition::tangent ? 1
                                                           : 2;
   // One by one, so that they can be freed one by one.
   for (const Side side : sides) s.constraints.push_back({Hold{side, order, components}, s.current});
@@ -174,14 +173,14 @@ std::vector<DomainSide> sides_of(SideChoice which, int directions) {
 
 Expected<void> hold_body_sides(Act& act, const EdgeCommand& c) {
   if (c.edge) return of_surfaces(act, "faces", "give which, one of its sides");
-  if (c.hold > EdgeCondition::free) return of_surfaces(act, "faces", R"(use "hold":"free")");
+  if (c.hold > EdgeCondition::open) return of_surfaces(act, "faces", R"(use "hold":"open")");
   const auto components = components_of(c.components);
   if (!components) return std::unexpected(components.error());
   const auto hold = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
     const std::vector<DomainSide> sides = sides_of(c.which, D);
     if (sides.empty()) return input_error("a curve has no such end", "which", "use u0, u1 or all");
     hold_sides<SideHold>(s, sides, c.hold, *components);
-    return c.hold == EdgeCondition::free ? Expected<void>() : check_constraints(act);
+    return c.hold == EdgeCondition::open ? Expected<void>() : check_constraints(act);
   };
   return std::visit(hold, *body(act));
 }
@@ -198,10 +197,9 @@ Expected<void> execute(const EdgeCommand& c, Act& act) {
     return input_error("edges of faces are held in all coordinates", "components",
                        "leave it out, or hold a boundary isocurve by which");
   }
-  if (c.hold > EdgeCondition::free) {
-    return input_error(fmt::format("boundary isocurves do not {}",
-                                   c.hold == EdgeCondition::open ? "open" : "follow"),
-                       "hold", R"(name an edge of a face, "which":"#456", or use "free")");
+  if (c.hold > EdgeCondition::open) {
+    return input_error("boundary isocurves do not follow", "hold",
+                       R"(name an edge of a face, "which":"#456", or use "open")");
   }
   if (c.which > SideChoice::v1) {
     return input_error("a surface has no such edge", "which", "use u0, u1, v0, v1 or all");
@@ -209,10 +207,10 @@ Expected<void> execute(const EdgeCommand& c, Act& act) {
   const std::vector<SurfaceEdge> edges = edges_of(edge_choice(c.which));
   for (SceneSurface& s : selected_surfaces(act.state)) {
     if (*components == all_components)
-      hold_bare_sides(act, s, edges, c.hold == EdgeCondition::free);
+      hold_bare_sides(act, s, edges, c.hold == EdgeCondition::open);
     hold_sides<EdgeHold>(s, edges, c.hold, *components);
   }
-  return c.hold == EdgeCondition::free ? Expected<void>() : check_constraints(act);
+  return c.hold == EdgeCondition::open ? Expected<void>() : check_constraints(act);
 }
 
 }  // namespace knead

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-enum class EdgeCondition { position, clamped, curvature, free, follow, open };
+enum class EdgeCondition { position, tangent, curvature, open, follow };
 /// Sides of a domain: edges of a surface, the first ones in the order of `EdgeChoice`; ends of a
 /// curve; faces of a volume.
 enum class SideChoice { all, u0, u1, v0, v1, w0, w1 };

@@ -20,7 +20,7 @@ void describe(FreezeCommand& c, Fields& fields) {
 Expected<void> execute(const FreezeCommand& c, Act& act) {
   auto surface = selected(act);
   if (!surface) return std::unexpected(surface.error());
-  if (auto status = keep(act, c.freeze); !status) return status;
+  if (auto status = add_constraint(act, c.freeze); !status) return status;
   const auto region = region_at(*(*surface)->rest, c.freeze.region);
   ConstraintList list((*surface)->rest->size());
   const auto frozen = freeze_region(*(*surface)->rest, (*region)[0], (*region)[1], list);

@@ -14,10 +14,10 @@ namespace knead {
 std::span<const Choice> choices(HoldMode) {
   static constexpr Choice names[] = {
       {"rows", HoldMode::rows, "outer rows of control points"},
-      {"trim", HoldMode::trim, "the edges of the faces"},
-      {"trim-g1", HoldMode::trim_g1, "with their tangent planes"},
-      {"trim-g2", HoldMode::trim_g2, "with their curvatures too"},
-      {"free", HoldMode::free, "neither: the edges of the faces may open"}};
+      {"position", HoldMode::position, "the edges of the faces"},
+      {"tangent", HoldMode::tangent, "with their tangent planes"},
+      {"curvature", HoldMode::curvature, "with their curvatures too"},
+      {"open", HoldMode::open, "neither: the edges of the faces may open"}};
   return names;
 }
 
@@ -32,7 +32,7 @@ void describe(HoldCommand& c, Fields& fields) {
 
 namespace {
 
-bool holds_trims(HoldMode mode) { return mode != HoldMode::rows && mode != HoldMode::free; }
+bool holds_trims(HoldMode mode) { return mode != HoldMode::rows && mode != HoldMode::open; }
 
 /// What is asked of all edges of faces on a surface.
 void hold_edges(SceneSurface& s, HoldMode mode) {
@@ -43,7 +43,7 @@ void hold_edges(SceneSurface& s, HoldMode mode) {
     return std::holds_alternative<TrimEdgeHold>(kept.constraint);
   });
   const int order =
-      holds_trims(mode) ? static_cast<int>(mode) - static_cast<int>(HoldMode::trim) : -1;
+      holds_trims(mode) ? static_cast<int>(mode) - static_cast<int>(HoldMode::position) : -1;
   if (mode != HoldMode::rows) s.constraints.push_back({TrimHolds{order}, s.current});
 }
 

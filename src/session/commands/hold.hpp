@@ -5,7 +5,7 @@
 namespace knead {
 
 /// What a hold applies to: outer rows of control points, or the edges of the faces on a surface.
-enum class HoldMode { rows, trim, trim_g1, trim_g2, free };
+enum class HoldMode { rows, position, tangent, curvature, open };
 
 std::span<const Choice> choices(HoldMode);
 

@@ -27,7 +27,7 @@ Expected<void> execute(const KeepCommand& c, Act& act) {
   if (ways != 1) {
     return input_error("one of u, v and curve is needed", "keep", "give exactly one of them");
   }
-  return keep(act, c.keep);
+  return add_constraint(act, c.keep);
 }
 
 }  // namespace knead

@@ -52,8 +52,8 @@ Expected<void> execute(const SymmetryCommand& c, Act& act) {
     plane = {Point((*c.point)[0], (*c.point)[1], (*c.point)[2]),
              Point((*c.normal)[0], (*c.normal)[1], (*c.normal)[2])};
   }
-  if (c.edge) return keep(act, EdgeSymmetry{*c.edge, *plane});
-  return keep(act, MirrorSymmetry{*c.mirror == "u" ? 0 : 1, plane});
+  if (c.edge) return add_constraint(act, EdgeSymmetry{*c.edge, *plane});
+  return add_constraint(act, MirrorSymmetry{*c.mirror == "u" ? 0 : 1, plane});
 }
 
 }  // namespace knead

@@ -58,7 +58,7 @@ describe('a face of a file', () => {
     expect(await popover.locator('.chip').allTextContents()).toEqual(['Free', 'Follow', 'Position', 'Tangent', 'Curvature']);
     await popover.locator('button', { hasText: 'Tangent' }).click();
     await settled(page);
-    expect(await last()).toMatchObject({ do: 'edge', edge: id, hold: 'clamped' });
+    expect(await last()).toMatchObject({ do: 'edge', edge: id, hold: 'tangent' });
     await expect.poll(() => badge().textContent()).toBe('1 edge held');
     await page.mouse.click(...(await edge()));
     expect(await popover.locator('button[aria-pressed=true]').textContent()).toBe('Tangent');

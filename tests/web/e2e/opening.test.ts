@@ -123,7 +123,7 @@ describe('a script that is opened', () => {
     const before = await commands(page);
     const flat = await positions(page);
     await openFile(page, file('bump.json', bump), 'Apply');
-    expect((await commands(page)).slice(before.length)).toMatchObject([{ do: 'hold', mode: 'trim', all: true }, ...bump.commands]);
+    expect((await commands(page)).slice(before.length)).toMatchObject([{ do: 'hold', mode: 'position', all: true }, ...bump.commands]);
     expect(distance(await positions(page), flat)).toBeGreaterThan(5);
     await expect.poll(() => page.locator('.document-name').textContent()).toBe('sheet');
     await undo(1);

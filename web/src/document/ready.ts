@@ -15,19 +15,19 @@ export async function makeReady(host: Host, index: number, opening: boolean): Pr
   const surface = host.state!.surfaces[index]!;
   const run = (commands: Command[]) =>
     client.execute([{ do: 'select', surface: surface.id }, ...commands], false, opening);
-  const room = surface.faces > 0 ? await client.query('room', { surface: index }) : null;
+  const distance = surface.faces > 0 ? await client.query('edge_distance', { surface: index }) : null;
   if (hasSettings(surface)) await run([]);
   else if (surface.faces === 0 && (!surface.bare || outerRows(surface.net) > 0)) await run(alone(surface.net));
   else {
     try {
-      await run([{ do: 'hold', mode: 'trim' }, ...clay]);
+      await run([{ do: 'hold', mode: 'position' }, ...clay]);
     } catch (error) {
       if (!(error instanceof KneadError)) throw error;
-      await run([{ do: 'hold', mode: 'free' }, ...alone(surface.net)]); // what cannot be followed cannot be held, which is said
+      await run([{ do: 'hold', mode: 'open' }, ...alone(surface.net)]); // what cannot be followed cannot be held, which is said
       host.notify({ kind: 'info', text: `Only the outer rows of control points are held: ${error.info.what}. Neighbouring faces may part from this one.` });
     }
   }
-  if (room) host.sizeBrush(0.5 * room);
+  if (distance) host.sizeBrush(0.5 * distance);
 }
 
 /** Outer rows that can be held and leave two free. */

@@ -59,7 +59,7 @@ export const scenes: Scene[] = [
       { do: 'new', size: [120, 160], net: [16, 26], position: [120, 0, 0], name: 'right' },
       ...(['#1', '#2'] as const).flatMap((surface): Command[] => [
         { do: 'select', surface },
-        ...([surface === '#1' ? 'u0' : 'u1', 'v0', 'v1'] as const).map((which): Command => ({ do: 'edge', which, hold: 'clamped' })),
+        ...([surface === '#1' ? 'u0' : 'u1', 'v0', 'v1'] as const).map((which): Command => ({ do: 'edge', which, hold: 'tangent' })),
       ]),
       { do: 'select', surfaces: ['#1', '#2'] },
       ...clay,

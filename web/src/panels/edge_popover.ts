@@ -5,10 +5,10 @@ import type { App } from './app';
 import { h, iconButton, toggle } from './dom';
 
 const choices: readonly (readonly [Continuity, string])[] = [
-  ['free', 'It may move, and other faces that meet here stay'],
+  ['open', 'It may move, and other faces that meet here stay'],
   ['follow', 'It moves with the faces that meet here, and these stay together'],
   ['position', 'It stays where it is'],
-  ['clamped', 'It stays, with its tangent planes'],
+  ['tangent', 'It stays, with its tangent planes'],
   ['curvature', 'It stays, with its tangent planes and curvatures'],
   ['symmetry', 'It stays in its plane, and the surface meets that at right angles: half of a symmetric model'],
 ];
@@ -52,7 +52,7 @@ export function listenToEdges(app: App): void {
 
 function asking(app: App, surface: number, edge: Edge, continuity: Continuity): Command[] {
   const info = app.state!.surfaces[surface]!;
-  if (!isSide(edge)) return [{ do: 'edge', edge, hold: continuity === 'symmetry' ? 'position' : continuity === 'free' ? 'open' : continuity }];
+  if (!isSide(edge)) return [{ do: 'edge', edge, hold: continuity === 'symmetry' ? 'position' : continuity }];
   const wish: Command[] = continuity === 'symmetry' ? [{ do: 'symmetry', edge, ...app.hand.edges.plane(edge) }]
     : [{ do: 'edge', which: edge, hold: continuity }];
   const symmetric = info.constraints.some((c) => c.do === 'symmetry' && c.edge === edge);

@@ -165,7 +165,7 @@ export function constraintsPanel(app: App): HTMLElement {
     const run = (...commands: Command[]) => void app.execute(commands);
     const edges = [['all', 'All edges'], ['u0', 'u = 0'], ['u1', 'u = 1'], ['v0', 'v = 0'], ['v1', 'v = 1']] as const;
     const edgeSelect = select('Edge', edges, 'all', () => {});
-    const holdSelect = select('Continuity', [['position', 'Position'], ['clamped', 'Tangent'], ['curvature', 'Curvature'], ['free', 'Free']], 'position', () => {});
+    const holdSelect = select('Continuity', [['position', 'Position'], ['tangent', 'Tangent'], ['curvature', 'Curvature'], ['open', 'Free']], 'position', () => {});
     return [
       field('Held rows', numberInput('Held rows', chosen.hold, (v) => app.offer([{ do: 'hold', rows: Math.round(v) }])), 'Outer rows of control points that stay'),
       row(edgeSelect, holdSelect, h('button', { class: 'button small', type: 'button',

@@ -130,6 +130,6 @@ export class BodyHand implements PointerTool {
     const distances = sides.slice(0, info.kind === 'curve' ? 2 : 6).map((_, k) => (k % 2 === 0 ? at[Math.floor(k / 2)]! : 1 - at[Math.floor(k / 2)]!));
     const which: Side = sides[distances.indexOf(Math.min(...distances))]!;
     const held = (info.sides as readonly string[]).includes(which);
-    void this.actions.begin([{ do: 'edge', which, hold: held ? 'free' : 'position' }]).then((good) => (good ? this.actions.end([]) : undefined));
+    void this.actions.begin([{ do: 'edge', which, hold: held ? 'open' : 'position' }]).then((good) => (good ? this.actions.end([]) : undefined));
   }
 }

@@ -53,7 +53,7 @@ interface Stroke {
 }
 
 /** Strokes: a ball pressed along the surface, smoothing, a point dragged; also places tools and selects by a click. */
-export class Brush implements PointerTool {
+export class BrushTool implements PointerTool {
   mode: Mode = 'push';
   settings: BrushSettings = { radius: 1, strength: 0.5, pressure: true };
 
@@ -146,7 +146,7 @@ export class Brush implements PointerTool {
   }
 
   /** Rightwards larger, upwards deeper. */
-  private resize(from: NonNullable<Brush['sizing']>, event: PointerEvent): void {
+  private resize(from: NonNullable<BrushTool['sizing']>, event: PointerEvent): void {
     this.settings.radius = from.radius * Math.exp((event.clientX - from.x) / 120);
     this.settings.strength = Math.min(1, Math.max(0.02, from.strength - (event.clientY - from.y) / 300));
     if (from.hit) this.showRing(from.hit);

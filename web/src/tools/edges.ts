@@ -11,7 +11,7 @@ import { type Continuity, continuityOf, type Edge, edgeNames, type HeldFace, isS
 import type { PointerTool } from './pointers';
 
 const colours: Record<Continuity, number> = {
-  free: 0x8a97a5, follow: 0x4aa08c, position: 0xe0b13a, clamped: 0xe88433, curvature: 0xd6483d, symmetry: 0x9a6fd0,
+  open: 0x8a97a5, follow: 0x4aa08c, position: 0xe0b13a, tangent: 0xe88433, curvature: 0xd6483d, symmetry: 0x9a6fd0,
 };
 
 const opening = 0xd64bb0; // free, though other faces meet there
@@ -133,9 +133,9 @@ export class Edges implements PointerTool {
       line.geometry = new LineGeometry();
       line.geometry.setPositions(places!);
       const continuity = continuityOf(info!, edge);
-      const opens = continuity === 'free' && this.meeting(edge)?.opens;
+      const opens = continuity === 'open' && this.meeting(edge)?.opens;
       line.material.color.set(opens ? opening : colours[continuity]);
-      line.material.linewidth = this.hovered === edge ? 7 : continuity === 'free' && !opens ? 2.5 : 4;
+      line.material.linewidth = this.hovered === edge ? 7 : continuity === 'open' && !opens ? 2.5 : 4;
     });
     this.viewer.redraw();
   }

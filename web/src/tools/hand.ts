@@ -5,7 +5,7 @@ import type { Command } from '../engine/session_types';
 import type { Viewport } from '../view/viewport';
 import { BodyHand } from './body_hand';
 import { BrushSize } from './brush_size';
-import { Brush, type BrushActions } from './brush';
+import { BrushTool, type BrushActions } from './brush';
 import { Edges } from './edges';
 import { followGizmo } from './gizmo';
 import { aForm } from './held';
@@ -21,7 +21,7 @@ import { SurfaceBrush } from './surface_brush';
 /** Everything that the pointer can do, and which of these a press now means. */
 export class Hand {
   readonly size: BrushSize;
-  readonly brush: Brush;
+  readonly brush: BrushTool;
   readonly surfaceBrush: SurfaceBrush;
   readonly bodies: BodyHand;
   readonly points: PointEditor;
@@ -36,7 +36,7 @@ export class Hand {
   constructor(private readonly host: ToolHost) {
     const { viewer } = host;
     const actions = this.actions();
-    this.brush = new Brush(viewer, actions);
+    this.brush = new BrushTool(viewer, actions);
     const { settings } = this.brush;
     this.size = new BrushSize(viewer, settings, () => !this.active, () => host.changed());
     this.surfaceBrush = new SurfaceBrush(viewer, actions, () => settings.radius, (factor) => (settings.radius *= factor));

@@ -5,26 +5,21 @@ export const edgeNames = ['u0', 'u1', 'v0', 'v1'] as const;
 /** A side of a surface, or an edge of a face on it by its id in the file. */
 export type Side = (typeof edgeNames)[number];
 export type Edge = Side | `#${string}`;
-export type Continuity = 'free' | 'follow' | 'position' | 'clamped' | 'curvature' | 'symmetry';
+export type Continuity = 'open' | 'follow' | 'position' | 'tangent' | 'curvature' | 'symmetry';
 
-export const continuityTitles: Record<Continuity, string> = { free: 'Free', follow: 'Follow', position: 'Position', clamped: 'Tangent', curvature: 'Curvature', symmetry: 'Symmetry' };
+export const continuityTitles: Record<Continuity, string> = { open: 'Free', follow: 'Follow', position: 'Position', tangent: 'Tangent', curvature: 'Curvature', symmetry: 'Symmetry' };
 const sides: Record<Side, string> = { u0: 'Edge u = 0', u1: 'Edge u = 1', v0: 'Edge v = 0', v1: 'Edge v = 1' };
 export const isSide = (edge: Edge): edge is Side => edge in sides;
 export const edgeTitle = (edge: Edge): string => (isSide(edge) ? sides[edge] : `Edge ${edge}`);
 
-const ofMode: Partial<Record<string, Continuity>> = { trim: 'position', 'trim-g1': 'clamped', 'trim-g2': 'curvature' };
-
-/** An edge that may open is free. */
-const asked = (hold: Extract<Command, { do: 'edge' }>['hold']): Continuity => (hold === 'open' ? 'free' : hold ?? 'position');
-
 /** What is asked of an edge. The rows that a surface is held by are another matter. */
 export function continuityOf(info: SurfaceInfo, edge: Edge): Continuity {
-  let all: Continuity = 'free';
+  let all: Continuity = 'open';
   let own: Continuity | null = null;
   for (const c of info.constraints) {
     const side = isSide(edge);
-    if (c.do === 'hold' && (!side || info.bare)) all = ofMode[c.mode ?? 'rows'] ?? all;
-    if (c.do === 'edge' && (c.edge === edge || (side && c.edge === undefined && (c.which === edge || c.which === 'all')))) own = asked(c.hold);
+    if (c.do === 'hold' && (!side || info.bare) && c.mode && c.mode !== 'rows') all = c.mode;
+    if (c.do === 'edge' && (c.edge === edge || (side && c.edge === undefined && (c.which === edge || c.which === 'all')))) own = c.hold ?? 'position';
     if (c.do === 'symmetry' && side && c.edge === edge) own = 'symmetry';
   }
   return own ?? all;
@@ -85,7 +80,7 @@ export function heldInWords(info: SurfaceInfo, faceEdges: readonly Edge[], open:
 
 /** The same of surfaces that are selected together. An edge of several counts once, as held if none of them lets it go. */
 export function heldTogether(faces: readonly HeldFace[]): string {
-  const loose = ({ info }: HeldFace, edge: Edge) => ['free', 'follow'].includes(continuityOf(info, edge));
+  const loose = ({ info }: HeldFace, edge: Edge) => ['open', 'follow'].includes(continuityOf(info, edge));
   const any = (test: (info: SurfaceInfo) => boolean) => faces.some(({ info }) => test(info));
   const parts: string[] = [];
   const rows = Math.min(...faces.map(({ info }) => info.hold));
@@ -97,7 +92,7 @@ export function heldTogether(faces: readonly HeldFace[]): string {
   const count = all.size - gone.size;
   if (some) parts.push(count === all.size ? counted(count, 'edge') : `${count} of ${all.size} edges`);
   // A closed surface without edges is held in its place.
-  if (all.size === 0 && faces.every(({ info }) => hasEdges(info) && info.constraints.some((c) => c.do === 'hold' && c.mode !== 'free'))) parts.push('its place');
+  if (all.size === 0 && faces.every(({ info }) => hasEdges(info) && info.constraints.some((c) => c.do === 'hold' && c.mode !== 'open'))) parts.push('its place');
   const alone = (face: HeldFace): HeldFace => ({ ...face, info: { ...face.info, bare: false } }); // a side that is no edge is held by itself alone
   const sideCount = faces.reduce((sum, face) => sum + edgeNames.filter((e) => !face.edges.includes(e) && !loose(alone(face), e)).length, 0);
   if (sideCount > 0) parts.push(counted(sideCount, some ? 'side' : 'edge'));
@@ -107,7 +102,7 @@ export function heldTogether(faces: readonly HeldFace[]): string {
   if (any((info) => info.constraints.some((c) => c.do === 'keep'))) parts.push('kept lines');
   const text = listed(parts);
   const words = parts.length === 0 ? 'Nothing held' : `${text.charAt(0).toUpperCase()}${text.slice(1)} held`;
-  const opening = new Set(faces.flatMap(({ info, open }) => open.filter((e) => continuityOf(info, e) === 'free'))).size;
+  const opening = new Set(faces.flatMap(({ info, open }) => open.filter((e) => continuityOf(info, e) === 'open'))).size;
   return opening > 0 ? `${words}, ${opening === 1 ? 'one opens' : `${opening} open`} when it moves` : words;
 }
 
@@ -117,9 +112,9 @@ export function constraintInWords(c: Command): string {
   switch (c.do) {
     case 'edge': {
       const edge = c.edge ?? c.which ?? 'all';
-      return `${edge === 'all' ? 'All edges' : edgeTitle(edge as Edge)}: ${continuityTitles[asked(c.hold)].toLowerCase()}`;
+      return `${edge === 'all' ? 'All edges' : edgeTitle(edge as Edge)}: ${continuityTitles[c.hold ?? 'position'].toLowerCase()}`;
     }
-    case 'hold': return `Edges of the faces: ${continuityTitles[c.mode === 'free' ? 'free' : ofMode[c.mode ?? ''] ?? 'position'].toLowerCase()}`;
+    case 'hold': return `Edges of the faces: ${continuityTitles[c.mode && c.mode !== 'rows' ? c.mode : 'position'].toLowerCase()}`;
     case 'freeze': {
       const [[a, b], [d, e]] = c.region;
       return `Frozen: u ${percent(a)} to ${percent(b)}, v ${percent(d)} to ${percent(e)}`;

@@ -1,4 +1,4 @@
-import { type Group, groups, inserted, moved, removed, room } from './knots';
+import { type Group, groups, inserted, moved, removed, limits } from './knots';
 import type { LabModel } from './model';
 import { margin, type PlotFrame } from './plot_frame';
 import { s, set } from './svg';
@@ -80,8 +80,8 @@ export class KnotHandles {
   private show(handle: SVGGElement, { value, first, count }: Group): void {
     const { model, frame } = this;
     const [x, y] = [frame.x(value), frame.bottom + 9];
-    const [low] = room(model.now.knots, first, first);
-    const [, high] = room(model.now.knots, first + count - 1, first + count - 1);
+    const [low] = limits(model.now.knots, first, first);
+    const [, high] = limits(model.now.knots, first + count - 1, first + count - 1);
     const copies = count === 1 ? 'once' : count === 2 ? 'twice' : `${count} times`;
     const finite = (v: number) => (Number.isFinite(v) ? v : null);
     set(handle, { 'data-first': first, 'data-count': count, 'aria-label': `Knot ${value}, ${copies}`, 'aria-valuenow': value,

@@ -27,7 +27,7 @@ export function groups(knots: readonly number[]): Group[] {
 }
 
 /** How far the indices first … last can move together without passing a neighbour. */
-export function room(knots: readonly number[], first: number, last: number): [number, number] {
+export function limits(knots: readonly number[], first: number, last: number): [number, number] {
   return [first > 0 ? knots[first - 1]! : -Infinity, last + 1 < knots.length ? knots[last + 1]! : Infinity];
 }
 
@@ -36,7 +36,7 @@ export function room(knots: readonly number[], first: number, last: number): [nu
  * become a knot of higher multiplicity.
  */
 export function moved(knots: readonly number[], first: number, last: number, to: number, snap = 0): number[] {
-  const [low, high] = room(knots, first, last);
+  const [low, high] = limits(knots, first, last);
   let value = Math.min(high, Math.max(low, to));
   if (value - low <= snap) value = low;
   else if (high - value <= snap) value = high;

@@ -29,7 +29,7 @@ struct Lines {
 };
 
 /// An image and the snakes in it, each from where it starts to where it is.
-class Room {
+class SnakePage {
  public:
   /// Forgets the snakes, the mask and what was kept.
   [[nodiscard]] Expected<void> set_image(Image image);

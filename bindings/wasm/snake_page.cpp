@@ -1,4 +1,4 @@
-#include "snake_room.hpp"
+#include "snake_page.hpp"
 
 #include <fmt/format.h>
 
@@ -43,29 +43,29 @@ Image grey_of(std::span<const std::uint8_t> rgba, int width, int height) {
   return image;
 }
 
-Expected<void> Room::set_image(Image image) {
+Expected<void> SnakePage::set_image(Image image) {
   if (auto checked = check_image(image); !checked) return checked;
   *this = {};
   image_ = std::move(image);
   return {};
 }
 
-void Room::set_mask(std::optional<Image> mask) {
+void SnakePage::set_mask(std::optional<Image> mask) {
   now_.mask = mask ? std::make_shared<const Image>(std::move(*mask)) : nullptr;
   now_.potential.reset();
 }
 
-void Room::remove_snakes() {
+void SnakePage::remove_snakes() {
   now_ = State{now_.mask};
   hand_.reset();
 }
 
-int Room::keep() {
+int SnakePage::keep() {
   kept_.emplace(next_, now_);
   return next_++;
 }
 
-Expected<void> Room::restore(int kept) {
+Expected<void> SnakePage::restore(int kept) {
   const auto found = kept_.find(kept);
   if (found == kept_.end()) return usage_error(fmt::format("nothing was kept under {}", kept));
   now_ = found->second;
@@ -73,15 +73,17 @@ Expected<void> Room::restore(int kept) {
   return {};
 }
 
-Expected<Room::Moved> Room::begun(const SnakeScript& script, const SnakeStart& start) const {
+Expected<SnakePage::Moved> SnakePage::begun(const SnakeScript& script,
+                                            const SnakeStart& start) const {
   const One one{start, settings_of(script, start)};
   auto curve = curve_of(start, one.settings);
   if (!curve) return std::unexpected(curve.error());
   return Moved{one, std::move(*curve)};
 }
 
-Expected<Room::Moved> Room::goes_on(const One& before, SnakeResult now, const SnakeScript& script,
-                                    const SnakeStart& start) const {
+Expected<SnakePage::Moved> SnakePage::goes_on(const One& before, SnakeResult now,
+                                              const SnakeScript& script,
+                                              const SnakeStart& start) const {
   const One one{start, settings_of(script, start), now.iterations};
   const SnakeSettings &is = one.settings, &was = before.settings;
   if (is.degree == was.degree && is.control_points == was.control_points && is.units == was.units) {
@@ -97,7 +99,7 @@ Expected<Room::Moved> Room::goes_on(const One& before, SnakeResult now, const Sn
   return Moved{one, std::move(*curve)};
 }
 
-Expected<void> Room::set_script(std::string_view json, bool again) {
+Expected<void> SnakePage::set_script(std::string_view json, bool again) {
   if (!image_) return usage_error("there is no image", "image", "open one first");
   const auto script = parse_snake_script(json);
   if (!script) return std::unexpected(script.error());
@@ -138,13 +140,13 @@ Expected<void> Room::set_script(std::string_view json, bool again) {
   return {};
 }
 
-Expected<void> Room::advance(int iterations) {
+Expected<void> SnakePage::advance(int iterations) {
   if (!now_.run) return {};
   const auto made = now_.run->advance(iterations);
   return made ? Expected<void>{} : std::unexpected(made.error());
 }
 
-SnakeSettings Room::settings_now(std::size_t snake) const {
+SnakeSettings SnakePage::settings_now(std::size_t snake) const {
   SnakeSettings settings = now_.snakes[snake].settings;
   if (!hand_ || hand_->snake != snake) return settings;
   settings.springs.push_back(hand_->spring);
@@ -153,7 +155,7 @@ SnakeSettings Room::settings_now(std::size_t snake) const {
   return settings;
 }
 
-Expected<void> Room::change(std::size_t snake) {
+Expected<void> SnakePage::change(std::size_t snake) {
   const auto now = now_.run->result(static_cast<int>(snake));
   if (!now) return std::unexpected(now.error());
   if (auto status = now_.run->change(static_cast<int>(snake), settings_now(snake)); !status)
@@ -162,14 +164,14 @@ Expected<void> Room::change(std::size_t snake) {
   return {};
 }
 
-Expected<void> Room::wake() {
+Expected<void> SnakePage::wake() {
   for (std::size_t k = 0; k < now_.snakes.size(); ++k) {
     if (auto status = change(k); !status) return status;
   }
   return {};
 }
 
-Expected<void> Room::pull(const std::optional<Hand>& hand) {
+Expected<void> SnakePage::pull(const std::optional<Hand>& hand) {
   if (hand && hand->snake >= now_.snakes.size())
     return usage_error(fmt::format("there is no snake {}", hand->snake));
   const std::optional<Hand> before = hand_;
@@ -180,7 +182,7 @@ Expected<void> Room::pull(const std::optional<Hand>& hand) {
   return hand ? change(hand->snake) : Expected<void>{};
 }
 
-Expected<void> Room::move_point(std::size_t snake, int point, double x, double y) {
+Expected<void> SnakePage::move_point(std::size_t snake, int point, double x, double y) {
   if (snake >= now_.snakes.size()) return usage_error(fmt::format("there is no snake {}", snake));
   const auto now = now_.run->result(static_cast<int>(snake));
   if (!now) return std::unexpected(now.error());
@@ -199,7 +201,7 @@ Expected<void> Room::move_point(std::size_t snake, int point, double x, double y
   return {};
 }
 
-std::vector<SnakeResult> Room::results() const {
+std::vector<SnakeResult> SnakePage::results() const {
   std::vector<SnakeResult> all;
   for (std::size_t k = 0; k < now_.snakes.size(); ++k) {
     auto now = now_.run->result(static_cast<int>(k));
@@ -210,7 +212,7 @@ std::vector<SnakeResult> Room::results() const {
   return all;
 }
 
-Lines Room::lines() const {
+Lines SnakePage::lines() const {
   Lines lines;
   for (const SnakeResult& s : results()) {
     lines.offsets.push_back(static_cast<std::uint32_t>(lines.points.size() / 3));
@@ -236,7 +238,7 @@ Lines Room::lines() const {
   return lines;
 }
 
-std::vector<std::uint8_t> Room::energy() const {
+std::vector<std::uint8_t> SnakePage::energy() const {
   if (!now_.potential) return {};
   std::vector<double> values;
   for (int y = 0; y < now_.potential->height(); ++y) {
