@@ -103,6 +103,7 @@ int main(int argc, char** argv) {
     if (const int number = std::atoi(argv[k]); number > 0)
       numbers.push_back(number);  // others mean other benchmarks
   }
+  if (argc > 1 && numbers.empty()) return 0;  // others are asked for
   const int rounds = numbers.empty() ? 61 : numbers.front();
   for (std::size_t k = 1; k < numbers.size(); ++k) degrees.push_back(numbers[k]);
   if (degrees.empty()) degrees = {3, 1, 2, 4, 5, 7};
