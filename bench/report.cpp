@@ -133,8 +133,7 @@ int main(int argc, char** argv) {
   }
   std::string report =
       "# Benchmarks\n\nMedians; times in milliseconds of the processor. docs/performance.md says "
-      "what "
-      "each figure is.\n\n| figure | value |\n|---|---|\n";
+      "what each figure is.\n\n| figure | value |\n|---|---|\n";
   for (const auto& [name, value] : figures)
     report += fmt::format("| `{}` | {:.4g} |\n", name, value);
   std::ofstream(directory + "/summary.json") << nlohmann::json(figures).dump(2) << "\n";

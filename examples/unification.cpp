@@ -73,8 +73,7 @@ void touches() {
 void losses() {
   fmt::print(
       "\n4. What interpolating anew costs a surface that nothing touches, relative change after 1, "
-      "100, 1000 "
-      "frames:\n\n");
+      "100, 1000 frames:\n\n");
   for (double cluster : {0.0, 1e-8}) {
     fmt::print("   {:22}",
                cluster == 0 ? "uniform knots" : fmt::format("three knots {:.0e} apart", cluster));

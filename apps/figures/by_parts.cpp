@@ -133,8 +133,7 @@ void add_gauss_points(Report& report) {
   chart.impulses("Gauss points", points);
   report.picture("figure_5_04.svg", chart.svg(),
                  fmt::format("Fig. 5.4: the product has degree 6 on each of p + 1 spans, so 4 "
-                             "points on each are exact: "
-                             "{:.15g}, the entry 151/315 = {:.15g}.",
+                             "points on each are exact: {:.15g}, the entry 151/315 = {:.15g}.",
                              sum, 151.0 / 315));
 }
 
@@ -158,8 +157,7 @@ void add_areas(Report& report) {
   }
   report.picture("figure_5_12.svg", chart.svg(),
                  fmt::format("Fig. 5.12: the rectangle f g = {:.6f} is the area below the curve, ∫ "
-                             "g df = {:.6f}, and that "
-                             "beside it, ∫ f dg = {:.6f}.",
+                             "g df = {:.6f}, and that beside it, ∫ f dg = {:.6f}.",
                              f * g, under, f * g - under));
 }
 

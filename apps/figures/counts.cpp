@@ -89,8 +89,7 @@ void add_evaluations(Report& report) {
         fmt::format("figure_5_{}.svg", 32 + k), chart.svg(),
         fmt::format(
             "Fig. 5.{}: evaluations against the {}, {}. The formula has n + 1 where the knots have "
-            "n "
-            "− p spans: hence the distance at high degrees.",
+            "n − p spans: hence the distance at high degrees.",
             32 + k, over == Over::points ? "number of points" : "degree",
             k < 2 ? "each function from its own triangle of values (three for the Gaussian method, "
                     "five for the analytic)"
@@ -146,10 +145,9 @@ void add_totals(Report& report) {
     report.picture(
         fmt::format("figure_5_{}.svg", number), chart.svg(),
         fmt::format("Fig. 5.{}: all operations against the {}. *Gaussian* and *analytic* are the "
-                    "thesis' Algs. 5.1 and "
-                    "5.5; *ours* are the methods of the library: kernels for `gauss` (to degree 7) "
-                    "and `recurrence`, and "
-                    "an `analytic` that is written for every multiplicity of knots, not for speed.",
+                    "thesis' Algs. 5.1 and 5.5; *ours* are the methods of the library: kernels for "
+                    "`gauss` (to degree 7) and `recurrence`, and an `analytic` that is written for "
+                    "every multiplicity of knots, not for speed.",
                     number, over == Over::points ? "number of points" : "degree"));
   }
 

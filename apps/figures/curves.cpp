@@ -101,8 +101,7 @@ void add_curves(Report& report) {
     chart.impulses("weight × I⁴ N₄", products);
     report.picture("figure_5_21.svg", chart.svg(),
                    fmt::format("Fig. 5.21: weighted samples of the fourth integral. The products "
-                               "add up to {:.15g}, the entry "
-                               "∫ N₄ N₄ = 151/315 = {:.15g}.",
+                               "add up to {:.15g}, the entry ∫ N₄ N₄ = 151/315 = {:.15g}.",
                                sum, 151.0 / 315));
   }
   {
@@ -153,8 +152,7 @@ void add_curves(Report& report) {
     }
     report.picture("figure_5_25.svg", chart.svg(),
                    "Fig. 5.25: repeated integrals, zero at the first knot of N₄; right of its last "
-                   "knot they would be "
-                   "polynomials.");
+                   "knot they would be polynomials.");
   }
 }
 

@@ -102,8 +102,7 @@ void add_terms(Report& report) {
         parts[part].file, chart.svg(),
         fmt::format(
             "Fig. 5.48 ({}): {} at the two close knots, for N_8, N_11 and N_15. The two of a "
-            "degree lie "
-            "over each other as the knots meet{}",
+            "degree lie over each other as the knots meet{}",
             static_cast<char>('a' + part), parts[part].what,
             part == 0 ? ", and have opposite signs."
             : part == 1
@@ -126,8 +125,7 @@ void add_normalised(Report& report, const std::vector<TableRow>& rows) {
              {.colour = 3, .dashed = true, .markers = true});
   report.picture("figure_5_49.svg", chart.svg(),
                  "Fig. 5.49: the analytic method on normalised knots. The errors are others, not "
-                 "smaller ones: the thesis' "
-                 "improvement is the luck of one entry.");
+                 "smaller ones: the thesis' improvement is the luck of one entry.");
 }
 
 void add_cancellation(Report& report) {
@@ -152,11 +150,8 @@ void add_cancellation(Report& report) {
   }
   report.text(
       "\nThe entry of the tables is a lucky one. The largest relative error of *any* entry of G00 "
-      "by the analytic "
-      "method, "
-      "against recurrence:\n\n| p | r = 6 | r = 8 | r = 10 | r = 10, better side for each entry | "
-      "three knots 1e-8 "
-      "apart |\n|--:|---|---|---|---|---|\n");
+      "by the analytic method, against recurrence:\n\n| p | r = 6 | r = 8 | r = 10 | r = 10, "
+      "better side for each entry | three knots 1e-8 apart |\n|--:|---|---|---|---|---|\n");
   for (const int p : {1, 2, 3, 5, 7, 10}) {
     report.text(fmt::format("| {} | {:.0e} | {:.0e} | {:.0e} | {:.0e} | {:.0e} |\n", p,
                             worst_on_thesis_knots(p, 6), worst_on_thesis_knots(p, 8),

@@ -22,13 +22,9 @@ void add_tables(Report& report, const std::string& data) {
   report.text(tables_markdown(data));
   report.text(
       "\nIn Table 5.16 the printed integral at 12 is that at 9 over again, the printed product at "
-      "6 + 10⁻¹⁰ has the "
-      "sign "
-      "and the first digit wrong, and the printed derivative at 16 is a hundred times too large. "
-      "Our deviations there, "
-      "like the thesis' in the weights, come from 6 + 10⁻¹⁰ itself, which as a double is off by 8 "
-      "units of the tenth "
-      "digit of the gap.\n");
+      "6 + 10⁻¹⁰ has the sign and the first digit wrong, and the printed derivative at 16 is a "
+      "hundred times too large. Our deviations there, like the thesis' in the weights, come from 6 "
+      "+ 10⁻¹⁰ itself, which as a double is off by 8 units of the tenth digit of the gap.\n");
 }
 
 Report whole_report(const std::string& data) {

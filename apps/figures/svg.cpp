@@ -85,10 +85,8 @@ double letters(const std::string& words) {
 std::string header(double w, double h) {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
-      "height=\"{1:g}\" "
-      "font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\">\n<rect width=\"100%\" "
-      "height=\"100%\" "
-      "fill=\"white\"/>\n",
+      "height=\"{1:g}\" font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\">\n<rect "
+      "width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
       w, h);
 }
 
@@ -292,8 +290,7 @@ std::string matrix_svg(const std::string& title, const std::vector<std::vector<d
                                             : fmt::format("rgb({},{},255)", pale, half);
       out += fmt::format(
           "<rect x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" fill=\"{}\" "
-          "stroke=\"#ddd\"><title>{}, {}: "
-          "{:.15g}</title></rect>\n",
+          "stroke=\"#ddd\"><title>{}, {}: {:.15g}</title></rect>\n",
           x, y, wide, high, colour, i, j, value);
       if (!empty)
         out +=

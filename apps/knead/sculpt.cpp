@@ -93,8 +93,7 @@ void print_summary(const SculptArguments& options, const Session& session, const
     } else if (!last.converged) {
       say(stderr,
           "knead: warning: the last step stopped before its minimum was reached; use more steps or "
-          "a "
-          "larger lambda\n");
+          "a larger lambda\n");
     }
   }
 }

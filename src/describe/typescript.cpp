@@ -80,8 +80,7 @@ void TypeScript::list(const Type& variant, const std::string& name) {
   }
   text += fmt::format(
       "type Numbers = {{ help: string; fields: {{ name: string; help: string; length: boolean; "
-      "initial: number[] }}[] "
-      "}};\n\nexport const {}: Record<string, Numbers> = {{\n{}}};\n",
+      "initial: number[] }}[] }};\n\nexport const {}: Record<string, Numbers> = {{\n{}}};\n",
       name, records);
 }
 

@@ -191,8 +191,7 @@ class RationalAssembly {
   [[nodiscard]] Expected<void> too_uneven() const {
     const auto [least, most] = std::ranges::minmax(elements_.weights());
     return numerical_error(fmt::format("the weights of one element, {} to {}, differ so much that "
-                                       "its energy cannot be integrated to {} of "
-                                       "the diagonal",
+                                       "its energy cannot be integrated to {} of the diagonal",
                                        least, most, options_.rational_tolerance),
                            "stiffness", "use weights that differ less, or a larger tolerance");
   }

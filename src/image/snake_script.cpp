@@ -43,8 +43,7 @@ void describe(ImagePotentialSettings& s, Fields& fields) {
              {.help = "weight of the grey values inside and outside being like their means"});
   fields.add("relative_region", s.relative_region,
              {.help = "the region term in units of the difference of the means, at most 1: the "
-                      "same force for what is "
-                      "pale and what is bright"});
+                      "same force for what is pale and what is bright"});
   fields.add("distance", s.distance, {.help = "weight of the nearness to the mask"});
 }
 
@@ -119,19 +118,16 @@ void describe(SnakeSettingsOf<D>& s, Fields& fields) {
   }
   fields.add("redistribute", s.redistribute,
              {.help = of("after so many iterations a closed snake driven along its normal that is "
-                         "stretched unevenly "
-                         "is spread evenly; 0: never",
+                         "stretched unevenly is spread evenly; 0: never",
                          "after so many iterations a surface driven along its normal that is "
-                         "stretched unevenly is "
-                         "spread evenly; 0: never"),
+                         "stretched unevenly is spread evenly; 0: never"),
               .range = at_least(0)});
   fields.add("balloon", s.balloon,
              {.help = of("pressure outwards, of closed snakes", "pressure outwards")});
   if constexpr (curve) {
     fields.add("end_tension", s.end_tension,
                {.help = "share of the stretch at the start that pulls free ends outwards; 0: they "
-                        "are drawn in, 1: the "
-                        "length is kept",
+                        "are drawn in, 1: the length is kept",
                 .range = at_least(0)});
   }
   fields.add("max_move", s.max_move,

@@ -188,8 +188,7 @@ Expected<void> check_parted(const std::vector<PartedEdge>& edges) {
   const std::string on = worst->surfaces.empty() ? "" : worst->surfaces.front();
   return numerical_error(
       fmt::format("the edge {} would be left {:.3g} from {} at {}, {:.2g} as opened, and {:.2g} is "
-                  "allowed{}; nothing is "
-                  "written",
+                  "allowed{}; nothing is written",
                   worst->id, worst->distance, faces_in_words(worst->faces),
                   place_in_words(worst->place), worst->opened, worst->allowed, others),
       worst->id,

@@ -91,8 +91,7 @@ TEST(PlainNet, WithoutRowsIsAFileWhoseSurfaceCannotBeRead) {
   ASSERT_EQ(source->unreadable().size(), 1U);
   EXPECT_EQ(source->unreadable()[0].reason.message(),
             "a.ctrlpts:1: 4 control points, but how many make a row is not said; put an empty line "
-            "after each row, or "
-            "each row in one line with semicolons");
+            "after each row, or each row in one line with semicolons");
 }
 
 }  // namespace

@@ -118,9 +118,7 @@ TEST_P(SeamFiles, EveryCoupledSeamKeepsItsGapAndEverySmoothOneItsAngle) {
   EXPECT_LT(angle, 1e-6);
   std::printf(
       "%-42s %3zu surfaces, %3d seams (%d partial, %zu poles): none %d, C0 %d, G1 %d; found %.1f "
-      "ms, coupled %.1f "
-      "ms, "
-      "eliminated %.1f ms; gap %.1e, angle %.1e\n",
+      "ms, coupled %.1f ms, eliminated %.1f ms; gap %.1e, angle %.1e\n",
       GetParam().c_str(), patches.size(), whole, partial, found->collapsed.size(), counts[0],
       counts[1], counts[2], finding, coupled, eliminated, gap, angle);
 }

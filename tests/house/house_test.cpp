@@ -59,8 +59,7 @@ class Tree : public testing::Test {
     fs::remove_all(root_);
     write("src/rooms.txt",
           "# From the ground up.\nbase: errors\nspline: bases\ngramian: bands\nbrep: "
-          "faces\nexchange: files\nsession: "
-          "acts\n");
+          "faces\nexchange: files\nsession: acts\n");
     write("include/knead/base/error.hpp", "#pragma once\n");
     write("include/knead/spline/basis.hpp",
           "// Why.\n#pragma once\n#include \"knead/base/error.hpp\"\n");
@@ -225,8 +224,7 @@ TEST_F(Tree, TableOfOtherRoomsIsFound) {
       "Rooms:\n\n<!-- rooms -->\n| room | what lives there |\n|---|---|\n| `base` | errors |\n";
   const std::string rest =
       "| `gramian` | bands |\n| `brep` | faces |\n| `exchange` | files |\n| `session` | acts "
-      "|\n<!-- end of rooms "
-      "-->\n";
+      "|\n<!-- end of rooms -->\n";
   write("README.md", begin + "| `spline` | bases |\n" + rest);
   EXPECT_EQ(violations(root_), std::vector<std::string>{});
   write("README.md", begin + rest);
@@ -294,8 +292,7 @@ TEST_F(Tree, FileThatNeedsNoExceptionForItsFunctionsIsFound) {
   write("src/gramian/simd/recurrence_cubic.hpp", "#pragma once\ninline void f() {}\n");
   expect_only(
       "src/gramian/simd/recurrence_cubic.hpp: no function is long here any more: strike the file "
-      "off the "
-      "exceptions");
+      "off the exceptions");
 }
 
 TEST_F(Tree, LongFileIsFoundAndTheLongestAllowedIsNot) {

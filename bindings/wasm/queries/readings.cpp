@@ -59,9 +59,8 @@ std::vector<Query> reading_queries() {
               "checked_edges", "How the faces on a surface meet their neighbours."),
           query<std::optional<double>, edge_distance>(
               "edge_distance",
-              "How far the visible middle of a surface is from the "
-              "nearest edge of a face, in units of the "
-              "file; null where no edges are known."),
+              "How far the visible middle of a surface is from the nearest edge of a face, in "
+              "units of the file; null where no edges are known."),
           query<ReadingQuery>(), query<FaceReadingQuery>()};
 }
 

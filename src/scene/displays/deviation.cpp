@@ -32,8 +32,7 @@ Display deviation_display() {
           .is_signed = true,
           .help =
               "How far each point is from where it was when opened: red along the normal, blue "
-              "against it. Hold C to "
-              "see it as opened.",
+              "against it. Hold C to see it as opened.",
           .percentiles = {0, 1},  // what moved may be a small part
           .tolerance = "tolerance",
           .compares = true,

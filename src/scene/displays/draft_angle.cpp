@@ -29,16 +29,14 @@ Display draft_angle_display() {
           .is_signed = true,
           .help =
               "Angle between the surface and the pull direction: red draws off a mould, blue is "
-              "undercut, grey is "
-              "parallel to it.",
+              "undercut, grey is parallel to it.",
           .limits = {{-3, 3}},
           .settings = {{.name = "direction",
                         .title = "Pull",
                         .unit = "",
                         .value = {0, 0, 1},
                         .help = "Direction in which the part leaves the mould; turn it round where "
-                                "the normals point "
-                                "inwards"}},
+                                "the normals point inwards"}},
           .values = draft_angles};
 }
 

@@ -55,8 +55,7 @@ Display thickness_display() {
           .palette = DisplayPalette::rising,
           .help =
               "Distance to the next face of the model along the normal into the material: pale is "
-              "thin. No colour "
-              "where nothing is behind.",
+              "thin. No colour where nothing is behind.",
           .sees_model = true,
           .values = thicknesses};
 }

@@ -168,8 +168,7 @@ Expected<void> check_followed(const Scene& scene, const Scene& before) {
       const Point& p = apart->place;
       return numerical_error(
           fmt::format("the faces at the edge {} would part by {:.2g} at ({:.6g}, {:.6g}, {:.6g}), "
-                      "more than the "
-                      "tolerance of {:.2g}; this was refused",
+                      "more than the tolerance of {:.2g}; this was refused",
                       edge.id, apart->distance, p.x(), p.y(), p.z(), apart->tolerance),
           "edge",
           R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it)",
@@ -179,8 +178,7 @@ Expected<void> check_followed(const Scene& scene, const Scene& before) {
       const Point& p = apart->kink_place;
       return numerical_error(
           fmt::format("the faces at the smooth edge {} would meet at {:.2g} degrees at ({:.6g}, "
-                      "{:.6g}, {:.6g}), more "
-                      "than the {:.2g} that are accepted; this was refused",
+                      "{:.6g}, {:.6g}), more than the {:.2g} that are accepted; this was refused",
                       edge.id, in_degrees(apart->angle), p.x(), p.y(), p.z(),
                       in_degrees(accepted_bend(*apart))),
           "edge",
@@ -255,9 +253,8 @@ Expected<bool> Attempts::together(SessionState& state) {
     state.bend = accepted_angle;
     state.notes.push_back(
         fmt::format("smooth edges that follow may open by up to {:.2g} degrees from here on: "
-                    "within the {:.2g} that are "
-                    "asked for they could hardly move; finer nets beside them would help, "
-                    "{{\"do\":\"refine\"}}",
+                    "within the {:.2g} that are asked for they could hardly move; finer nets "
+                    "beside them would help, {{\"do\":\"refine\"}}",
                     in_degrees(accepted_angle), in_degrees(asked_angle)));
     return true;
   }

@@ -127,8 +127,7 @@ Expected<bool> refine_under(Act& act, const Tool& tool, bool limited) {
       const auto [m, n] = finer->net();
       return numerical_error(
           fmt::format("the tool {} needs a net of {} x {} on {}, more than the {} control points "
-                      "to which a command "
-                      "refines by itself",
+                      "to which a command refines by itself",
                       tool.name, m, n, s.id, limit),
           tool.name,
           R"(take a larger tool, refine where it matters, )"
@@ -234,9 +233,8 @@ Expected<void> refine_round(Act& act, SceneSurface& s, const TrimContact& contac
   if (refinement->capped) {
     act.state.notes.push_back(
         fmt::format("{}: the net between tool and held edges stays coarser than it should be, as "
-                    "it is limited to {} "
-                    "control points; "
-                    "refine it where it matters with {{\"do\":\"refine\"}}",
+                    "it is limited to {} control points; refine it where it matters with "
+                    "{{\"do\":\"refine\"}}",
                     s.id, trim_refinement_cap(*document_surface(act, s))));
   }
   if (refinement->empty()) return {};

@@ -91,9 +91,8 @@ void note_loose(SessionState& state, const MotionLaw& law) {
     ids.push_back(s.id);
   }
   Note note(fmt::format("nothing holds {}: what presses on it moves all of it; hold its edges, "
-                        "{{\"do\":\"hold\",\"mode\":\"position\"}}, or "
-                        "its "
-                        "outer rows, {{\"do\":\"hold\",\"rows\":2}}",
+                        "{{\"do\":\"hold\",\"mode\":\"position\"}}, or its outer rows, "
+                        "{{\"do\":\"hold\",\"rows\":2}}",
                         loose),
             {ErrorCode::surface_loose, {{"surfaces", ids}}});
   note_once(state, std::move(note));

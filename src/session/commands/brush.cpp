@@ -267,8 +267,7 @@ void describe(BrushCommand& c, Fields& fields) {
        .fallback = "a quarter of the radius"});
   fields.add("strength", c.strength,
              {.help = "of flatten, smooth and pinch: the share of the way that points go at full "
-                      "weight; of mask and unmask: how "
-                      "much",
+                      "weight; of mask and unmask: how much",
               .unit = Unit::fraction,
               .range = between(0, 1),
               .fallback = "`1`; of pinch `0.5`"});
@@ -292,8 +291,7 @@ void describe(BrushCommand& c, Fields& fields) {
            "`height`; the first row is the upper one, and columns go along the first parameter"});
   fields.add("shape", c.shape,
              {.help = "of stamp, in place of `pattern`: the shape of a tool as it is seen along "
-                      "its axis, as wide as the "
-                      "`core`",
+                      "its axis, as wide as the `core`",
               .choices = shape_choices()});
   fields.add("steady", c.steady,
              {.help = "the brush is drawn along the path by a rope of so many radii, which takes "

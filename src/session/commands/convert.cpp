@@ -90,8 +90,7 @@ void describe(ConvertCommand& c, Fields& fields) {
               "make planes, cylinders and the like exact B-spline surfaces that can be sculpted");
   fields.add("surface", c.surface,
              {.help = "id of the surface, or of a face on it, as `knead info --faces` lists them; "
-                      "this, `surfaces` or "
-                      "`neighbours`"});
+                      "this, `surfaces` or `neighbours`"});
   fields.add("surfaces", c.surfaces, {.help = "several of them"});
   fields.add("neighbours", c.neighbours, {.help = "all that meet faces on the selected surfaces"});
 }

@@ -55,8 +55,7 @@ void describe(EvolveCommand& c, Fields& fields) {
   fields.add("mode", c.evolution.mode, {.help = "what a step solves"});
   fields.add("lambda", c.evolution.lambda,
              {.help = "acm: λ, inverse step size: small goes straight to equilibrium, large "
-                      "creeps. 0 requires "
-                      "that something is held",
+                      "creeps. 0 requires that something is held",
               .range = at_least(0)});
   fields.add("time_step", c.evolution.time_step,
              {.help = "dynamic: time per step", .range = above(0)});

@@ -27,8 +27,7 @@ void describe(ForceCommand& c, Fields& fields) {
   fields.add("kind", c.kind, {.help = "how it acts"});
   fields.add("at", c.at,
              {.help = "`[s, t]`: the surface point, of a curve `[s]`, of a volume `[s, t, r]`; of "
-                      "all kinds but line "
-                      "and moment",
+                      "all kinds but line and moment",
               .unit = Unit::fraction,
               .range = between(0, 1)});
   fields.add("to", c.to, {.help = "`[x, y, z]`: of springs and volcanoes", .unit = Unit::length});
@@ -41,8 +40,7 @@ void describe(ForceCommand& c, Fields& fields) {
               .range = above(0)});
   fields.add("vector", c.vector,
              {.help = "`[x, y, z]`: of a dead force, or of a line force per length; lengths and "
-                      "forces are those of the "
-                      "model, in `scaling` raw those of the file"});
+                      "forces are those of the model, in `scaling` raw those of the file"});
   fields.add("edge", c.edge, {.help = "of a line force or a moment"});
   fields.add(
       "moment", c.moment,

@@ -32,16 +32,14 @@ void describe(LatticeCommand& c, Fields& fields) {
   fields.add("hold", c.hold, {.help = "faces of the block that stay", .choices = block_faces});
   fields.add("which", c.which,
              {.help = "control points of the block that are moved by hand; that of indices i, j, k "
-                      "along x, y, z is "
-                      "`(i · net[1] + j) · net[2] + k`"});
+                      "along x, y, z is `(i · net[1] + j) · net[2] + k`"});
   fields.add("by", c.by,
              {.help = "how far these are moved; tools do not act then", .unit = Unit::length});
   fields.add("again", c.again,
              {.help = "go on with the block of the `lattice` before: its control points are moved "
-                      "from where they were "
-                      "pulled, and deform the shapes that it was put round. Net, degree, margin "
-                      "and selection are the "
-                      "same, and nothing else has changed the surfaces since"});
+                      "from where they were pulled, and deform the shapes that it was put round. "
+                      "Net, degree, margin and selection are the same, and nothing else has "
+                      "changed the surfaces since"});
   describe_allowance(c.allow, fields);
 }
 

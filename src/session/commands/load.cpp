@@ -24,12 +24,10 @@ void describe(LoadCommand& c, Fields& fields) {
              {.help = "`[m, n]` samples of any load f(u, v) over the domain, its ends included"});
   fields.add("samples", c.load.samples,
              {.help = "m n forces `[x, y, z]` per area, along v first, linear in between; "
-                      "integrated exactly, per area "
-                      "of a bent surface to 1e-10"});
+                      "integrated exactly, per area of a bent surface to 1e-10"});
   fields.add("formula", c.load.formula,
              {.help = "a force per area: a formula for each of x, y, z, of what `material` names; "
-                      "as cubic splines, "
-                      "integrated likewise"});
+                      "as cubic splines, integrated likewise"});
   fields.add("tolerance", c.load.tolerance,
              {.help = "of these splines, in forces per area",
               .range = above(0),

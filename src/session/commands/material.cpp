@@ -257,8 +257,7 @@ std::span<const Choice> choices(MaterialModel) {
       {"fundamental", MaterialModel::fundamental, "keeps both fundamental forms (thesis Eq. 3.42)"},
       {"plate", MaterialModel::plate,
        "a thin plate: a linear model that bends with Poisson's ratio and does not stretch, β11 = "
-       "β22 = `rigidity`, "
-       "β12 = (1 − `poisson`) `rigidity`, α = 0"}};
+       "β22 = `rigidity`, β12 = (1 − `poisson`) `rigidity`, α = 0"}};
   return list;
 }
 
@@ -340,8 +339,7 @@ void describe(MaterialCommand& c, Fields& fields) {
       {.help = "of a plate, in the units of `beta`", .range = above(0), .fallback = "`0.01`"});
   fields.add("w1", c.w1,
              {.help = "of `fundamental`: weights of the first form, 11, 12, 22, or one number for "
-                      "all; per du dv of the "
-                      "knots as they are",
+                      "all; per du dv of the knots as they are",
               .range = at_least(0),
               .fallback = "as it was, at first 1",
               .uniform = true});
@@ -352,8 +350,7 @@ void describe(MaterialCommand& c, Fields& fields) {
               .uniform = true});
   fields.add("reset", c.reset,
              {.help = "first all of it is as of a new surface, everywhere: stretch, bend, mass, "
-                      "damping, the model and "
-                      "what strokes leave"});
+                      "damping, the model and what strokes leave"});
 }
 
 Expected<void> execute(const MaterialCommand& given, Act& act) {

@@ -192,8 +192,7 @@ void describe(NewCommand& c, Fields& fields) {
               .only = of_shape(with_form)});
   fields.add("size", c.size,
              {.help = "of a plane: width along x (u) and height along y (v); of a line along x; of "
-                      "a box along x, y, z; "
-                      "one number for all",
+                      "a box along x, y, z; one number for all",
               .unit = Unit::length,
               .range = above(0),
               .fallback = "`1`",
@@ -227,13 +226,11 @@ void describe(NewCommand& c, Fields& fields) {
               .only = of_shape(with_profile)});
   fields.add("degree", c.degree,
              {.help = "in u and v, of a volume also w; one number for all; only v for the surfaces "
-                      "cylinder and "
-                      "revolution; what is round has degree 2 around",
+                      "cylinder and revolution; what is round has degree 2 around",
               .uniform = true});
   fields.add("net", c.net,
              {.help = "control points in each direction, likewise; of the surface cylinder only in "
-                      "v, of the volume at "
-                      "least 3 in u and v",
+                      "v, of the volume at least 3 in u and v",
               .uniform = true});
   fields.add("knots_u", c.knots_u,
              {.help = "knot vector of u, which determines the net; not for round shapes",
@@ -245,12 +242,10 @@ void describe(NewCommand& c, Fields& fields) {
              {.help = "knot vector of w, of a volume", .fallback = "clamped, uniform on [0, 1]"});
   fields.add("points", c.points,
              {.help = "instead of a form: all control points `[x, y, z]`, point (i, j) at place i "
-                      "n + j of a net m × n, the "
-                      "last direction fastest"});
+                      "n + j of a net m × n, the last direction fastest"});
   fields.add("weights", c.weights,
              {.help = "of a plane or points: one > 0 for each control point, in the same order; of "
-                      "a revolution: one "
-                      "for each point of the profile",
+                      "a revolution: one for each point of the profile",
               .fallback = "none"});
   fields.add("position", c.position,
              {.help = "where the origin of the shape goes", .unit = Unit::length});

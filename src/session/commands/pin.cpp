@@ -15,9 +15,8 @@ void describe(PinCommand& c, Fields& fields) {
   fields.name("pin", "hold control points or a point, in addition to those held already");
   fields.add("control_points", c.control_points,
              {.help = "`[[i, j], …]`, i along u and j along v, from 0 (of a curve `[i]`, of a "
-                      "volume `[i, j, k]`); this "
-                      "or `at`. They are identified by number, "
-                      "so the net cannot be refined while they are pinned"});
+                      "volume `[i, j, k]`); this or `at`. They are identified by number, so the "
+                      "net cannot be refined while they are pinned"});
   fields.add("at", c.at,
              {.help = "`[s, t]`: a surface point; of a curve `[s]`, of a volume `[s, t, r]`",
               .unit = Unit::fraction,

@@ -15,9 +15,8 @@ namespace knead {
 std::span<const Choice> choices(RefinePermission) {
   static constexpr Choice list[] = {{"auto", RefinePermission::automatic,
                                      "from now on commands refine what they need (under a tool, at "
-                                     "seams, for `mirror`), up to 40000 control points "
-                                     "or "
-                                     "four times those in the file"},
+                                     "seams, for `mirror`), up to 40000 control points or four "
+                                     "times those in the file"},
                                     {"never", RefinePermission::never, "they say what is missing"},
                                     {"trims", RefinePermission::trims,
                                      "only between a tool and held edges of faces, and at seams "

@@ -16,8 +16,7 @@ void describe(SeamsCommand& c, Fields& fields) {
               .fallback = "1e-4 of the diagonal of the selected surfaces"});
   fields.add("smooth", c.seams.smooth,
              {.help = "seams that were smooth stay so even where the sides are in no fixed ratio, "
-                      "which leaves them less "
-                      "freedom"});
+                      "which leaves them less freedom"});
 }
 
 Expected<void> execute(const SeamsCommand& c, Act& act) {

@@ -48,8 +48,7 @@ void describe(StrokeCommand& c, Fields& fields) {
              {.help = "when what the tool does becomes the shape", .fallback = "`\"material\"`"});
   fields.add("open", c.open,
              {.help = "the tool stays down, and the next stroke of it goes on with this one; any "
-                      "other command lifts it "
-                      "first"});
+                      "other command lifts it first"});
   fields.add("relative", c.relative,
              {.help = "the path is measured from where the tool is, in fractions of the diagonal"});
   describe_allowance(c.allow, fields);

@@ -15,8 +15,7 @@ void describe(SymmetryCommand& c, Fields& fields) {
              {.help = "stays in the plane, the surface perpendicular to it; this or `mirror`"});
   fields.add("mirror", c.mirror,
              {.help = "the direction along which partners lie. An asymmetric net is refined where "
-                      "`refine` permits it; "
-                      "otherwise the error says which knots are missing",
+                      "`refine` permits it; otherwise the error says which knots are missing",
               .choices = surface_directions});
   fields.add("point", c.point,
              {.help = "`[x, y, z]` of the plane",

@@ -105,8 +105,7 @@ void describe(ToolCommand& c, Fields& fields) {
               .unit = Unit::length});
   fields.add("at", c.at,
              {.help = "`[s, t]`: the centre on the surface as it is now; or `\"middle\"`, the "
-                      "visible point farthest "
-                      "from all edges",
+                      "visible point farthest from all edges",
               .unit = Unit::fraction,
               .range = between(0, 1)});
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
