@@ -48,8 +48,8 @@ int highest_sum_of(std::span<const Spline<D>> patches) {
 /// where bend alone does, on all linear maps, which the factorisation then finds.
 bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held) {
   if (std::ranges::find(held, true) != held.end()) return true;
-  Eigen::Matrix3d forbidden =
-      Eigen::Matrix3d::Zero();  // directions in which it would violate a condition
+  // Directions in which it would violate a condition.
+  Eigen::Matrix3d forbidden = Eigen::Matrix3d::Zero();
   for (const LinearConstraint& c : space.constraints()) {
     double sum = 0;
     for (const auto& [unknown, coefficient] : c.terms) sum += coefficient;

@@ -156,8 +156,8 @@ struct Type {
                  int) = nullptr;  ///< of choices; default-constructs alternative k of variants
 
   std::size_t weight = 0;  ///< of lists: bytes that each element takes
-  std::size_t shared_by =
-      0;  ///< of lists whose copies share their elements: by so many, one beside the other
+  /// Of lists whose copies share their elements: by so many, one beside the other.
+  std::size_t shared_by = 0;
   /// Of lists whose copies share their elements: element k to be read, where `at` makes it this
   /// list's own.
   const void* (*look)(const void*, std::size_t) = nullptr;

@@ -119,8 +119,8 @@ struct FormPoint {
     if (k.value == 0 && at_rest > 0) return;  // no derivative
     const double slope = at_rest > 0 ? 1 - at_rest / curvature : 1;
     const double bent = at_rest > 0 ? at_rest / (2 * k.value * curvature) : 0;
-    Eigen::Matrix<double, 6, 3> gram =
-        Eigen::Matrix<double, 6, 3>::Zero();  // derivatives of s, t, r
+    // Derivatives of s, t, r.
+    Eigen::Matrix<double, 6, 3> gram = Eigen::Matrix<double, 6, 3>::Zero();
     gram.template block<3, 1>(0, 0) = 2 * a.col(0);
     gram.template block<3, 1>(0, 1) = a.col(1);
     gram.template block<3, 1>(3, 1) = a.col(0);

@@ -36,8 +36,8 @@ struct MovedTrim {
   double distance = 0;                  ///< max |S_after − S_before| along it, file units
   /// The largest angle between the normals, radians; 0 where only its place is held.
   double turn = 0;
-  Point place =
-      Point::Zero();  ///< of that distance on `before`; of the turn where only that is too large
+  /// Of that distance on `before`; of the turn where only that is too large.
+  Point place = Point::Zero();
 };
 
 /// The held edges that do not stay where they are when a surface changes from one shape to another:

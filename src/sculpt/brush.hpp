@@ -60,10 +60,10 @@ struct Brush {
   Point by = Point::Zero();  ///< grab: where the point goes, from where it is
   double angle = 0;          ///< twist, stamp: about the normal, counterclockwise, radians
   double factor = 1;         ///< scale: > 0
-  StampPattern pattern =
-      {};  ///< stamp: over the square about the place whose corners are on the radius
-  PressureUse pressure =
-      PressureUse::depth;  ///< what the pen's pressure scales at each place of a path
+  /// Stamp: over the square about the place whose corners are on the radius.
+  StampPattern pattern = {};
+  /// What the pen's pressure scales at each place of a path.
+  PressureUse pressure = PressureUse::depth;
 
   friend bool operator==(const Brush&, const Brush&) = default;
 };

@@ -188,8 +188,8 @@ TEST(Sculpt, TheReportSaysWhatTheFileShows) {
   EXPECT_EQ(report.at("residual"), last.at("residual"));
   EXPECT_EQ(report.at("largest_displacement"), last.at("largest_displacement"));
   EXPECT_EQ(report.at("energy_before"), 0) << "at rest there is no displacement";
-  const double energy =
-      last.at("energy");  // of the unrounded step; after it, that of the control points
+  // Of the unrounded step; after it, that of the control points.
+  const double energy = last.at("energy");
   EXPECT_NEAR(report.at("energy_after").get<double>(), energy, 1e-12 * energy);
   EXPECT_EQ(report.at("control_points_moved"),
             rows_that_differ(before.control_points(), after.control_points()));

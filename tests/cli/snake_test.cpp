@@ -109,8 +109,8 @@ TEST_F(SnakeCommand, ReadsANamedPipeOnce) {
   ASSERT_EQ(mkfifo(file("fifo").c_str(), 0600), 0);
   std::thread writer([this] { std::ofstream(file("fifo"), std::ios::binary) << disc(); });
   const Outcome out = knead({"snake", file("fifo"), "-o", file("contour.svg")});
-  const int reader =
-      open(file("fifo").c_str(), O_RDONLY | O_NONBLOCK);  // lets the writer go where nobody read
+  // Lets the writer go where nobody read.
+  const int reader = open(file("fifo").c_str(), O_RDONLY | O_NONBLOCK);
   writer.join();
   close(reader);
   EXPECT_EQ(out.code, 0) << out.err;

@@ -129,8 +129,8 @@ TEST(DescribedArchive, NestingIsThatOfTheDescription) {
 }
 
 TEST(DescribedArchive, MemoryIsLimited) {
-  std::string bytes =
-      "\x9a" + std::string("\0\x01\0\x01", 4) + std::string(1, '\0');  // 65536 empty records
+  // 65536 empty records.
+  std::string bytes = "\x9a" + std::string("\0\x01\0\x01", 4) + std::string(1, '\0');
   bytes += std::string(65536, '\xa0');
   std::vector<StepRecord> steps;
   EXPECT_TRUE(reads(bytes, steps, std::size_t{1} << 30U));

@@ -50,8 +50,8 @@ struct Model;
 /// One place where an assembly puts a part.
 struct PartPlace {
   std::string path;  ///< products from the model down: "engine/valve/spring"
-  Eigen::Affine3d to_model =
-      Eigen::Affine3d::Identity();  ///< from the part's coordinates to the model's, units too
+  /// From the part's coordinates to the model's, units too.
+  Eigen::Affine3d to_model = Eigen::Affine3d::Identity();
 };
 
 /// Geometry with coordinates of its own: what one product's representations hold.

@@ -106,8 +106,8 @@ struct Record {
 };
 
 struct Face : Record {
-  Index support =
-      none;  ///< the surface on which it lies; none: it has only the geometry of its loops
+  /// The surface on which it lies; none: it has only the geometry of its loops.
+  Index support = none;
   bool same_sense = true;
   bool turned = false;  ///< inside out: a solid uses its shell turned, as round a hollow
   std::vector<Bound> bounds = {};

@@ -154,9 +154,9 @@ struct ActiveStep {
   double stretch = 0, bend = 0;
   double kinetic = 0;  ///< ½ Σ Vᵀ M V
   double contact = 0;  ///< Ψ, the potential of tools, friction and limit
-  double residual =
-      0;  ///< imbalance of forces at the free unknowns, relative to the forces of tools, loads,
-          ///< free part and held part of the net acting there: 0 in equilibrium
+  /// Imbalance of forces at the free unknowns, relative to the forces of tools, loads, free part
+  /// and held part of the net acting there: 0 in equilibrium.
+  double residual = 0;
   double gap = 0;  ///< deepest penetration of a collision tool, in its sizes: soft ones at Gauss
                    ///< points, rigid ones anywhere
   std::string gap_tool;   ///< its name

@@ -95,8 +95,8 @@ struct ImagePotentialSettings {
   double flow = 0;
   double flow_smoothness = 0.2;  ///< its μ
   int flow_iterations = 200;
-  double region =
-      0;  ///< weight of the region term: grey values inside and outside like their means
+  /// Weight of the region term: grey values inside and outside like their means.
+  double region = 0;
   /// Divides the region term by (μ_in − μ_out)² and limits it to ±1: the same force for what is
   /// pale and what is bright.
   bool relative_region = false;

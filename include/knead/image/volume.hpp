@@ -20,8 +20,8 @@ namespace knead {
 /// k).
 struct VolumeFrame {
   Point origin = Point::Zero();
-  Eigen::Matrix3d directions =
-      Eigen::Matrix3d::Identity();  ///< columns: the steps from a voxel to the next
+  /// Columns: the steps from a voxel to the next.
+  Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
 
   /// Lengths of the steps.
   [[nodiscard]] Eigen::Vector3d spacing() const { return directions.colwise().norm(); }

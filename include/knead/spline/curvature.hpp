@@ -64,8 +64,8 @@ struct SurfaceCurvature {
 /// How a curve bends at a point.
 struct CurveCurvature {
   Point tangent = Point::Zero();  ///< C' / |C'|
-  Point normal =
-      Point::Zero();  ///< towards the centre of curvature, unit; zero where the curve is straight
+  /// Towards the centre of curvature, unit; zero where the curve is straight.
+  Point normal = Point::Zero();
   double curvature = 0;  ///< κ = |C' × C''| / |C'|³ >= 0, 1/length
 };
 

@@ -12,8 +12,8 @@ struct Piece : brep::BoundaryPiece {
   std::vector<double> corners = {};  ///< where it may turn, from 0 to 1
   /// The entity is this curve, not one in parameters or one that is not known.
   bool in_space = true;
-  Eigen::Affine3d move =
-      Eigen::Affine3d::Identity();  ///< from the entity's own coordinates to the model's
+  /// From the entity's own coordinates to the model's.
+  Eigen::Affine3d move = Eigen::Affine3d::Identity();
 };
 
 /// Reads curves; of composite curves (102) each of their parts.

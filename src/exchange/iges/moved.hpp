@@ -14,8 +14,8 @@ namespace knead::iges {
 struct CurveReplacement {
   int number = 0;  ///< directory number
   Curve curve;     ///< in the coordinates of the model
-  Eigen::Affine3d move =
-      Eigen::Affine3d::Identity();  ///< from the entity's own coordinates to the model's
+  /// From the entity's own coordinates to the model's.
+  Eigen::Affine3d move = Eigen::Affine3d::Identity();
 };
 
 /// Other coordinates for entries of vertex lists (502).

@@ -117,8 +117,8 @@ Expected<std::string> save_gltf(std::span<const NamedMesh> all, const SaveOption
     if (mesh.triangles.empty()) continue;  // accessors must not be empty
     if (auto fits = fits_single_precision(mesh, "glTF"); !fits)
       return std::unexpected(fits.error());
-    Points unit =
-        mesh.normals;  // glTF requires unit vectors even at points of no triangle, as beside a pole
+    // The format requires unit vectors even at points of no triangle, as beside a pole.
+    Points unit = mesh.normals;
     for (Eigen::Index k = 0; k < unit.rows(); ++k) {
       if (unit.row(k).isZero(0)) unit.row(k) << 0, 0, 1;
     }

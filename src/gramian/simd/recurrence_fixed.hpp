@@ -140,8 +140,8 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
       put(at(1), s, Sweep::template difference<s, P>(t1) * factor.g11);
       put(at(2), s, Sweep::template difference<s, P>(q));
       if constexpr (s == 0) {
-        Lanes edge =
-            splat(0);  // (z_i − z_{i+1}) / 2: where a function jumps, half the jump of its square
+        // (z_i − z_{i+1}) / 2: where a function jumps, half the jump of its square.
+        Lanes edge = splat(0);
         if constexpr (Split) {
           edge =
               0.5 * (where_positive(splat(1), x[P] - x[0]) - where_positive(splat(1), x[K] - x[1]));

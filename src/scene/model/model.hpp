@@ -106,8 +106,8 @@ struct SceneModelOf {
   ActiveSpline<D> model;
   std::vector<SeamReport> seams;   ///< of surfaces; patches are indices into `input.shapes`
   std::vector<std::string> notes;  ///< lines that may bend, etc.
-  Points varying_load =
-      {};  ///< forces of the load's samples and formulas on the control points; empty: none
+  /// Forces of the load's samples and formulas on the control points; empty: none.
+  Points varying_load = {};
 };
 using SceneModel = SceneModelOf<2>;
 

@@ -135,8 +135,8 @@ void describe(ToolCommand& c, Fields& fields) {
 Expected<void> execute(const ToolCommand& c, Act& act) {
   if (auto some = some_selected(act); !some) return some;
   const bool on_surface = c.at || c.middle.value_or(false);
-  const bool own_place =
-      c.shape == "surface" && !c.position && !on_surface;  // a surface stays in place
+  // A surface stays in place.
+  const bool own_place = c.shape == "surface" && !c.position && !on_surface;
   if (!own_place && c.position.has_value() == on_surface) {
     return input_error(
         on_surface ? "both position and at are given" : "neither position nor at is given",
