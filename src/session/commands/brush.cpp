@@ -294,8 +294,8 @@ void describe(BrushCommand& c, Fields& fields) {
                       "its axis, as wide as the `core`",
               .choices = shape_choices()});
   fields.add("steady", c.steady,
-             {.help = "the brush is drawn along the path by a rope of so many radii, which takes "
-                      "out what trembles",
+             {.help = "the brush is pulled along the path by a rope of this many radii, which "
+                      "smooths out a trembling hand",
               .range = at_least(0)});
   fields.add("mirror", c.mirror,
              {.help = "`[[x, y, z], [nx, ny, nz]]`: point and normal of a plane in which the "

@@ -47,8 +47,8 @@ void describe(StrokeCommand& c, Fields& fields) {
   fields.add("plastic", c.plastic,
              {.help = "when what the tool does becomes the shape", .fallback = "`\"material\"`"});
   fields.add("open", c.open,
-             {.help = "the tool stays down, and the next stroke of it goes on with this one; any "
-                      "other command lifts it first"});
+             {.help = "the tool stays down, and the next stroke of this tool continues this one; "
+                      "any other command lifts the tool first"});
   fields.add("relative", c.relative,
              {.help = "the path is measured from where the tool is, in fractions of the diagonal"});
   describe_allowance(c.allow, fields);
