@@ -62,6 +62,7 @@ struct ShapeOf {
 
 /// What surfaces alone have.
 struct SurfaceOwn {
+  bool locked = false;  ///< it is not selected, so that nothing moves it
   bool smooth_knot_lines = true, smooth_poles = true;
   PlasticPolicy plastic = {};
   /// Of each control point the share by which strokes and brushes move it less, 0 to 1; what has 1

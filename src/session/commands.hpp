@@ -20,6 +20,7 @@
 #include "commands/lattice.hpp"
 #include "commands/limit.hpp"
 #include "commands/load.hpp"
+#include "commands/lock.hpp"
 #include "commands/mask.hpp"
 #include "commands/material.hpp"
 #include "commands/measure.hpp"
@@ -51,11 +52,11 @@ namespace knead {
 /// All commands, in the order of the help. Lengths are in file units unless a command says
 /// `relative`; (s, t) are fractions 0 to 1 of the parameter domain.
 using CommandVariant = std::variant<
-    NewCommand, SelectCommand, ConvertCommand, MaterialCommand, RestCommand, ScalingCommand,
-    HoldCommand, PinCommand, EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand,
-    SmoothCommand, SeamsCommand, ReleaseCommand, ToolCommand, EditToolCommand, RemoveCommand,
-    MoveCommand, TurnCommand, ScaleCommand, ForceCommand, LoadCommand, LimitCommand, EvolveCommand,
-    StepCommand, StrokeCommand, BrushCommand, MaskCommand, DragCommand, RelaxCommand,
+    NewCommand, SelectCommand, LockCommand, ConvertCommand, MaterialCommand, RestCommand,
+    ScalingCommand, HoldCommand, PinCommand, EdgeCommand, FreezeCommand, KeepCommand,
+    SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand, ToolCommand, EditToolCommand,
+    RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand, LoadCommand, LimitCommand,
+    EvolveCommand, StepCommand, StrokeCommand, BrushCommand, MaskCommand, DragCommand, RelaxCommand,
     LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand, RefineCommand, ElevateCommand,
     CoarsenCommand, MeasureCommand, ModesCommand, BucklingCommand, UndoCommand, RedoCommand>;
 

@@ -45,8 +45,8 @@ static void describe(PlasticPolicy& p, Fields& fields) {
 }
 
 static void describe_own(SurfaceOwn& s, Fields& fields) {
-  fields.add_all("smooth_knot_lines", s.smooth_knot_lines, "smooth_poles", s.smooth_poles,
-                 "plastic", s.plastic, "mask", s.mask);
+  fields.add_all("locked", s.locked, "smooth_knot_lines", s.smooth_knot_lines, "smooth_poles",
+                 s.smooth_poles, "plastic", s.plastic, "mask", s.mask);
 }
 
 template <int D>

@@ -93,6 +93,12 @@ std::vector<Fix> fixes_of_selection(ErrorCode code, const DiagnosticValues& v) {
       return {{FixCode::select, {selected(surface)}}};
     case ErrorCode::not_a_spline:
       return {{FixCode::convert, {converted({surface})}}};
+    case ErrorCode::surface_locked: {
+      LockCommand unlock;
+      unlock.surfaces = {surface};
+      unlock.locked = false;
+      return {{FixCode::unlock, {make_command(unlock)}}};
+    }
     default:
       return fixes_at_edges(code, v);
   }

@@ -31,7 +31,7 @@ struct SurfaceInfo {
   LengthUnit lengths = LengthUnit::radii;
   RestMode rest = RestMode::shape;
   int faces = 0, hold = 0, pins = 0;
-  bool bare = false, masked = false;
+  bool locked = false, bare = false, masked = false;
   std::vector<std::array<int, 2>> pinned;
   std::vector<CommandVariant> constraints;
   int moved = 0;
@@ -63,6 +63,7 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("lengths", s.lengths, {.help = "what `yield` and `locality` count"});
   fields.add("rest", s.rest);
   fields.add("faces", s.faces, {.help = "of the file that lie on it"});
+  fields.add("locked", s.locked, {.help = "whether it can be selected only when it is unlocked"});
   fields.add(
       "bare", s.bare,
       {.help =
@@ -234,6 +235,7 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
     info.faces = in_file != nullptr ? in_file->faces : 0;
   }
   const auto& opened = session.document().surfaces();
+  info.locked = s.locked;
   info.bare =
       info.faces == 0 && std::ranges::find(opened, s.id, &DocumentSurface::id) != opened.end();
   info.hold = s.hold_rows;

@@ -94,6 +94,8 @@ INSTANTIATE_TEST_SUITE_P(
                  R"({"do":"hold"})", R"({"do":"rest","mode":"none"})"},
                 R"({"do":"step"})"},
         Refused{ErrorCode::no_body, {}, R"({"do":"select","body":"#9"})"},
+        Refused{
+            ErrorCode::surface_locked, {R"({"do":"lock"})"}, R"({"do":"select","surface":"#1"})"},
         Refused{ErrorCode::several_selected,
                 {new_sheet, R"({"do":"select","surfaces":["#1","#2"]})"},
                 lifted_point}),

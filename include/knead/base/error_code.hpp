@@ -55,6 +55,7 @@ enum class ErrorCode : unsigned short {
   none_selected,      ///< of the surfaces; the first is: surface
   several_selected,   ///< where one is meant: surface
   not_a_spline,       ///< but a surface that can be converted: surface, form
+  surface_locked,     ///< and so not to be selected: surface
 
   seam_creased,     ///< note: first, second, angle, x, y, z, reason
   surface_loose,    ///< note: nothing holds what is pressed: surfaces

@@ -43,6 +43,7 @@ enum class FixCode {
   let_part,
   convert_and_follow,
   select_and_follow,
+  unlock,
   select,
   convert,
   end_limit,

@@ -113,7 +113,7 @@ Expected<void> ModelFacets::refresh(const Scene& scene, bool opened,
       if (const auto found = around->shown.find(s.id); found != around->shown.end())
         shown = found->second;
     }
-    const std::size_t part = around ? around->tree_of(s.id) : 0;
+    const std::size_t part = around ? around->part_of(s.id) : 0;
     if (parts_[k].of == drawn && parts_[k].part == part &&
         parts_[k].shown.visible == shown.visible && parts_[k].shown.sense == shown.sense &&
         diagonal == diagonal_) {
@@ -141,7 +141,7 @@ Expected<void> ModelFacets::refresh(const Scene& scene, bool opened,
 void ModelFacets::see(const Surroundings* around) {
   std::map<std::size_t, Triangles> by_part;
   if (around != nullptr) {
-    for (const FaceMesh& face : around->faces) by_part[around->tree_of(face.id)].add(face);
+    for (const FaceMesh& face : around->faces) by_part[around->part_of(face.id)].add(face);
   }
   others_.clear();
   for (auto& [part, found] : by_part) {

@@ -13,12 +13,13 @@ namespace knead {
 namespace {
 
 /// The indices, followed by those of all surfaces that seams connect with them, except surfaces
-/// without area (collapsed caps), which have a note. Errors (input): one of the given surfaces has
-/// no area.
+/// without area (collapsed caps) and locked ones, which have a note. Errors (input): one of the
+/// given surfaces has no area.
 Expected<std::vector<int>> connected(std::vector<int> chosen, SessionState& state) {
   const auto collapsed = [&](int k) {
     return !normalised_scaling<2>(*state.surfaces[static_cast<std::size_t>(k)].reference);
   };
+  const auto locked = [&](int k) { return state.surfaces[static_cast<std::size_t>(k)].locked; };
   const auto id = [&](int k) { return state.surfaces[static_cast<std::size_t>(k)].id; };
   for (int k : chosen) {
     if (collapsed(k))
@@ -38,11 +39,13 @@ Expected<std::vector<int>> connected(std::vector<int> chosen, SessionState& stat
                                                     : -1;
       if (other < 0 || std::ranges::find(chosen, other) != chosen.end()) continue;
       if (std::ranges::find(left_out, other) != left_out.end()) continue;
-      (collapsed(other) ? left_out : chosen).push_back(other);
+      (locked(other) || collapsed(other) ? left_out : chosen).push_back(other);
     }
   }
-  for (int k : left_out)
-    state.notes.push_back(id(k) + " is connected but left out: it has no area");
+  for (int k : left_out) {
+    state.notes.push_back(id(k) + " is connected but left out: it " +
+                          (locked(k) ? "is locked" : "has no area"));
+  }
   return chosen;
 }
 
@@ -109,6 +112,12 @@ Expected<void> execute(const SelectCommand& c, Act& act) {
       if (&id - ids.data() >= (c.surface ? 1 : 0) && index.error().where == "surface")
         index.error().where = "surfaces";
       return std::unexpected(index.error());
+    }
+    if (act.state.surfaces[static_cast<std::size_t>(*index)].locked) {
+      return input_error(
+          id + " is locked", c.surface && *c.surface == id ? "surface" : "surfaces",
+          fmt::format(R"(unlock it first: {{"do":"lock","surfaces":["{}"],"locked":false}})", id),
+          {ErrorCode::surface_locked, {{"surface", id}}});
     }
     if (std::ranges::find(chosen, *index) == chosen.end()) chosen.push_back(*index);
   }

@@ -79,6 +79,7 @@ const words: Partial<Record<Code, Words>> = {
   none_selected: () => ({ text: 'No surface is selected.', remedy: 'Click the one that is meant.' }),
   several_selected: () => ({ remedy: 'Select only the one that is meant.' }),
   not_a_spline: () => ({ remedy: convert }),
+  surface_locked: ({ surface }) => ({ text: `${surface} is locked.`, remedy: 'Unlock it.' }),
 };
 
 /** What is not listed has no button: a click selects, and a panel converts. */
@@ -86,7 +87,7 @@ const labels: Partial<Record<Fix['code'], string>> = {
   hold_edges: 'Hold the edges', hold_rows: 'Hold the outer rows', hold_nothing: 'Hold nothing', release_all: 'Release all',
   release_pins: 'Free the pins', thaw: 'Thaw all', refine: 'Refine', permit_refining: 'Refine where needed', let_follow: 'Let the edge follow',
   let_go: 'Let the edge go', let_open: 'Let it open', let_part: 'Let them part', convert_and_follow: 'Convert and follow', select_and_follow: 'Select both and follow',
-  end_limit: 'End the limit', normalise: 'Use the usual scaling', keep_smooth: 'Keep it smooth',
+  end_limit: 'End the limit', unlock: 'Unlock it', normalise: 'Use the usual scaling', keep_smooth: 'Keep it smooth',
 };
 
 /** New surfaces become clay, as those do that are clicked. */
