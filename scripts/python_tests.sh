@@ -16,5 +16,5 @@ python_tests() (  # python_tests [FILES]: all, or those of these names
   cp -r examples/python "$fresh/examples-python"
   export KNEAD_PROGRAM=$PWD/build/release/knead KNEAD_CLI_TEST=$PWD/build/release/tests/cli/cli_test KNEAD_WEB=$PWD/web
   cd "$fresh/tests"
-  "$fresh/venv/bin/python" run.py "${stage_counts:-/dev/null}" "${stage_failed:-/dev/null}" "$@"
+  "$fresh/venv/bin/python" -X faulthandler run.py "${stage_counts:-/dev/null}" "${stage_failed:-/dev/null}" "$@"
 )

@@ -17,7 +17,7 @@ stage() {
   local name=$1 needs=$2 repeat=$3 start=$SECONDS status=0 passed=- failed=- skipped=- took
   shift 3
   local log=$stages_logs/${name//[^A-Za-z0-9]/-}.log
-  export stage_counts=$log.counts stage_failed=$log.failed
+  export stage_counts=$PWD/$log.counts stage_failed=$PWD/$log.failed  # commands may go elsewhere
   rm -f "$stage_counts" "$stage_failed"
   stages_number=$((stages_number + 1))
   if [ -n "$needs" ] && [ "${stages_outcome[$needs]:-}" != passed ]; then
@@ -52,7 +52,11 @@ stage() {
   stages_failed=true
   stages_show "$log"
   stages_repeat+="$name ($log):"$'\n'
-  if [ -s "$stage_failed" ]; then stages_repeat+=$(sed 's/^/  /' "$stage_failed")$'\n'; else stages_repeat+="  $repeat"$'\n'; fi
+  if [ -s "$stage_failed" ]; then
+    stages_repeat+=$(sed 's/^/  /' "$stage_failed")$'\n'
+  else  # nothing tells what failed: how it ended
+    stages_repeat+="  $repeat"$'\n'$(stages_show "$log" | tail -n 12)$'\n'
+  fi
 }
 
 # What of a log tells why its stage failed: all but what passed, at most 200 lines of it.
