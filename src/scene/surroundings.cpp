@@ -2,8 +2,8 @@
 
 #include "brep/trim_loops.hpp"
 #include "display.hpp"
-#include "knead/brep/assembly.hpp"
 #include "knead/brep/face_conversion.hpp"
+#include "knead/brep/model.hpp"
 
 namespace knead {
 

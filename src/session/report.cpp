@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "described_state.hpp"
-#include "knead/brep/assembly.hpp"
+#include "knead/brep/model.hpp"
 #include "scene/followed.hpp"
 #include "scene/parted_edges.hpp"
 #include "scene/shell_fields.hpp"

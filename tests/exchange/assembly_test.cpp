@@ -1,4 +1,4 @@
-#include "knead/brep/assembly.hpp"
+#include "knead/brep/model.hpp"
 
 #include <fmt/format.h>
 

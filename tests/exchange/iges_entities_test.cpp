@@ -8,7 +8,7 @@
 
 #include "exchange/iges_builder.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/assembly.hpp"
+#include "knead/brep/model.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "exchange/face_builder.hpp"
 #include "exchange/mesh_measures.hpp"
-#include "knead/brep/assembly.hpp"
+#include "knead/brep/model.hpp"
 #include "knead/spline/closest_point.hpp"
 #include "support/long_run.hpp"
 #include "support/own_files.hpp"

@@ -18,7 +18,7 @@
 #include "exchange/length_units.hpp"
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
-#include "knead/brep/assembly.hpp"
+#include "knead/brep/model.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "oracle/body_files.hpp"
 #include "oracle/occt_bodies.hpp"

@@ -5,7 +5,7 @@
 
 #include "brep/tessellation/model_mesh.hpp"
 #include "exchange/mesh_measures.hpp"
-#include "knead/brep/assembly.hpp"
+#include "knead/brep/model.hpp"
 #include "oracle/occt_shapes.hpp"
 #include "oracle/step_oracle.hpp"
 #include "support/long_run.hpp"

@@ -2,8 +2,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "knead/brep/assembly.hpp"
 #include "knead/brep/face_conversion.hpp"
+#include "knead/brep/model.hpp"
 #include "query.hpp"
 
 namespace knead::studio {

@@ -12,7 +12,7 @@
 #include "brep/boundary_curve.hpp"
 #include "face_tessellator.hpp"
 #include "grid_mesh.hpp"
-#include "knead/brep/assembly.hpp"
+#include "knead/brep/model.hpp"
 #include "spline/grid_lines.hpp"
 
 namespace knead {

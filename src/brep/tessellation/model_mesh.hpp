@@ -15,7 +15,7 @@ namespace knead {
 /// of `tolerance`, at most six times: what lies between was within `tolerance` in every measured
 /// file. Chords turn by no more than 0.5 radians. A B-spline surface without faces is taken whole,
 /// and a tessellated item (tessellated.hpp) as it is. Every part stands where the assembly puts it
-/// (assembly.hpp), as often as it is used; coordinates are the model's.
+/// (model.hpp), as often as it is used; coordinates are the model's.
 ///
 /// \param tolerance a length in the model's unit; 0: a two-thousandth of the diagonal of the
 /// model's box Errors (usage): a tolerance below 0, or below 1e-7 of the diagonal, or not finite;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "instances.hpp"
-#include "knead/brep/assembly.hpp"
+#include "knead/brep/model.hpp"
 #include "model.hpp"
 
 namespace knead::step {

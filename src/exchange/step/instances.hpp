@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "entity.hpp"
-#include "knead/brep/assembly.hpp"
+#include "knead/brep/model.hpp"
 
 namespace knead::step {
 
