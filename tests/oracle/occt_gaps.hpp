@@ -27,6 +27,8 @@ struct OcctCrease {
   double angle = 0;
 };
 
+struct OcctMeeting;
+
 /// The faces of a file by the surfaces on which they lie, ready for measuring.
 class OcctFaces {
  public:
@@ -72,6 +74,9 @@ class OcctFaces {
     double distance = 0, turn = 0;
   };
   [[nodiscard]] Apart apart(const std::string& surface, const OcctFaces& after) const;
+
+  /// Of all edges with two faces (occt_meetings.hpp).
+  [[nodiscard]] std::vector<OcctMeeting> meetings() const;
 
   struct Data;
 

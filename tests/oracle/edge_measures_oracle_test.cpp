@@ -1,0 +1,81 @@
+// How faces meet at edges, beside what Open CASCADE's evaluation and feet say of the same edges.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "exchange/support.hpp"
+#include "knead/brep/edge_measures.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
+#include "oracle/occt_meetings.hpp"
+#include "support/own_files.hpp"
+
+namespace knead::oracle {
+namespace {
+
+constexpr double same_gap = 0.05, negligible_gap = 1e-7, same_angle = 0.01;
+constexpr double same_place = 1e-5;  // of the size
+
+Point point_of(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
+
+double apart(const brep::EdgeMeasures& edge, const OcctMeeting& other, double unit) {
+  const Point start = unit * point_of(edge.start), end = unit * point_of(edge.end);
+  const double ends = std::min(std::max((start - other.start).norm(), (end - other.end).norm()),
+                               std::max((start - other.end).norm(), (end - other.start).norm()));
+  return std::max(ends, (unit * point_of(edge.middle) - other.middle).norm());
+}
+
+class EdgesBeside : public testing::FileTest {};
+
+TEST_P(EdgesBeside, OpenCascadeHaveTheSameGapsAndAngles) {
+  const auto bytes = *read_file(path_);
+  if (bytes.find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE may abort on it";
+  const auto source = testing::open_or_die(bytes, path_.string());
+  const auto model = source->model();
+  const auto occt = OcctFaces::read(path_);
+  if (!model || !occt) GTEST_SKIP() << "one of both reads no faces of it";
+  const auto measured = brep::measure_edges(*model);
+  ASSERT_TRUE(measured) << measured.error().message();
+  const auto others = occt->meetings();
+  const double unit = millimetres_of(model->length_unit()).value_or(1);
+  const double size = unit * measured->size;
+  int compared = 0, two = 0;
+  double gaps = 0, angles = 0;
+  for (const brep::EdgeMeasures& edge : measured->edges) {
+    if (edge.faces.size() != 2 || !edge.angle || others.empty()) continue;
+    ++two;
+    const auto same = std::ranges::min_element(
+        others, {}, [&](const OcctMeeting& o) { return apart(edge, o, unit); });
+    // Where it makes other edges of these, as when it splits them, there is nothing to compare.
+    if (apart(edge, *same, unit) > same_place * size) continue;
+    ++compared;
+    // A largest value may be between its 201 points: there it must be the same.
+    const auto compare = [&](const std::optional<brep::EdgeFigure>& figure, double in,
+                             double OcctFigures::*which, double share, double floor) {
+      const double there = same->at(unit * point_of(figure->at.point)).*which;
+      const double other = std::max(same->largest.*which, there), value = in * figure->value;
+      EXPECT_NEAR(value, other, std::max(share * other, floor)) << edge.id;
+      return std::abs(value - other);
+    };
+    const double floor = negligible_gap * size;
+    gaps = std::max({gaps, compare(edge.gap, unit, &OcctFigures::gap, same_gap, floor),
+                     compare(edge.off_curve, unit, &OcctFigures::off_curve, same_gap, floor)});
+    if (same->at(unit * point_of(edge.angle->at.point)).angle < 0) continue;  // beside a pole
+    angles = std::max(angles, compare(edge.angle, 1, &OcctFigures::angle, 0, same_angle));
+  }
+  fmt::print(
+      "{}: {} of {} edges of two faces compared; gaps within {:.2g} mm, angles within "
+      "{:.2g} degrees\n",
+      GetParam(), compared, two, gaps, angles);
+  EXPECT_GE(2 * compared, others.empty() ? 0 : two) << "of the edges of two faces";
+}
+
+INSTANTIATE_TEST_SUITE_P(Step, EdgesBeside, ::testing::ValuesIn(testing::step_files()),
+                         testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Iges, EdgesBeside, ::testing::ValuesIn(testing::iges_files()),
+                         testing::file_test_name);
+
+}  // namespace
+}  // namespace knead::oracle
