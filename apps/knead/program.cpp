@@ -14,6 +14,7 @@
 
 #include "cli.hpp"
 #include "environment.hpp"
+#include "outcome.hpp"
 #include "outputs.hpp"
 #include "working.hpp"
 
@@ -104,11 +105,12 @@ int run(int argc, char** argv) {
   app.footer(std::string(knead::cli::exit_codes) +
              "\nErrors are one line on standard error: file, place, what is wrong; remedy."
              "\n`knead COMMAND --help` explains a command.");
-  const std::array<knead::cli::Action, 12> actions = {
+  const std::array<knead::cli::Action, 13> actions = {
       knead::cli::add_info(app),     knead::cli::add_sculpt(app),  knead::cli::add_analyse(app),
       knead::cli::add_commands(app), knead::cli::add_gramian(app), knead::cli::add_stiffness(app),
       knead::cli::add_matrices(app), knead::cli::add_basis(app),   knead::cli::add_mesh(app),
-      knead::cli::add_export(app),   knead::cli::add_schema(app),  knead::cli::add_snake(app)};
+      knead::cli::add_export(app),   knead::cli::add_schema(app),  knead::cli::add_snake(app),
+      knead::cli::add_check(app)};
   try {
     app.parse(joined_arguments(argc, argv));
   } catch (const CLI::Success& success) {
@@ -125,13 +127,14 @@ int run(int argc, char** argv) {
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
     return fail(lost_output({}));
   }
-  return EXIT_SUCCESS;
+  return knead::cli::negative_outcome() ? 1 : EXIT_SUCCESS;
 }
 
 }  // namespace
 
 int knead::cli::program(int argc, char** argv) {
   occupy_standard_streams();
+  set_negative_outcome(false);
   // The library's failures are values. What is left comes from the standard library: no memory, or
   // no place to print to.
   try {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli.hpp"
+#include "knead/brep/edge_measures.hpp"
 #include "knead/session/command_json.hpp"
 #include "say.hpp"
 
@@ -9,13 +10,17 @@ namespace knead::cli {
 Action add_schema(CLI::App& app) {
   auto form = std::make_shared<std::string>("script");
   CLI::App* command =
-      app.add_subcommand("schema", "print the JSON schema of scripts or of Knead documents");
-  command->add_option("FORM", *form, "script (default) or document")->type_name("");
+      app.add_subcommand("schema", "print the JSON schema of scripts, Knead documents or checks");
+  command->add_option("FORM", *form, "script (default), document or check")->type_name("");
   command->footer(std::string(exit_codes));
   return [form]() -> Expected<void> {
+    if (*form == "check") {
+      say("{}", brep::check_schema());
+      return {};
+    }
     if (*form != "script" && *form != "document") {
       return usage_error("there is no schema of \"" + *form + "\"", "FORM",
-                         "the forms are: script, document");
+                         "the forms are: script, document, check");
     }
     say("{}", *form == "script" ? script_schema() : document_schema());
     return {};

@@ -44,6 +44,11 @@ const KnownLengthUnit* length_unit_of(double millimetres) {
 
 bool is_length_unit(std::string_view name) { return length_unit_named(name) != nullptr; }
 
+std::optional<double> millimetres_of(std::string_view unit) {
+  const auto* const known = length_unit_named(unit);
+  return known == nullptr ? std::nullopt : std::optional(known->millimetres);
+}
+
 std::string list_of_length_units() {
   return list_of_units([](const KnownLengthUnit&) { return true; });
 }

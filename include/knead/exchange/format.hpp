@@ -92,6 +92,9 @@ struct Format {
 /// Whether new files can have this length unit, "mm", "inch", ….
 [[nodiscard]] bool is_length_unit(std::string_view name);
 
+/// The length of this unit in mm; none: it is not one of these.
+[[nodiscard]] std::optional<double> millimetres_of(std::string_view unit);
+
 /// All of these, in words.
 [[nodiscard]] std::string list_of_length_units();
 
