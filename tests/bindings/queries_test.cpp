@@ -243,9 +243,9 @@ TEST_F(QueriesOfThePage, ThatAreWrongAreErrorsThatNameTheField) {
   EXPECT_EQ(ask("state")["error"]["what"], "nothing is open");
   EXPECT_EQ(ask("beauty")["error"]["what"], "the engine answers no query \"beauty\"");
   sheet();
-  EXPECT_EQ(ask("room")["error"]["where"], "surface");
-  EXPECT_EQ(ask("room", {{"surface", "x"}})["error"]["where"], "surface");
-  EXPECT_EQ(ask("room", {{"surface", 0}, {"colour", 1}})["error"]["where"], "colour");
+  EXPECT_EQ(ask("edge_distance")["error"]["where"], "surface");
+  EXPECT_EQ(ask("edge_distance", {{"surface", "x"}})["error"]["where"], "surface");
+  EXPECT_EQ(ask("edge_distance", {{"surface", 0}, {"colour", 1}})["error"]["where"], "colour");
   EXPECT_EQ(ask("act")["error"]["where"], "commands");
   EXPECT_EQ(ask("act", {{"commands", "undo"}})["error"]["where"], "commands");
   EXPECT_EQ(ask("picture", {{"surface", 0},

@@ -86,6 +86,7 @@ const std::vector<std::string> all_commands = {
     R"("weights":[],"position":[0,0,0]})",
     R"({"do":"convert","surface":"#1","surfaces":["#2","#3"],"neighbours":true})",
     R"({"do":"select","surface":"#1","surfaces":["#2","#3"],"connected":true})",
+    R"({"do":"lock","surfaces":["#2"],"locked":false})",
     R"({"do":"material","alpha":[0.10000000000000001,0.5,1],"beta":[1e-300,2,3],)"
     R"("mass":2,"damping":3,"region":[[0,0.5],[0.25,1]],"falloff":0.25,)"
     R"("coefficient":"beta22","counts":[2,2],"samples":[1,2,3,4],"reset":true})",
