@@ -142,5 +142,24 @@ TEST(EdgeFaults, AgainstAnEarlierVersionAreWhatIsWorse) {
   }
 }
 
+TEST(EdgeFaults, AnEdgeThatHasComeOpenIsOne) {
+  Pair pair;
+  const int flat = pair.flat();
+  const auto before = pair.measures(flat, pair.builder.plane({0, 0, 0}, {0, 0, 1}, {1, 0, 0}));
+  auto now = before;
+  for (auto& edge : now.edges) {
+    if (edge.id == pair.edge) {
+      edge.kind = brep::EdgeKind::open;
+      edge.faces.pop_back();
+    }
+  }
+  const auto faults = brep::faults_against(now, before, {.gap = 1});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].edge, pair.edge);
+  EXPECT_EQ(faults[0].measure, "faces");
+  EXPECT_EQ(faults[0].before, 2);
+  EXPECT_TRUE(brep::faults_against(before, now, {.gap = 1}).empty()) << "it was open before";
+}
+
 }  // namespace
 }  // namespace knead

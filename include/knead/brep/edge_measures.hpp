@@ -121,7 +121,7 @@ struct EdgeThresholds {
 
 /// What of an edge is above a threshold.
 struct EdgeFault {
-  std::string edge, measure;  ///< "gap", "angle", "curvature"
+  std::string edge, measure;  ///< "gap", "angle", "curvature"; "faces" of one that has come open
   double value = 0, limit = 0;
   std::optional<double> before = {};  ///< as it was in the model it is compared with
 };
@@ -134,7 +134,7 @@ struct EdgeFault {
 
 /// The measures of edges that exceed those of the same edge in `before` by more than the
 /// thresholds; the angle and curvature of edges that were meant to be smooth there. Edges that are
-/// not there are judged by themselves.
+/// not there are judged by themselves. An edge of one face that had more there has come open.
 ///
 /// An edge is the one with the same id, if most of the edges with common ids begin and end in the
 /// same places; else, and where the id is new, the one whose ends and middle are nearest, within

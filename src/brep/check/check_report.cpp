@@ -73,7 +73,8 @@ static void describe(EdgeFault& f, Fields& fields) {
   fields.name("edge fault", "A measure above its threshold.");
   fields.add("edge", f.edge, {.presence = Presence::required});
   fields.add("measure", f.measure,
-             {.help = "gap, angle or curvature", .presence = Presence::required});
+             {.help = "gap, angle, curvature, or faces of an edge that has come open",
+              .presence = Presence::required});
   fields.add("value", f.value, {.presence = Presence::required});
   fields.add("limit", f.limit, {.presence = Presence::required});
   fields.add("before", f.before, {.help = "in the file that it is compared with"});
@@ -151,6 +152,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string sentence(const EdgeFault& fault) {
+  if (fault.measure == "faces") return "it has come open";
   std::string text =
       fmt::format("{} {:.6g} is above {:.6g}", fault.measure, fault.value, fault.limit);
   if (fault.before)

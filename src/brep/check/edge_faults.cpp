@@ -27,6 +27,11 @@ bool is_meant_smooth(const EdgeMeasures& edge) {
 void judge(const EdgeMeasures& edge, const EdgeMeasures* before, const EdgeThresholds& thresholds,
            std::vector<EdgeFault>& faults) {
   if (edge.kind == EdgeKind::unknown) return;
+  const bool closed_before = before != nullptr && before->kind != EdgeKind::open;
+  if (closed_before && edge.kind == EdgeKind::open) {
+    const double were = std::max(2.0, static_cast<double>(before->faces.size()));
+    faults.push_back({edge.id, "faces", 1, were, were});
+  }
   const auto compare = [&](const char* measure, double value, std::optional<double> was,
                            const std::optional<double>& limit) {
     if (limit && value - was.value_or(0) > *limit)

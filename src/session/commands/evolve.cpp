@@ -33,10 +33,10 @@ std::span<const Choice> choices(Evolution) {
 }
 
 std::span<const Choice> choices(StepAccuracy) {
-  static constexpr Choice list[] = {
-      {"exact", StepAccuracy::exact, "to 1e-11 of the forces"},
-      {"interactive", StepAccuracy::interactive,
-       "to 1e-6 of each step's displacement, faster ([performance.md](performance.md))"}};
+  static constexpr Choice list[] = {{"exact", StepAccuracy::exact, "to 1e-11 of the forces"},
+                                    {"interactive", StepAccuracy::interactive,
+                                     "to 1e-6 of each step's displacement, faster "
+                                     "([kernels](design/kernels.md#interactive-accuracy))"}};
   return list;
 }
 
