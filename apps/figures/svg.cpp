@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "knead/base/printable.hpp"
+
 namespace knead::figures {
 namespace {
 
@@ -70,12 +72,6 @@ std::string text(double x, double y, const std::string& words, const char* ancho
                      anchor, extra, words);
 }
 
-std::string escaped(const std::string& words) {
-  std::string out;
-  for (const char c : words) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
-}
-
 /// The number of letters of UTF-8 text.
 double letters(const std::string& words) {
   return static_cast<double>(
@@ -118,7 +114,7 @@ std::string Chart::svg() const {
   };
 
   std::string out =
-      header(width, height) + text(left, 26, escaped(title_), "start", "font-size=\"15\"");
+      header(width, height) + text(left, 26, xml_text(title_), "start", "font-size=\"15\"");
   for (const double tick : x.minor_ticks()) {
     const double at = px((tick - x.lower) / (x.upper - x.lower));
     out += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"#f2f2f2\"/>\n", at, py(0),
@@ -144,8 +140,8 @@ std::string Chart::svg() const {
   }
   out += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\" fill=\"none\" stroke=\"#333\"/>\n",
                      px(0), py(1), py(0), px(1));
-  out += text(px(0.5), height - 16, escaped(x_label_), "middle");
-  out += text(0, 0, escaped(y_label_), "middle",
+  out += text(px(0.5), height - 16, xml_text(x_label_), "middle");
+  out += text(0, 0, xml_text(y_label_), "middle",
               fmt::format("transform=\"translate(20 {:.1f}) rotate(-90)\"", py(0.5)));
 
   int next_colour = 0, stroke = 0;
@@ -184,7 +180,7 @@ std::string Chart::svg() const {
         "<path d=\"M{:.1f} {:.1f}h26\" stroke=\"{}\" stroke-width=\"2.4\" "
         "stroke-dasharray=\"{}\"/>\n",
         px(1) + 14, row, colour, dashes);
-    out += text(px(1) + 46, row + 4, escaped(series.name), "start");
+    out += text(px(1) + 46, row + 4, xml_text(series.name), "start");
     row += 19;
   }
   return out + "</svg>\n";
@@ -210,7 +206,7 @@ std::string surface_svg(const std::string& title, const std::string& row_label,
     return floor_front + back_y * row - tall * height;
   };
   std::string out = header(floor_left + right + back_x + 190, 510) +
-                    text(24, 26, escaped(title), "start", "font-size=\"15\"");
+                    text(24, 26, xml_text(title), "start", "font-size=\"15\"");
   // The floor with its marks, and a post at the back left with heights.
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double r = along(i, rows.size());
@@ -224,8 +220,8 @@ std::string surface_svg(const std::string& title, const std::string& row_label,
                        y_of(0, 0), x_of(1, c), y_of(1, 0));
     out += text(x_of(0, c), y_of(0, 0) + 18, columns[j], "middle");
   }
-  out += text(x_of(0, 0.5), y_of(0, 0) + 42, escaped(column_label), "middle");
-  out += text(x_of(0.5, 1) + 44, y_of(0.5, 0) + 4, escaped(row_label), "start");
+  out += text(x_of(0, 0.5), y_of(0, 0) + 42, xml_text(column_label), "middle");
+  out += text(x_of(0.5, 1) + 44, y_of(0.5, 0) + 4, xml_text(row_label), "start");
   Axis z;
   z.include(0);
   z.include(largest);
@@ -255,7 +251,7 @@ std::string surface_svg(const std::string& title, const std::string& row_label,
     const double row = 60 + 19 * static_cast<double>(s);
     out += fmt::format("<path d=\"M{:.1f} {:.1f}h26\" stroke=\"{}\" stroke-width=\"2.4\"/>\n",
                        floor_left + 30, row, colours[s]);
-    out += text(floor_left + 64, row + 4, escaped(surfaces[s].name), "start");
+    out += text(floor_left + 64, row + 4, xml_text(surfaces[s].name), "start");
   }
   return out + "</svg>\n";
 }
@@ -271,7 +267,7 @@ std::string matrix_svg(const std::string& title, const std::vector<std::vector<d
   }
   std::string out = header(wide * static_cast<double>(columns) + margin + 12,
                            high * static_cast<double>(rows.size()) + above + 12) +
-                    text(12, 26, escaped(title), "start", "font-size=\"15\"");
+                    text(12, 26, xml_text(title), "start", "font-size=\"15\"");
   for (std::size_t j = 0; j < columns; ++j) {
     out += text(margin + wide * (static_cast<double>(j) + 0.5), above - 8, fmt::format("{}", j),
                 "middle", "fill=\"#555\" font-size=\"11\"");

@@ -8,9 +8,9 @@
 #include "check_text.hpp"
 #include "cli.hpp"
 #include "knead/brep/edge_measures.hpp"
+#include "knead/exchange/file_info.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/source.hpp"
-#include "outcome.hpp"
 #include "outputs.hpp"
 #include "say.hpp"
 
@@ -37,14 +37,6 @@ Expected<void> check_number(const std::optional<double>& value, const char* opti
   return usage_error(fmt::format("{} is no threshold", *value), option, remedy);
 }
 
-/// Of the file as a whole, as it names it; of several units all names.
-std::string unit_of_file(const Source& source) {
-  const auto model = source.model();
-  if (model && (source.format() == "STEP" || source.surfaces().empty()))
-    return model->length_unit();
-  return source.surfaces().empty() ? "unknown" : source.surfaces().front().unit;
-}
-
 /// mm in a unit of the file.
 Expected<double> millimetres_in(const std::string& unit, const CheckArguments& options) {
   const auto known = millimetres_of(unit);
@@ -68,7 +60,7 @@ Expected<brep::EdgeThresholds> thresholds_of(const Source& source, const CheckAr
   brep::EdgeThresholds thresholds{options.gap, options.angle, options.curvature};
   for (const Grade& grade : grades) {
     if (options.grade != grade.name) continue;
-    const auto unit = millimetres_in(unit_of_file(source), options);
+    const auto unit = millimetres_in(unit_of(source), options);
     if (!unit) return std::unexpected(unit.error());
     if (!thresholds.gap) thresholds.gap = grade.gap / *unit;
     if (!thresholds.angle) thresholds.angle = grade.angle;
@@ -125,8 +117,9 @@ Expected<void> check_options(const CheckArguments& options) {
                        {{"FILE", options.file}, {"--against", options.against}});
 }
 
-Expected<void> run(const CheckArguments& options) {
-  if (auto right = check_options(options); !right) return right;
+/// The exit code.
+Expected<int> run(const CheckArguments& options) {
+  if (auto right = check_options(options); !right) return std::unexpected(right.error());
   const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
   const auto thresholds = thresholds_of(**source, options);
@@ -138,7 +131,7 @@ Expected<void> run(const CheckArguments& options) {
   if (!measures) return std::unexpected(measures.error());
   brep::EdgeCheckReport report{.file = options.file,
                                .format = std::string((*source)->format()),
-                               .unit = options.unit.empty() ? unit_of_file(**source) : options.unit,
+                               .unit = options.unit.empty() ? unit_of(**source) : options.unit,
                                .against = options.against,
                                .thresholds = *thresholds,
                                .size = measures->size,
@@ -159,15 +152,14 @@ Expected<void> run(const CheckArguments& options) {
   report.passed = report.faults.empty();
   if (!options.junit.empty()) {
     if (auto written = write_output(options.junit, brep::check_junit(report)); !written)
-      return written;
+      return std::unexpected(written.error());
   }
   if (options.json) {
     say("{}\n", brep::check_json(report));
   } else {
     say("{}", check_text(report));
   }
-  set_negative_outcome(!report.passed);
-  return {};
+  return report.passed ? 0 : 1;
 }
 
 }  // namespace

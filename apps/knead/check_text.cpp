@@ -23,12 +23,6 @@ void append(std::string& text, fmt::format_string<T...> line, T&&... values) {
   fmt::format_to(std::back_inserter(text), line, std::forward<T>(values)...);
 }
 
-std::string joined_ids(const std::vector<std::string>& ids) {
-  std::string result;
-  for (const std::string& id : ids) result += (result.empty() ? "" : ", ") + id;
-  return result;
-}
-
 using Member = std::optional<EdgeFigure> EdgeMeasures::*;
 
 /// The largest of a measure above what rounding leaves.
@@ -46,7 +40,7 @@ void add_worst(std::string& text, const EdgeCheckReport& report, const char* tit
     const auto& [x, y, z] = figure.at.point;
     append(text, "    {:<8} {:<12.6g} {} at ({:.6g}, {:.6g}, {:.6g}), {}, {} {}\n", worst[k]->id,
            figure.value, unit, x, y, z, brep::name_of(worst[k]->kind),
-           worst[k]->faces.size() == 1 ? "face" : "faces", joined_ids(worst[k]->faces));
+           worst[k]->faces.size() == 1 ? "face" : "faces", fmt::join(worst[k]->faces, ", "));
   }
 }
 
@@ -78,7 +72,7 @@ std::string check_verdict(const EdgeCheckReport& report) {
   const std::size_t count = edges.size();
   if (count > most_worst) edges.resize(most_worst);
   return fmt::format("failed: {} {} {}{}: {}{}\n", counted(count, "edge", "edges"),
-                     count == 1 ? "exceeds" : "exceed", limits, beside, joined_ids(edges),
+                     count == 1 ? "exceeds" : "exceed", limits, beside, fmt::join(edges, ", "),
                      count > most_worst ? ", …" : "");
 }
 

@@ -4,14 +4,34 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "knead/base/error.hpp"
 
 namespace knead::cli {
 
-/// The action of a sub-command once its arguments are parsed.
-using Action = std::function<Expected<void>()>;
+/// The action of a sub-command once its arguments are parsed. It returns the exit code of what ran
+/// well, 0 where it returns nothing.
+class Action {
+ public:
+  template <class F>
+  Action(F action) {  // NOLINT: a function is an action
+    if constexpr (std::is_same_v<std::invoke_result_t<F&>, Expected<int>>) {
+      action_ = std::move(action);
+    } else {
+      action_ = [action = std::move(action)]() -> Expected<int> {
+        if (auto status = action(); !status) return std::unexpected(std::move(status.error()));
+        return 0;
+      };
+    }
+  }
+  Expected<int> operator()() const { return action_(); }
+
+ private:
+  std::function<Expected<int>()> action_;
+};
 
 // Each declares its sub-command on `app` and returns its action.
 Action add_info(CLI::App& app);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knead/base/printable.hpp"
 #include "knead/energy/domain_scaling.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
@@ -25,20 +26,6 @@ std::string colour(double t) {
         std::lround(stops[k][i] + (x - static_cast<double>(k)) * (stops[k + 1][i] - stops[k][i])));
   }
   return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
 }
 
 std::vector<double> cell_centres(const Interval& domain, int count) {
@@ -76,7 +63,7 @@ Expected<std::string> displacement_picture(const Surface& before, const Surface&
       "font-family=\"sans-serif\" "
       "font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
       "<text x=\"{}\" y=\"24\" font-size=\"14\">{}</text>\n<g shape-rendering=\"crispEdges\">\n",
-      std::max(left + width + legend, 360.0), top + height + 40, left, escaped(title));
+      std::max(left + width + legend, 360.0), top + height + 40, left, xml_text(title));
   const double w = width / columns, h = height / rows;
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns;) {
@@ -118,7 +105,7 @@ Expected<std::string> displacement_picture(const Surface& before, const Surface&
   svg += fmt::format(
       "<text x=\"{0:.2f}\" y=\"{1:.2f}\">{2:.4g} {3}</text>\n<text x=\"{0:.2f}\" "
       "y=\"{4:.2f}\">0</text>\n",
-      bar + 20, top + 10, largest, escaped(unit), top + height);
+      bar + 20, top + 10, largest, xml_text(unit), top + height);
   svg += fmt::format(
       "<text x=\"{:.2f}\" y=\"{:.2f}\">u \u2192</text>\n<text x=\"{:.2f}\" y=\"{:.2f}\" "
       "transform=\"rotate(-90 {:.2f} {:.2f})\">v \u2192</text>\n</svg>\n",

@@ -14,7 +14,6 @@
 
 #include "cli.hpp"
 #include "environment.hpp"
-#include "outcome.hpp"
 #include "outputs.hpp"
 #include "working.hpp"
 
@@ -120,21 +119,23 @@ int run(int argc, char** argv) {
   }
   if (auto known = knead::cli::check_environment(); !known) return fail(known.error());
   const auto subcommands = app.get_subcommands([](CLI::App*) { return true; });
+  int code = EXIT_SUCCESS;
   for (std::size_t k = 0; k < subcommands.size(); ++k) {
     if (!app.got_subcommand(subcommands[k])) continue;
-    if (auto status = actions[k](); !status) return fail(status.error());
+    const auto status = actions[k]();
+    if (!status) return fail(status.error());
+    code = *status;
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
     return fail(lost_output({}));
   }
-  return knead::cli::negative_outcome() ? 1 : EXIT_SUCCESS;
+  return code;
 }
 
 }  // namespace
 
 int knead::cli::program(int argc, char** argv) {
   occupy_standard_streams();
-  set_negative_outcome(false);
   // The library's failures are values. What is left comes from the standard library: no memory, or
   // no place to print to.
   try {

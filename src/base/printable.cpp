@@ -60,4 +60,27 @@ std::string printable(std::string_view text, std::size_t most) {
   return escaped(text.substr(0, first)) + std::string(dots) + escaped(text.substr(last));
 }
 
+std::string xml_text(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return result;
+}
+
 }  // namespace knead

@@ -69,14 +69,9 @@ class Follower {
       const Vector2d at = surface->foot(p).parameters;
       result.points.push_back(surface->at(at));
       result.normals.push_back((face.same_sense ? 1 : -1) * surface->normal(at));
-      result.bending.emplace_back(Eigen::Matrix3d::Zero());
-      const auto curvature = surface->curvature(at);
-      for (std::size_t k = 0; curvature && k < 2; ++k) {
-        // W = Σ κ_k e_k e_kᵀ over both principal directions, of the face's own orientation.
-        const Point& along = curvature->directions[k];
-        result.bending.back() +=
-            (face.same_sense ? 1 : -1) * curvature->principal[k] * along * along.transpose();
-      }
+      const auto bending = surface->shape_operator(at);
+      result.bending.emplace_back((face.same_sense ? 1 : -1) *
+                                  bending.value_or(Eigen::Matrix3d::Zero()));
     }
     return {};
   }

@@ -240,14 +240,14 @@ std::vector<FileVisible> visible_parts(const std::shared_ptr<const brep::Model>&
   return list;
 }
 
-/// Of the file as a whole; of other formats than STEP the geometry is read as STEP.
-std::string unit_of(const Source& source, const brep::Model* model) {
+}  // namespace
+
+std::string unit_of(const Source& source) {
+  const auto model = source.model();
   if (model != nullptr && (source.format() == "STEP" || source.surfaces().empty()))
     return model->length_unit();
   return source.surfaces().empty() ? "unknown" : source.surfaces().front().unit;
 }
-
-}  // namespace
 
 FileInfo file_info(const Source& source, const FileInfoOptions& options) {
   const auto model = source.model();
@@ -255,7 +255,7 @@ FileInfo file_info(const Source& source, const FileInfoOptions& options) {
   info.file = source.name();
   info.format = source.format();
   info.schema = source.schema();
-  info.units = unit_of(source, model.get());
+  info.units = unit_of(source);
   info.surfaces = surfaces_of(source, model.get(), options);
   for (const brep::UnreadableSurface& s : source.unreadable()) {
     info.unreadable_surfaces.push_back({s.id, s.reason.message()});

@@ -18,19 +18,6 @@ struct FaceSide {
   std::vector<Eigen::Matrix3d> bending;
 };
 
-/// J I⁻¹ II I⁻¹ Jᵀ
-/// The second fundamental form as a symmetric map of space that is zero along the normal: xᵀ W x is
-/// the normal curvature in a tangent direction x. In space, unlike in parameters, the maps of two
-/// surfaces can be subtracted; do Carmo, Differential Geometry of Curves and Surfaces, § 3-2.
-Eigen::Matrix3d shape_operator(const Point& u, const Point& v, const FundamentalForms& forms) {
-  Eigen::Matrix<double, 3, 2> dual;  // J I⁻¹: e^i with e^i · S_j = δ_ij
-  dual.col(0) = (forms.g * u - forms.f * v) / forms.squared_area();
-  dual.col(1) = (forms.e * v - forms.f * u) / forms.squared_area();
-  Eigen::Matrix2d second;
-  second << forms.l, forms.m, forms.m, forms.n;
-  return dual * second * dual.transpose();
-}
-
 Expected<FaceSide> side_of(const EdgeContactFace& face, const Surface& surface) {
   Parameters<2> places(static_cast<Eigen::Index>(face.feet.size()), 2);
   for (std::size_t k = 0; k < face.feet.size(); ++k) {

@@ -9,6 +9,14 @@ std::vector<int> Scene::selection() const {
   return result;
 }
 
+void Scene::select(const std::vector<int>& chosen) {
+  selected.reset();
+  together = chosen;
+  if (chosen.empty()) return;
+  selected = chosen.front();
+  together.erase(together.begin());
+}
+
 template <int D>
 std::vector<const SceneShape<D>*> selected_shapes(const Scene& scene) {
   std::vector<const SceneShape<D>*> shapes;

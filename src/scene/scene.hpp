@@ -183,6 +183,8 @@ struct Scene {
 
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;
+  /// Selects these surfaces in place of others; none: no surface.
+  void select(const std::vector<int>& chosen);
 };
 
 /// The surface of this id; null: there is none. \param likely an index at which it is looked for

@@ -7,6 +7,24 @@
 
 namespace knead {
 
+Eigen::Matrix3d shape_operator(const Point& u, const Point& v, const FundamentalForms& forms) {
+  Eigen::Matrix<double, 3, 2> dual;  // J I⁻¹: e^i with e^i · S_j = δ_ij
+  dual.col(0) = (forms.g * u - forms.f * v) / forms.squared_area();
+  dual.col(1) = (forms.e * v - forms.f * u) / forms.squared_area();
+  Eigen::Matrix2d second;
+  second << forms.l, forms.m, forms.m, forms.n;
+  return dual * second * dual.transpose();
+}
+
+Eigen::Matrix3d shape_operator(const SurfaceCurvature& curvature) {
+  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Point& along = curvature.directions[k];
+    result += curvature.principal[k] * along * along.transpose();
+  }
+  return result;
+}
+
 Expected<SurfaceCurvature> curvature(const Surface& surface, const std::array<double, 2>& at,
                                      Side side) {
   Parameters<2> parameters(1, 2);

@@ -17,6 +17,11 @@ TEST(Printable, TextIsUnchangedAndWhatControlsATerminalIsEscaped) {
   EXPECT_EQ(printable("\xC2\x9B"), "\\xC2\\x9B") << "C1: the one-byte form of ESC [";
 }
 
+TEST(Printable, OfXmlHasNoCharactersOfItsOwn) {
+  EXPECT_EQ(xml_text("Grüße, a < b & \"c\" > d"), "Grüße, a &lt; b &amp; &quot;c&quot; &gt; d");
+  EXPECT_EQ(xml_text(std::string("a\nb\0c\x1B", 6)), "a b c ");
+}
+
 TEST(Printable, BytesThatAreNotUtf8AreEscaped) {
   EXPECT_EQ(printable("Gr\xFC\xDF e"), "Gr\\xFC\\xDF e");
   EXPECT_EQ(printable("\xC0\xAF"), "\\xC0\\xAF") << "longer than needed";

@@ -17,4 +17,8 @@ namespace knead {
 /// Cost: O(most), after one look at the length.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t most = 200);
 
+/// Text as XML 1.0 may have it between tags and in attributes: "&", "<", ">" and quotation marks as
+/// entities, control characters (C0) as spaces.
+[[nodiscard]] std::string xml_text(std::string_view text);
+
 }  // namespace knead

@@ -127,6 +127,10 @@ struct FileInfo {
   std::vector<FileVisible> visible;  ///< of surfaces with edges of faces, if asked for
 };
 
+/// The length unit of a file as a whole, "mm" or another; of several in a STEP file all their
+/// names; "unknown".
+[[nodiscard]] std::string unit_of(const Source& source);
+
 /// What `file_info` computes besides reading.
 struct FileInfoOptions {
   bool conversions = false;  ///< whether other surfaces can be converted

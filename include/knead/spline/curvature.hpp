@@ -49,6 +49,15 @@ struct SurfaceCurvature {
                                                       ///< with the normal; at an umbilic along S_u
 };
 
+/// The second fundamental form as a symmetric map of space, W = J I⁻¹ II I⁻¹ Jᵀ with J = (S_u,
+/// S_v): xᵀ W x is the normal curvature in a unit tangent direction x, W n = 0, 1/length. In space,
+/// unlike in parameters, the maps of two surfaces can be subtracted (do Carmo, § 3-2). Only where
+/// the forms are regular; its sign is that of the forms' normal.
+[[nodiscard]] Eigen::Matrix3d shape_operator(const Point& u, const Point& v,
+                                             const FundamentalForms& forms);
+/// The same from principal curvatures and directions, Σ κ_k e_k e_kᵀ.
+[[nodiscard]] Eigen::Matrix3d shape_operator(const SurfaceCurvature& curvature);
+
 /// The curvatures of a surface at (u, v), at a knot those of the limit from `side` in both
 /// directions.
 ///

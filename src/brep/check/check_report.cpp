@@ -5,6 +5,7 @@
 
 #include "describe/record_json.hpp"
 #include "describe/text.hpp"
+#include "knead/base/printable.hpp"
 #include "knead/brep/edge_measures.hpp"
 
 namespace knead::brep {
@@ -127,30 +128,6 @@ std::string check_schema() {
 
 namespace {
 
-/// Text as XML 1.0 may have it, in attributes too.
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return result;
-}
-
 std::string sentence(const EdgeFault& fault) {
   if (fault.measure == "faces") return "it has come open";
   std::string text =
@@ -166,22 +143,22 @@ std::string sentence(const EdgeFault& fault) {
 std::string check_junit(const EdgeCheckReport& report) {
   std::string cases;
   std::size_t failed = 0, skipped = 0;
+  auto fault = report.faults.begin();  // in the order of edges
   for (const EdgeMeasures& edge : report.edges) {
-    std::string faces, said;
-    for (const std::string& face : edge.faces) faces += (faces.empty() ? "" : ", ") + face;
-    for (const EdgeFault& fault : report.faults) {
-      if (fault.edge == edge.id) said += (said.empty() ? "" : "; ") + sentence(fault);
-    }
+    std::string said;
+    for (; fault != report.faults.end() && fault->edge == edge.id; ++fault)
+      said += (said.empty() ? "" : "; ") + sentence(*fault);
     cases +=
         fmt::format("    <testcase classname=\"{}\" name=\"edge {} of {} ({})\"",
-                    escaped(report.file), escaped(edge.id), escaped(faces), name_of(edge.kind));
+                    xml_text(report.file), xml_text(edge.id),
+                    xml_text(fmt::format("{}", fmt::join(edge.faces, ", "))), name_of(edge.kind));
     if (!said.empty()) {
       ++failed;
-      cases += fmt::format(">\n      <failure message=\"{}\"/>\n    </testcase>\n", escaped(said));
+      cases += fmt::format(">\n      <failure message=\"{}\"/>\n    </testcase>\n", xml_text(said));
     } else if (edge.kind == EdgeKind::unknown) {
       ++skipped;
       cases += fmt::format(">\n      <skipped message=\"{}\"/>\n    </testcase>\n",
-                           escaped(edge.reason));
+                           xml_text(edge.reason));
     } else {
       cases += "/>\n";
     }
@@ -191,7 +168,7 @@ std::string check_junit(const EdgeCheckReport& report) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {0}>\n  <testsuite name=\"knead "
       "check {1}\" {0}>\n{2}  </testsuite>\n</testsuites>\n",
-      sums, escaped(report.file), cases);
+      sums, xml_text(report.file), cases);
 }
 
 }  // namespace knead::brep

@@ -90,12 +90,7 @@ void bend(FaceFoot& foot, const Jet& jet) {
   if (!(normal.norm() > no_tangent_plane * (jet.u.squaredNorm() + jet.v.squaredNorm()))) return;
   foot.normal = normal.normalized();
   const FundamentalForms forms(jet.u, jet.v, jet.uu, jet.uv, jet.vv, foot.normal);
-  Eigen::Matrix<double, 3, 2> dual;  // J I⁻¹: e^i with e^i · S_j = δ_ij
-  dual.col(0) = (forms.g * jet.u - forms.f * jet.v) / forms.squared_area();
-  dual.col(1) = (forms.e * jet.v - forms.f * jet.u) / forms.squared_area();
-  Eigen::Matrix2d second;
-  second << forms.l, forms.m, forms.m, forms.n;
-  foot.bending = dual * second * dual.transpose();
+  foot.bending = shape_operator(jet.u, jet.v, forms);
 }
 
 /// Where a swept surface has points of a face, in one direction of it.
@@ -163,7 +158,6 @@ Expected<CheckedFace> CheckedFace::create(const Model& model, const Face& face,
   result.turned_ = surface->turned();
   if (face.support != none) {
     const Support& support = model.supports[face.support];
-    if (const auto* form = std::get_if<ElementarySurface>(&support.form)) result.form_ = *form;
     if (std::holds_alternative<SweptSurface>(support.form)) {
       std::vector<Point> on_it;
       for (const Loop& loop : *loops) on_it.insert(on_it.end(), loop.begin(), loop.end());
@@ -249,9 +243,6 @@ std::optional<std::array<CheckedFace::Side, 2>> CheckedFace::seam_at(const Point
   return std::nullopt;
 }
 
-/// Surfaces of revolution bend by the parallel as by Meusnier's theorem, −(n · e)/ρ with e the
-/// direction away from the axis at the distance ρ, and along the meridian as the circle that turns
-/// or not at all (do Carmo, Differential Geometry of Curves and Surfaces, 3-2 and 3-3).
 FaceFoot CheckedFace::other_foot(const Point& p) const {
   FaceFoot result;
   result.at = other_->foot(p).parameters;
@@ -264,44 +255,10 @@ FaceFoot CheckedFace::other_foot(const Point& p) const {
     result.normal = other_->normal(result.at);
     result.point = other_->at(result.at);
   }
-  if (other_->plane()) return result;
-  if (!form_) {
-    const auto curvature = other_->curvature(result.at);
-    for (std::size_t k = 0; curvature && k < 2; ++k) {
-      const Point& along = curvature->directions[k];
-      result.bending += curvature->principal[k] * along * along.transpose();
-    }
-    return result;
-  }
-  using Kind = ElementarySurface::Kind;
-  const auto& [origin, x, y, z] = form_->frame;
-  Point away = result.point - origin;
-  away -= away.dot(z) * z;
-  const double radius = away.norm();
-  if (form_->kind == Kind::sphere) {
-    const double bending =
-        -result.normal.dot((result.point - origin).normalized()) / std::abs(form_->radius);
-    result.bending =
-        bending * (Eigen::Matrix3d::Identity() - result.normal * result.normal.transpose());
-    return result;
-  }
-  if (!(radius > 1e-9 * other_->reach())) {
-    result.normal.setZero();  // an apex
-    return result;
-  }
-  const Point e = away / radius, along = z.cross(e);
-  result.bending = -result.normal.dot(e) / radius * along * along.transpose();
-  if (form_->kind == Kind::torus && form_->second != 0) {
-    const Point across = result.normal.cross(along);
-    // The centre of the circle is a minor radius away, in the direction to the inside of the tube.
-    const Point centre = origin + (form_->inner ? -1 : 1) * form_->radius * e;
-    const Point outwards = result.point - centre,
-                other = result.point - (origin - form_->radius * e);
-    const double minor = std::abs(form_->second);
-    const bool near = std::abs(outwards.norm() - minor) <= std::abs(other.norm() - minor);
-    result.bending -=
-        result.normal.dot(near ? outwards : other) / (minor * minor) * across * across.transpose();
-  }
+  const auto bending = other_->shape_operator(result.at);
+  if (bending) result.bending = *bending;
+  const bool apex = !bending && bending.error().kind == ErrorKind::numerical;
+  if (apex) result.normal.setZero();
   return result;
 }
 

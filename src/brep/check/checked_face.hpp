@@ -75,7 +75,6 @@ class CheckedFace {
 
   std::shared_ptr<const CheckedSpline> spline_;  // of the file, or one that is the same
   std::shared_ptr<const FaceSurface> other_;     // null on a B-spline surface of the file
-  std::optional<ElementarySurface> form_;        // of `other_`; none: a plane, or a swept one
   bool turned_ = false;
 };
 

@@ -1,4 +1,5 @@
 // How elementary and swept surfaces bend.
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "face_surface.hpp"
@@ -36,6 +37,40 @@ Expected<SurfaceCurvature> FaceSurface::curvature(const Eigen::Vector2d& uv) con
     place = search->nearest(at(uv)).parameters;
   }
   return knead::curvature(*part, place);
+}
+
+/// Surfaces of revolution bend by the parallel as by Meusnier's theorem, −(n · e)/ρ with e the
+/// direction away from the axis at the distance ρ, and along the meridian as the circle that turns
+/// or not at all (do Carmo, Differential Geometry of Curves and Surfaces, 3-2 and 3-3).
+Expected<Eigen::Matrix3d> FaceSurface::shape_operator(const Eigen::Vector2d& uv) const {
+  if (kind_ == Kind::plane) return Eigen::Matrix3d(Eigen::Matrix3d::Zero());
+  if (profile_) {
+    const auto bends = curvature(uv);
+    if (!bends) return std::unexpected(bends.error());
+    return knead::shape_operator(*bends);
+  }
+  const Point p = at(uv), n = normal(uv);
+  if (kind_ == Kind::sphere) {
+    const double bending = -n.dot((p - frame_.origin).normalized()) / std::abs(radius_);
+    return Eigen::Matrix3d(bending * (Eigen::Matrix3d::Identity() - n * n.transpose()));
+  }
+  Point away = p - frame_.origin;
+  away -= away.dot(frame_.z) * frame_.z;
+  const double distance = away.norm();
+  if (!(distance > 1e-9 * reach_))
+    return numerical_error("there is no tangent plane at an apex", "");
+  const Point e = away / distance, along = frame_.z.cross(e);
+  Eigen::Matrix3d result = -n.dot(e) / distance * along * along.transpose();
+  if (kind_ == Kind::torus && minor_ != 0) {
+    const Point across = n.cross(along);
+    // The circle through the point is the nearer one of the two in this half plane.
+    const Point outwards = p - (frame_.origin + (inner_ ? -1 : 1) * radius_ * e),
+                other = p - (frame_.origin - radius_ * e);
+    const double minor = std::abs(minor_);
+    const bool near = std::abs(outwards.norm() - minor) <= std::abs(other.norm() - minor);
+    result -= n.dot(near ? outwards : other) / (minor * minor) * across * across.transpose();
+  }
+  return result;
 }
 
 }  // namespace knead::brep

@@ -36,6 +36,9 @@ class FaceSurface final : public ChartedSurface {
   /// By the B-spline surface that is the same about the point (`patch`); its normal is `normal`.
   /// Errors: no tangent plane there, as at a pole (numerical); those of `patch`.
   [[nodiscard]] Expected<SurfaceCurvature> curvature(const Eigen::Vector2d& uv) const;
+  /// How it bends, by its `normal`: in closed form, on swept curves by `curvature`. Errors: no
+  /// tangent plane there, as at an apex or a pole (numerical); those of `patch`.
+  [[nodiscard]] Expected<Eigen::Matrix3d> shape_operator(const Eigen::Vector2d& uv) const;
   /// In closed form; on swept curves by a search and Newton's iteration. A point beside it is not
   /// needed.
   [[nodiscard]] Foot foot(const Point& p,

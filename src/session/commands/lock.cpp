@@ -32,8 +32,7 @@ Expected<void> execute(const LockCommand& c, Act& act) {
   std::vector<int> left = act.state.selection();
   std::erase_if(left,
                 [&](int k) { return act.state.surfaces[static_cast<std::size_t>(k)].locked; });
-  act.state.selected = left.empty() ? std::nullopt : std::optional(left.front());
-  act.state.together.assign(left.begin() + (left.empty() ? 0 : 1), left.end());
+  act.state.select(left);
   return {};
 }
 

@@ -56,8 +56,7 @@ Expected<void> select_body(const std::string& id, const Document& document, Sess
     known += (known.empty() ? "" : ", ") + known_id;
     if (known_id != id) continue;
     state.body = static_cast<int>(k);
-    state.selected.reset();
-    state.together.clear();
+    state.select({});
     return {};
   }
   if (document.source() != nullptr && document.source()->is_bound_curve(id)) {
@@ -127,8 +126,7 @@ Expected<void> execute(const SelectCommand& c, Act& act) {
     chosen = std::move(*all);
   }
   act.state.body.reset();
-  act.state.selected = chosen.front();
-  act.state.together.assign(chosen.begin() + 1, chosen.end());
+  act.state.select(chosen);
   hold_likewise(act);
   return {};
 }
