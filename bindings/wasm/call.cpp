@@ -61,7 +61,7 @@ Expected<Answer> answered(Studio& studio, std::string input, std::size_t json_si
       std::ranges::find(json->members, "request", &std::pair<std::string, Json>::first);
   if (request == json->members.end()) return usage_error("the query has no request");
   Asked asked{std::move(request->second), std::move(input)};
-  return query->ask(studio, asked);
+  return ask(*query, studio, asked);
 }
 
 /// What of a value lies in memory: `"name":["Float32Array",1234,96]`.

@@ -26,9 +26,20 @@ std::span<const Query> queries() {
                              material_queries, context_queries, assembly_queries}) {
       std::ranges::copy(part(), std::back_inserter(list));
     }
+    for (const DocumentQuery& query : knead::document_queries())
+      list.push_back({query.request, query.answer, nullptr, &query});
     return list;
   }();
   return all;
+}
+
+Expected<Answer> ask(const Query& query, Studio& studio, Asked& asked) {
+  if (query.document == nullptr) return query.ask(studio, asked);
+  if (!studio.session) return nothing_open();
+  auto answer = query.document->ask(
+      *studio.session, [&](void* request) { return read_request(asked, *query.request, request); });
+  if (!answer) return std::unexpected(std::move(answer.error()));
+  return Answer{query.answer, *std::move(answer)};
 }
 
 }  // namespace knead::studio

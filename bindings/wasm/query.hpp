@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "describe/json.hpp"
+#include "session/queries/document_query.hpp"
 #include "studio.hpp"
 #include "values.hpp"
 
@@ -25,8 +26,7 @@ struct Asked {
 /// What a query answers, in its type.
 struct Answer {
   const Type* type = nullptr;
-  std::unique_ptr<const void, void (*)(const void*)> value = {
-      nullptr, [](const void*) {}};  ///< null: `json`
+  DescribedValue value = {nullptr, [](const void*) {}};  ///< null: `json`
   std::string json = {};
 };
 
@@ -59,7 +59,11 @@ struct Query {
   const Type* answer = nullptr;
   /// Errors: those of reading the request and of `ask`.
   Expected<Answer> (*ask)(Studio& studio, Asked& asked) = nullptr;
+  const DocumentQuery* document = nullptr;  ///< it is this one, asked of the session
 };
+
+/// Errors: those of reading the request and of the query; without a session (usage).
+[[nodiscard]] Expected<Answer> ask(const Query& query, Studio& studio, Asked& asked);
 
 /// What a function of the session, or of the studio, answers. Errors: its own; without a session
 /// (usage).

@@ -70,6 +70,20 @@ void declare_queries(TypeScript& types) {
     table += fmt::format("  {}: {{ request: {}; answer: {} }};\n", query.request->name, name,
                          types.written(*query.answer, "Info", Absent::null));
   }
+  std::string methods, names;
+  for (const DocumentQuery& query : knead::document_queries()) {
+    const auto required = [](const Field& f) { return f.presence == Presence::required; };
+    methods += fmt::format("  /** {} */\n  {}(request{}: {}): {};\n", query.request->help,
+                           query.request->name,
+                           std::ranges::any_of(query.request->fields, required) ? "" : "?",
+                           type_name(query.request->name, "Request"),
+                           types.written(*query.answer, "Info", Absent::null));
+    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", query.request->name);
+  }
+  types.text +=
+      "/** What can be asked of a document: each is a method. */\n"
+      "export interface QueryMethods {\n" +
+      methods + "}\n\nexport const documentQueries = [" + names + "] as const;\n\n";
   types.text += "/** What the page can ask the engine for. */\nexport interface Queries {\n" +
                 table + "}\n\n";
 }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "describe/describe.hpp"
+#include "describe/bytes.hpp"
 #include "knead/session/command.hpp"
 
 namespace knead::studio {
@@ -13,9 +13,7 @@ namespace knead::studio {
 // Fields of requests and answers that are no JSON of their own; their descriptions name the page's
 // type. Numbers, bytes and long texts lie in the module's memory beside the JSON, which says where.
 
-struct Bytes {
-  std::string data;
-};
+using knead::Bytes;
 struct Text {
   std::string data;
 };
@@ -32,29 +30,6 @@ using Settings = std::vector<std::pair<std::string, std::vector<double>>>;
 
 namespace knead::detail {
 
-/// Of a value that is read and written by itself, `page_type` in TypeScript.
-inline Type own_type(std::string_view page_type) {
-  return {.kind = Kind::opaque, .name = page_type};
-}
-
-/// Of elements one after the other in memory.
-template <class T>
-Type memory_type(std::string_view page_type) {
-  static constexpr auto data = [](T & value) -> auto& {
-    if constexpr (requires { value.data.data(); }) {
-      return value.data;
-    } else {
-      return value;
-    }
-  };
-  Type type = own_type(page_type);
-  type.count = [](const void* v) {
-    return data(*static_cast<T*>(const_cast<void*>(v))).size();
-  };  // NOLINT: as `part`
-  type.at = [](void* v, std::size_t k) -> void* { return data(*static_cast<T*>(v)).data() + k; };
-  return type;
-}
-
 template <>
 struct TypeMaker<std::vector<float>> {
   static Type make() { return memory_type<std::vector<float>>("Float32Array"); }
@@ -70,10 +45,6 @@ struct TypeMaker<std::vector<std::uint8_t>> {
 template <>
 struct TypeMaker<studio::Doubles> {
   static Type make() { return memory_type<studio::Doubles>("Float64Array"); }
-};
-template <>
-struct TypeMaker<studio::Bytes> {
-  static Type make() { return memory_type<studio::Bytes>("Uint8Array"); }
 };
 template <>
 struct TypeMaker<studio::Text> {

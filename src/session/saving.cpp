@@ -113,6 +113,15 @@ Expected<WrittenFile> triangles_of(const Session& session, const Format& format,
 
 }  // namespace
 
+Expected<FacesFile> save_faces(const Session& session, const Format& format,
+                               const SaveOptions& options, bool convert) {
+  auto saved = session.save();
+  if (!saved) return std::unexpected(std::move(saved.error()));
+  const auto source = open_source(*std::move(saved), session.document().name());
+  if (!source) return std::unexpected(source.error());
+  return save_faces(**source, format, options, convert);
+}
+
 Expected<WrittenFile> file_of(const Session& session, const std::string& name,
                               const FileOptions& how) {
   if (const auto triangles = format_of_name(name, FormatContent::triangles))
@@ -127,9 +136,9 @@ Expected<WrittenFile> file_of(const Session& session, const std::string& name,
   if (document.source() != nullptr && (*format)->name == document.source()->format())
     return without_loss(session.save());
   const SaveOptions options{.schema = how.schema};
-  if (how.faces == nullptr || document.model() == nullptr || (*format)->save_faces == nullptr)
+  if (document.model() == nullptr || (*format)->save_faces == nullptr)
     return without_loss(session.save_as(**format, options));
-  auto made = how.faces(session, **format, options, false);
+  auto made = save_faces(session, **format, options);
   if (!made) return std::unexpected(std::move(made.error()));
   return with_loss(std::move(made->bytes), {}, made->left_out);
 }

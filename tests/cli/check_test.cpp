@@ -267,7 +267,7 @@ TEST_F(Check, SaysWhatIsWrong) {
   EXPECT_TRUE(fails_with(knead({"check", bonnet(), "--angle", "6"}), 2, {"--angle", "5"}));
   EXPECT_TRUE(fails_with(knead({"check", bonnet(), "--curvature", "101"}), 2, {"--curvature"}));
   EXPECT_TRUE(fails_with(knead({"check", bonnet(), "--against", bonnet()}), 2, {"--against"}));
-  EXPECT_TRUE(fails_with(knead({"check", bonnet(), "--unit", "mm"}), 2, {"--unit", "--class"}));
+  EXPECT_TRUE(fails_with(knead({"check", bonnet(), "--unit", "mm"}), 2, {"--unit", "class"}));
   EXPECT_TRUE(fails_with(knead({"check", workshop_ / "none.step"}), 3, {"none.step"}));
   EXPECT_TRUE(
       fails_with(knead({"check", bonnet(), "--junit", workshop_ / "no/r.xml"}), 3, {"no/r.xml"}));

@@ -109,7 +109,43 @@ it('writes other formats, and says what they would lose', async () => {
   expect(doc.export('sheet.stl', { detail: 8 })).toMatchObject({ leftOut: [] });
   const file = await open(bonnet(), { name: 'bonnet.step' });
   expect(file.export('bonnet.stl', { tolerance: 10 }).file.length).toBeLessThan(file.export('bonnet.stl', { tolerance: 0.1 }).file.length);
-  expect(thrown(() => file.save('bonnet.igs')).message).toMatch(/lose the faces/);
+  const iges = await open(file.save('bonnet.igs'), { name: 'bonnet.igs' });
+  expect(iges.check().edges.length).toBe(file.check().edges.length);
+  for (const { controlPoints } of file.surfaces) expect(iges.surfaces.map((one) => one.controlPoints)).toContainEqual(controlPoints);
+  expect(thrown(() => file.save('bonnet.g2')).message).toMatch(/lose the faces/);
+});
+
+it('answers every query of a document, as the program does', async () => {
+  const doc = await open(bonnet(), { name: 'bonnet.step' });
+  const answer = doc.check({ class: 'a', curvature: 2 });
+  expect(answer).toMatchObject({ passed: true, file: 'bonnet.step', unit: 'mm', thresholds: { gap: 0.01, angle: 0.1, curvature: 2 } });
+  expect(answer.edges.map(({ kind }) => kind).filter((kind) => kind === 'open').length).toBe(8);
+  expect(doc.check({ edges: ['#43'] }).edges.map(({ id }) => id)).toEqual(['#43']);
+  doc.select('#285').hold({ mode: 'open' }).tool('ball', { radius: 160, at: [0.5, 0.1] }).step(5);
+  const worse = doc.check({ gap: 1e-3, against: bonnet() });
+  expect(worse.passed).toBe(false);
+  expect(worse.faults.map(({ measure }) => measure)).toContain('gap');
+  expect(thrown(() => doc.check({ angle: 6 }))).toMatchObject({ where: 'angle' });
+  expect(thrown(() => doc.check({ gap: NaN }))).toMatchObject({ where: 'gap', what: 'NaN is no number' });
+  expect(thrown(() => doc.check({ unit: 'mm' }))).toMatchObject({ where: 'unit', remedy: 'give a class too' });
+});
+
+it('compresses as the file was, or as a name says', async () => {
+  const gzip = new Uint8Array(await new Response(new Blob([bonnet()]).stream().pipeThrough(new CompressionStream('gzip'))).arrayBuffer());
+  const doc = await open(gzip, { name: 'bonnet.step.gz' });
+  expect(await doc.saveCompressed()).toEqual(gzip);
+  doc.select('#285').hold({ mode: 'position' }).tool('ball', { radius: 60, at: [0.4, 0.5] }).step();
+  for (const packed of [await doc.saveCompressed(), await doc.saveCompressed('new.stpZ'), await (await restore(doc.snapshot())).saveCompressed('a/new.step.gz')]) {
+    expect(packed.length).toBeLessThan(0.7 * bonnet().length);
+    expect(Buffer.compare((await open(packed)).save(), doc.save())).toBe(0);
+  }
+  const zip = await doc.saveCompressed('a/new.stpZ');
+  expect(new TextDecoder('latin1').decode(zip.slice(30, 37))).toBe('new.stp');
+  const again = await open(zip);
+  expect(await again.saveCompressed()).toEqual(zip);
+  expect((await open(await doc.saveCompressed('new.igs.gz'), { name: 'new.igs' })).check().edges.length).toBeGreaterThan(0);
+  await expect(doc.saveCompressed('new.step')).rejects.toMatchObject({ what: 'the ending of new.step tells of no compression' });
+  await expect((await sheet()).saveCompressed()).rejects.toMatchObject({ name: 'KneadError', remedy: 'give a name that ends in .gz or .stpZ, or use save' });
 });
 
 it('opens what is compressed, and a Blob', async () => {

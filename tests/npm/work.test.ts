@@ -89,9 +89,10 @@ it('arrays come over from a worker by themselves, and an error is the same error
     const error = (await doc.step(-1).then(() => null, (e: unknown) => e)) as InstanceType<Package['KneadError']>;
     const late = await doc.step(-1).select('#1').then(() => 'done', () => 'refused');
     return { points: (await sheet!.controlPoints).length, positions: positions.constructor.name, knots: (await sheet!.shape).knots[1].constructor.name,
-      known: error instanceof knead.KneadError, where: error.where, code: error.code, late };
+      known: error instanceof knead.KneadError, where: error.where, code: error.code, late, checked: (await doc.check({ gap: 0.1 })).passed,
+      packed: (await doc.saveCompressed('sheet.stpZ')).constructor.name };
   });
-  expect(told).toEqual({ points: 2700, positions: 'Float32Array', knots: 'Float64Array', known: true, where: 'count', code: 'out_of_range', late: 'refused' });
+  expect(told).toEqual({ points: 2700, positions: 'Float32Array', knots: 'Float64Array', known: true, where: 'count', code: 'out_of_range', late: 'refused', checked: true, packed: 'Uint8Array' });
 });
 
 /** Bytes of the process that runs the page. */

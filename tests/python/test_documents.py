@@ -12,7 +12,7 @@ import numpy as np
 
 import knead
 from knead import _core
-from support import BONNET, PROGRAM, SAMPLES, sheet
+from support import BONNET, PROGRAM, PROGRAMS, SAMPLES, sheet
 
 
 def commands():
@@ -57,6 +57,52 @@ class Commands(unittest.TestCase):
         self.assertIn("count", refused.exception.where)
         with self.assertRaises(TypeError):
             doc.step(wrong=1)
+
+
+
+class Queries(unittest.TestCase):
+    def test_every_query_is_a_method_with_all_its_fields(self):
+        import inspect
+
+        described = json.loads(_core.document_queries())
+        self.assertIn("check", [one["name"] for one in described])
+        for one in described:
+            fields = [*one["request"]["properties"], *(file["name"] for file in one["files"])]
+            method = getattr(knead.Document, one["name"])
+            self.assertEqual([p.rstrip("_") for p in inspect.signature(method).parameters], ["self", *fields], one["name"])
+            self.assertTrue(method.__doc__)
+            self.assertNotIn(one["name"], commands())
+
+    def test_check_is_what_the_program_says(self):
+        doc = knead.open(BONNET)
+        for options, fields in (([], {}), (["--class", "a", "--curvature", "2"], {"class_": "a", "curvature": 2}),
+                                (["--edges", "#43,#107", "--gap", "1e-5"], {"edges": ["#43", "#107"], "gap": 1e-5})):
+            said = subprocess.run([PROGRAMS[0], "check", BONNET, "--json", *options], capture_output=True, check=False).stdout
+            self.assertEqual(doc.check(**fields), json.loads(said))
+
+    def test_check_is_of_the_document_as_it_is_now(self):
+        doc = knead.open(BONNET)
+        skin = next(s.id for s in doc.surfaces if s.label == "bonnet skin")
+        doc.select(skin).hold(mode="open").tool("ball", shape="sphere", radius=160, at=(0.5, 0.1)).step(5)
+        opened = pathlib.Path(BONNET).read_bytes()
+        for against in (BONNET, opened, io.BytesIO(opened), knead.open(BONNET)):
+            answer = doc.check(gap=1e-3, against=against)
+            self.assertFalse(answer["passed"])
+            self.assertIn("gap", [fault["measure"] for fault in answer["faults"]])
+        self.assertTrue(knead.open(BONNET).check(gap=1e-3, against=opened)["passed"])
+
+    def test_errors_name_the_field(self):
+        doc = knead.open(BONNET)
+        for fields, where in (({"angle": 6}, "angle"), ({"unit": "mm"}, "unit"), ({"against": BONNET}, "against"),
+                              ({"edges": ["#1"]}, "edges"), ({"class_": "d"}, "class")):
+            with self.assertRaises(knead.Error) as refused:
+                doc.check(**fields)
+            self.assertIn(where, refused.exception.where)
+        with self.assertRaisesRegex(TypeError, "against must be"):
+            doc.check(gap=1, against=3)
+        with self.assertRaisesRegex(knead.Error, "against"):
+            doc.check(gap=1, against=b"no file")
+        self.assertEqual(sheet().check()["edges"], [])
 
 
 class Sculpting(unittest.TestCase):

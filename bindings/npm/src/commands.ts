@@ -1,5 +1,5 @@
 import { kneadError } from './errors.js';
-import { type AnyCommand, type CommandMethods, firstFields } from './generated.js';
+import { type AnyCommand, type CommandMethods, documentQueries, firstFields, type QueryMethods } from './generated.js';
 
 /** How long work is watched. */
 export interface Working {
@@ -40,6 +40,20 @@ export function defineCommands<Target extends object>(prototype: Target & Partia
     const value = function (this: Target, ...given: unknown[]) {
       const { command, working } = commandOf(name, given);
       return act(this, command, working);
+    };
+    Object.defineProperty(prototype, name, { value, writable: true, configurable: true });
+  }
+}
+
+export type QueryName = keyof QueryMethods;
+/** The queries of a document as promises. */
+export type PromisedQueries = { [Name in QueryName]: (...given: Parameters<QueryMethods[Name]>) => Promise<ReturnType<QueryMethods[Name]>> };
+
+/** Gives objects of a class the methods of all queries of a document. Numbers that are not finite are refused as in commands. */
+export function defineQueries<Target extends object>(prototype: Target, ask: (target: Target, name: QueryName, request: Parameters<QueryMethods[QueryName]>[0] & object) => unknown): void {
+  for (const name of documentQueries) {
+    const value = function (this: Target, request: Parameters<QueryMethods[QueryName]>[0] = {}) {
+      return ask(this, name, Object.fromEntries(Object.entries(request).map(([field, part]) => [field, part instanceof Uint8Array ? part : plain(part, field)])));
     };
     Object.defineProperty(prototype, name, { value, writable: true, configurable: true });
   }

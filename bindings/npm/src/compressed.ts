@@ -167,3 +167,20 @@ export async function packedLike(bytes: Uint8Array, like: Uint8Array): Promise<U
   if (archive.kind === 'ZIP') return zipOf(archive.entry, archive.deflated ? made.packed : bytes, archive.deflated, made.crc, bytes.length);
   return joined(archive.header, made.packed, numbers([made.crc, 4], [bytes.length, 4]));
 }
+
+/** The bytes compressed anew, as the ending of a name says: by gzip (.gz), or as the one entry of a ZIP archive (.stpZ), without a date. */
+export async function packedAs(bytes: Uint8Array, name: string): Promise<Uint8Array> {
+  const packed = await gzipped(bytes);
+  if (!name.toLowerCase().endsWith('.stpz')) return packed;
+  const entry = new TextEncoder().encode(unpackedName(name).split(/[/\\]/).at(-1)!);
+  const head = numbers([0x02014b50, 4], [20, 2], [20, 2], [0x800, 2], [8, 2], [0, 2], [0x21, 2], [0, 4], [0, 4], [0, 4], [entry.length, 2],
+    [0, 2], [0, 2], [0, 2], [0, 2], [0, 4], [0, 4]);
+  const { packed: data, crc } = readGzip(packed);
+  return zipOf(joined(head, entry), data, true, crc, bytes.length);
+}
+
+/** What a file of that name is called unpacked: bonnet.step of bonnet.step.gz, bonnet.stp of bonnet.stpZ; itself where it tells of no compression. */
+export function unpackedName(name: string): string {
+  const lower = name.toLowerCase();
+  return lower.endsWith('.gz') ? name.slice(0, -3) : lower.endsWith('.stpz') ? name.slice(0, -1) : name;
+}

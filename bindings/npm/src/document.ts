@@ -1,8 +1,9 @@
-import { defineCommands, type Working } from './commands.js';
+import { defineCommands, defineQueries, type Working } from './commands.js';
+import { packedAs, packedLike, unpackedName } from './compressed.js';
 import { Engine } from './engine.js';
 import { KneadError, kneadError } from './errors.js';
 import {
-  type AnyCommand, type BodyInfo, type BucklingInfo, type CommandMethods, type DisplayInfo, fileFormats, type FixInfo, type NoteInfo, type Picture, type PictureRequest,
+  type AnyCommand, type BodyInfo, type BucklingInfo, type CommandMethods, type DisplayInfo, fileFormats, type FixInfo, type NoteInfo, type Picture, type PictureRequest, type QueryMethods,
   type SessionInfo, type StepInfo, type SurfaceInfo, type VibrationInfo,
 } from './generated.js';
 
@@ -32,6 +33,8 @@ export interface Snapshot {
   name: string;
   unit: string;
   file: Uint8Array | null;
+  /** The file as it was compressed. */
+  packed: Uint8Array | null;
   opening: number;
   session: Uint8Array;
 }
@@ -94,7 +97,7 @@ export class Surface {
 }
 
 /** Where a document comes from. */
-export type Beginning = { file: Uint8Array; name: string } | { name: string; unit?: string } | Snapshot;
+export type Beginning = { file: Uint8Array; packed: Uint8Array | null; name: string } | { name: string; unit?: string } | Snapshot;
 
 /**
  * A document: made by `open`, `create` or `restore`. Its commands are methods, which return it. Each takes full effect, or throws
@@ -103,6 +106,7 @@ export type Beginning = { file: Uint8Array; name: string } | { name: string; uni
 export class Document {
   private engine: Engine;
   private file: Uint8Array | null = null;
+  private packed: Uint8Array | null = null;
   private fileUnit = 'mm';
   private opening = 0;
   private busy = false;
@@ -120,6 +124,7 @@ export class Document {
   private start(engine: Engine, from: Beginning): void {
     const { name } = from;
     this.file = 'file' in from ? from.file : null;
+    this.packed = 'packed' in from ? from.packed : null;
     this.fileUnit = ('unit' in from && from.unit) || 'mm';
     if ('session' in from) {
       engine.query('restore', { ...(this.file ? { source: this.file } : {}), name, unit: this.fileUnit, snapshot: from.session });
@@ -245,6 +250,20 @@ export class Document {
     return file;
   }
 
+  /**
+   * What `save` writes, compressed: by gzip or as the entry of a ZIP archive, as the ending of the name says (.step.gz, .stpZ); without
+   * a name as the file that was opened is, with its names and dates.
+   */
+  async saveCompressed(name?: string, options: Pick<FileOptions, 'schema'> = {}): Promise<Uint8Array> {
+    if (name !== undefined) {
+      const inside = unpackedName(name);
+      if (inside === name) throw kneadError('input', `the ending of ${name} tells of no compression`, 'use .gz or .stpZ, or save', name);
+      return packedAs(this.save(inside, options), name);
+    }
+    if (this.packed === null) throw kneadError('input', 'the file that was opened is not compressed', 'give a name that ends in .gz or .stpZ, or use save', this.name);
+    return packedLike(this.save(), this.packed);
+  }
+
   /** A file of any format, triangles too, and what it leaves out, a sentence each. */
   export(name: string, options: FileOptions = {}): { file: Uint8Array; leftOut: string[] } {
     const { file, left_out } = this.ask((engine) => engine.query('file', { name, ...options }));
@@ -254,13 +273,14 @@ export class Document {
   /** All of it, with undo and redo. */
   snapshot(): Snapshot {
     const session = this.ask((engine) => engine.query('snapshot', { history_bytes: historyBytes }));
-    return { name: this.name, unit: this.fileUnit, file: this.file, opening: this.opening, session };
+    return { name: this.name, unit: this.fileUnit, file: this.file, packed: this.packed, opening: this.opening, session };
   }
 }
 
 // eslint-disable-next-line @typescript-eslint/no-unsafe-declaration-merging
-export interface Document extends CommandMethods<Document, Working> {}
+export interface Document extends CommandMethods<Document, Working>, QueryMethods {}
 defineCommands(Document.prototype, (document: Document, command, working) => document.work((engine) => engine.query('execute', { commands: [command] }), working));
+defineQueries(Document.prototype, (document: Document, name, request) => document.ask((engine) => engine.query(name, request)));
 
 /** What the query `run` is given of a script. */
 export function scriptOf(script: Script): { script: Uint8Array; list: boolean } {

@@ -1,4 +1,4 @@
-import { defineCommands, type Working } from './commands.js';
+import { defineCommands, defineQueries, type PromisedQueries, type Working } from './commands.js';
 import type { Beginning, FileOptions, PictureOptions, Report, Script, Snapshot, SurfaceShape } from './document.js';
 import { KneadError, kneadError } from './errors.js';
 import type { AnyCommand, BodyInfo, CommandMethods, DisplayInfo, Picture, SessionInfo, SurfaceInfo } from './generated.js';
@@ -226,6 +226,10 @@ export class RemoteDocument {
     return this.read('save', [name, options]);
   }
 
+  saveCompressed(name?: string, options?: Pick<FileOptions, 'schema'>): Promise<Uint8Array> {
+    return this.read('saveCompressed', [name, options]);
+  }
+
   export(name: string, options?: FileOptions): Promise<{ file: Uint8Array; leftOut: string[] }> {
     return this.read('export', [name, options]);
   }
@@ -238,7 +242,8 @@ export class RemoteDocument {
 const acted = (document: RemoteDocument, command: AnyCommand, working: Working) => () =>
   document.work({ call: 'act', command, told: Boolean(working.progress) }, working);
 
-export interface RemoteDocument extends CommandMethods<Chain, Working> {}
+export interface RemoteDocument extends CommandMethods<Chain, Working>, PromisedQueries {}
 defineCommands(RemoteDocument.prototype, (document: RemoteDocument, command, working) => new Chain(document, acted(document, command, working)()));
+defineQueries(RemoteDocument.prototype, (document: RemoteDocument, name, request) => document.read(name, [request]));
 export interface Chain extends CommandMethods<Chain, Working> {}
 defineCommands(Chain.prototype, (chain: Chain, command, working) => chain.and(acted(chain.document, command, working)));

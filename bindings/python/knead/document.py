@@ -8,7 +8,7 @@ from typing import Any, Iterator, Mapping, Sequence, TypeVar
 
 from . import _core
 from ._arrays import Array, chosen, number, whole
-from ._commands import Commands
+from ._commands import Commands, Queries
 from ._display import Display
 from ._errors import Error, Fix, InputError, MissingFileError
 from ._json import encode
@@ -19,6 +19,7 @@ from .report import Report
 from .splines import of_core
 
 _Self = TypeVar("_Self", bound="Document")
+File = Any  # its name, its bytes, an object with `read`, or a document
 _max_unpacked = 1 << 30
 _most_lines = 60  # of a document at a terminal
 _schemas = ("ap214", "ap242")
@@ -105,11 +106,11 @@ class Snapshot:
         return Snapshot, (self._state,)
 
 
-class Document(Commands, Display):
+class Document(Commands, Queries, Display):
     """A document: made by `knead.open` or `knead.new`.
 
-    Its commands are methods, which return the document. Each takes full effect or raises `knead.Error` and changes nothing.
-    Long ones stop at Ctrl+C within 0.2 s: `KeyboardInterrupt`, and the steps that were whole stay. Several threads may
+    Its commands are methods, which return the document; its queries are methods, which return what they answer. A command
+    takes full effect, or raises `knead.Error` and changes nothing. Long ones stop at Ctrl+C within 0.2 s: `KeyboardInterrupt`, and the steps that were whole stay. Several threads may
     use one document: they wait for each other. A function that a command calls must not use the document itself.
     """
 
@@ -123,6 +124,13 @@ class Document(Commands, Display):
         given["do"] = name
         self._session.execute(encode(name, given), callback(progress))
         return self
+
+    def _ask(self, name: str, fields: dict[str, Any], files: dict[str, File | None]) -> dict[str, Any]:
+        given = {field: value for field, value in fields.items() if value is not None}
+        contents = {field: _content(file, field)[0] for field, file in files.items() if file is not None}
+        given |= {field: len(content) for field, content in contents.items()}
+        answer: dict[str, Any] = json.loads(self._session.ask(name, encode(name, given), b"".join(contents.values())))
+        return answer
 
     def run(self: _Self, script: Any, *, progress: Progress = None) -> _Self:
         """Carries out a script: the name of a file, the text or the dict of a script {"knead": 2, "commands": […]}, a list of
@@ -310,21 +318,29 @@ def _read(path: str) -> bytes:
                                message=str(error)) from None
 
 
+def _content(source: Any, argument: str) -> tuple[bytes, str | None]:
+    """The bytes of a file, and its name."""
+    if isinstance(source, Document):
+        return source.to_bytes(), source.name
+    if isinstance(source, (str, os.PathLike)):
+        path = _path(source)
+        return _read(path), path
+    called = getattr(source, "name", None)
+    if hasattr(source, "read"):
+        source = source.read()
+    if not isinstance(source, (bytes, bytearray, memoryview)):
+        raise TypeError(f"{argument} must be a file name, bytes or a file opened for bytes, not {type(source).__name__}")
+    return bytes(source), called
+
+
 def open(source: Any, *, name: str | None = None, max_unpacked: int = _max_unpacked) -> Document:
     """A document of a CAD file: its name, its bytes, or an object with `read`. The edges of faces are held.
 
     name          what errors call it, and whose ending tells the format where bytes do not
     max_unpacked  bytes that a compressed file may hold
     """
-    if isinstance(source, (str, os.PathLike)):
-        path = _path(source)
-        return Document(_core.Session.open(_read(path), name or path, whole(max_unpacked, "max_unpacked")))
-    called = name or getattr(source, "name", None)
-    if hasattr(source, "read"):
-        source = source.read()
-    if not isinstance(source, (bytes, bytearray, memoryview)):
-        raise TypeError(f"source must be a file name, bytes or a file opened for bytes, not {type(source).__name__}")
-    return Document(_core.Session.open(bytes(source), str(called or "document"), whole(max_unpacked, "max_unpacked")))
+    content, called = _content(source, "source")
+    return Document(_core.Session.open(content, str(name or called or "document"), whole(max_unpacked, "max_unpacked")))
 
 
 def new(name: str = "sheet", *, unit: str = "mm") -> Document:

@@ -11,6 +11,7 @@
 #include "knead/session/report.hpp"
 #include "knead/session/session_info.hpp"
 #include "scene/shell_fields.hpp"
+#include "session/queries/document_query.hpp"
 #include "session/session_state.hpp"
 #include "sparse.hpp"
 #include "text.hpp"
@@ -191,6 +192,12 @@ std::string PySession::report() {
   }));
 }
 
+std::string PySession::ask(const std::string& query, const std::string& request,
+                           const py::bytes& bytes) {
+  const std::string_view files = bytes;
+  return value_of(alone([&] { return ask_document(session_, query, request, files); }));
+}
+
 std::string PySession::selected() {
   return alone([&]() -> std::string {
     const SessionState& state = session_.state();
@@ -217,8 +224,7 @@ py::tuple PySession::file(const std::string& name, double tolerance, int detail,
     auto written = file_of(session_, name,
                            {.schema = schema == "ap242" ? "ap242" : "ap214",
                             .tolerance = tolerance,
-                            .detail = detail,
-                            .faces = &save_faces});
+                            .detail = detail});
     if (!written || triangles) return written;
     auto bytes = compress_by_name(std::move(written->bytes), name);
     if (!bytes) return std::unexpected(std::move(bytes.error()));
@@ -285,6 +291,7 @@ py::tuple PySession::matrices(std::optional<bool> normalised, double tolerance) 
 
 void bind_session(py::module_& module) {
   module.def("script_schema", &script_schema);
+  module.def("document_queries", &document_queries_json);
   py::class_<PySession>(module, "Session")
       .def_static("open", &PySession::open)
       .def_static("fresh", &PySession::fresh)
@@ -301,6 +308,7 @@ void bind_session(py::module_& module) {
       .def("info", &PySession::info)
       .def("text", &PySession::text)
       .def("report", &PySession::report)
+      .def("ask", &PySession::ask)
       .def("file", &PySession::file)
       .def("analysis", &PySession::analysis)
       .def("matrices", &PySession::matrices);

@@ -43,6 +43,10 @@ class PySession {
   /// What the program says of a file, with the shapes as they are now.
   [[nodiscard]] std::string text();
   [[nodiscard]] std::string report();
+  /// The answer of a query of the document (session/queries) as JSON; the files of its request lie
+  /// one after the other in `bytes`.
+  [[nodiscard]] std::string ask(const std::string& query, const std::string& request,
+                                const py::bytes& bytes);
   /// (bytes, what they leave out) of a file of that name; without a name the document's own file.
   /// Triangles, which lose the surfaces, only if they may be too.
   [[nodiscard]] py::tuple file(const std::string& name, double tolerance, int detail,

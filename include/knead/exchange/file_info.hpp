@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "knead/brep/edge_measures.hpp"
 #include "knead/exchange/source.hpp"
 
 namespace knead {
@@ -145,5 +146,26 @@ struct FileInfoOptions {
 
 /// It as JSON, over several lines (docs/command-line.md).
 [[nodiscard]] std::string file_json(const FileInfo& info);
+
+/// What the edges of a file are judged by: gap in the file's units, angle in degrees up to
+/// `brep::meant_smooth`, curvature in percent.
+struct EdgeCheckRequest {
+  std::optional<double> gap = {}, angle = {}, curvature = {};
+  /// Gap and angle where they are not given, of "a" 0.01 mm and 0.1°, "b" 0.02 and 0.2, "c" 0.05
+  /// and 0.5; empty: none.
+  std::string grade = {};
+  std::vector<std::string> edges = {};  ///< only these, by id; empty: all
+  std::string unit = {};  ///< of the coordinates, for a class, where the file does not say it
+};
+
+/// How the faces of a file meet at its edges, and what of that exceeds a threshold; with `against`,
+/// an earlier version of the file, what is worse than there by more than a threshold. A file
+/// without faces has no edges. Errors (usage), `where` being the member's name ("class" of
+/// `grade`): a threshold out of its range; a class without a unit, or a unit without a class;
+/// `against` without thresholds; an edge that is not there. Cost: `brep::measure_edges` of either
+/// file.
+[[nodiscard]] Expected<brep::EdgeCheckReport> check_edges(const Source& source,
+                                                          const EdgeCheckRequest& check,
+                                                          const Source* against = nullptr);
 
 }  // namespace knead

@@ -256,9 +256,6 @@ struct FileOptions {
   /// Of triangles from faces, file units; 0: a two-thousandth of the model's diagonal.
   double tolerance = 0;
   int detail = 96;  ///< of triangles without faces: lines per direction of each surface
-  /// `save_faces`; null: new files of faces are an error, and a program need not link what writes
-  /// them.
-  Expected<FacesFile> (*faces)(const Session&, const Format&, const SaveOptions&, bool) = nullptr;
 };
 
 /// The document as a file of the format that the ending of a name says: its own, as

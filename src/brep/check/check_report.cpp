@@ -1,4 +1,6 @@
 // The report on the edges of a file as JSON, its schema, and as a JUnit report.
+#include "check_report.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include "describe/record_json.hpp"
 #include "describe/text.hpp"
 #include "knead/base/printable.hpp"
-#include "knead/brep/edge_measures.hpp"
 
 namespace knead::brep {
 
@@ -86,7 +87,7 @@ static void describe(EdgeCount& c, Fields& fields) {
   fields.add_all("kind", c.kind, "count", c.count);
 }
 
-static void describe(EdgeCheckReport& r, Fields& fields) {
+void describe(EdgeCheckReport& r, Fields& fields) {
   fields.name("edge check", "The edges of a CAD file and what of them is above a threshold.");
   fields.add_all("file", r.file, "format", r.format);
   fields.add("unit", r.unit, {.help = "of lengths, as the file names it"});
