@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "exchange/support.hpp"
 #include "knead/brep/edge_measures.hpp"
@@ -16,7 +17,8 @@ namespace knead::oracle {
 namespace {
 
 constexpr double same_gap = 0.05, negligible_gap = 1e-7, same_angle = 0.01;
-constexpr double same_place = 1e-5;  // of the size
+constexpr double same_bend = 0.01, counted_bend = 1e-2;  // of the curvature; over the size
+constexpr double same_place = 1e-5;                      // of the size
 
 Point point_of(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 
@@ -29,7 +31,7 @@ double apart(const brep::EdgeMeasures& edge, const OcctMeeting& other, double un
 
 class EdgesBeside : public testing::FileTest {};
 
-TEST_P(EdgesBeside, OpenCascadeHaveTheSameGapsAndAngles) {
+TEST_P(EdgesBeside, OpenCascadeHaveTheSameGapsAnglesAndCurvatures) {
   const auto bytes = *read_file(path_);
   if (bytes.find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE may abort on it";
   const auto source = testing::open_or_die(bytes, path_.string());
@@ -41,10 +43,11 @@ TEST_P(EdgesBeside, OpenCascadeHaveTheSameGapsAndAngles) {
   const auto others = occt->meetings();
   const double unit = millimetres_of(model->length_unit()).value_or(1);
   const double size = unit * measured->size;
-  int compared = 0, two = 0;
-  double gaps = 0, angles = 0;
+  int compared = 0, two = 0, bent = 0;
+  double gaps = 0, angles = 0, bends = 0;
   for (const brep::EdgeMeasures& edge : measured->edges) {
-    if (edge.faces.size() != 2 || !edge.angle || others.empty()) continue;
+    const bool joint = edge.id.find('+') != std::string::npos;  // of two edges of the file
+    if (edge.faces.size() != 2 || !edge.angle || others.empty() || joint) continue;
     ++two;
     const auto same = std::ranges::min_element(
         others, {}, [&](const OcctMeeting& o) { return apart(edge, o, unit); });
@@ -64,12 +67,54 @@ TEST_P(EdgesBeside, OpenCascadeHaveTheSameGapsAndAngles) {
                      compare(edge.off_curve, unit, &OcctFigures::off_curve, same_gap, floor)});
     if (same->at(unit * point_of(edge.angle->at.point)).angle < 0) continue;  // beside a pole
     angles = std::max(angles, compare(edge.angle, 1, &OcctFigures::angle, 0, same_angle));
+    if (!edge.curvature || edge.curvature->value < counted_bend / measured->size) continue;
+    const auto [a, b] = same->at(unit * point_of(edge.curvature->at.point)).curvatures;
+    if (!(std::isfinite(a) && std::isfinite(b))) continue;
+    const double value = edge.curvature->value / unit, other = std::abs(a - b);
+    EXPECT_NEAR(value, other, same_bend * std::max(std::abs(a), std::abs(b))) << edge.id;
+    bends = std::max(bends, std::abs(value - other) / std::max(std::abs(a), std::abs(b)));
+    ++bent;
   }
   fmt::print(
       "{}: {} of {} edges of two faces compared; gaps within {:.2g} mm, angles within "
-      "{:.2g} degrees\n",
-      GetParam(), compared, two, gaps, angles);
+      "{:.2g} degrees; {} differences in curvature within {:.2g} % of the larger curvature\n",
+      GetParam(), compared, two, gaps, angles, bent, 100 * bends);
   EXPECT_GE(2 * compared, others.empty() ? 0 : two) << "of the edges of two faces";
+}
+
+/// Whatever edges Open CASCADE makes of the file: at the places where Knead finds the gaps.
+TEST_P(EdgesBeside, OpenCascadeHaveTheSameGapsAtTheirPlaces) {
+  const auto bytes = *read_file(path_);
+  if (bytes.find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE may abort on it";
+  const auto source = testing::open_or_die(bytes, path_.string());
+  const auto model = source->model();
+  const auto occt = OcctFaces::read(path_);
+  if (!model || !occt) GTEST_SKIP() << "one of both reads no faces of it";
+  const auto measured = brep::measure_edges(*model);
+  ASSERT_TRUE(measured) << measured.error().message();
+  const double unit = millimetres_of(model->length_unit()).value_or(1);
+  const double floor = negligible_gap * unit * measured->size;
+  std::map<std::string, std::string> surface_of;
+  for (const brep::Face& face : model->faces) {
+    if (const brep::SplineSurface* surface = model->spline_under(face))
+      surface_of[face.id] = surface->id;
+  }
+  int compared = 0;
+  double largest = 0, worst = 0;
+  for (const brep::EdgeMeasures& edge : measured->edges) {
+    if (edge.faces.size() != 2 || !edge.gap || unit * edge.gap->value < floor) continue;
+    const auto a = surface_of.find(edge.faces[0]), b = surface_of.find(edge.faces[1]);
+    if (a == surface_of.end() || b == surface_of.end()) continue;
+    const auto other = occt->gap_at(unit * point_of(edge.gap->at.point), a->second, b->second);
+    if (!other) continue;
+    ++compared;
+    const double value = unit * edge.gap->value;
+    EXPECT_NEAR(value, *other, std::max(same_gap * *other, floor)) << edge.id;
+    largest = std::max(largest, value);
+    worst = std::max(worst, std::abs(value - *other));
+  }
+  fmt::print("{}: {} gaps up to {:.4g} mm, the same within {:.2g} mm\n", GetParam(), compared,
+             largest, worst);
 }
 
 INSTANTIATE_TEST_SUITE_P(Step, EdgesBeside, ::testing::ValuesIn(testing::step_files()),

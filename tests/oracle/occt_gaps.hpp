@@ -75,6 +75,11 @@ class OcctFaces {
   };
   [[nodiscard]] Apart apart(const std::string& surface, const OcctFaces& after) const;
 
+  /// How far the feet of a point, mm, on two surfaces are from each other; none: one of them has no
+  /// face.
+  [[nodiscard]] std::optional<double> gap_at(const Point& p, const std::string& surface,
+                                             const std::string& other) const;
+
   /// Of all edges with two faces (occt_meetings.hpp).
   [[nodiscard]] std::vector<OcctMeeting> meetings() const;
 

@@ -96,9 +96,11 @@ struct ModelMeasures {
 };
 
 /// Measures edges of a model that faces use, each once, in the order of the file; of those with
-/// `ids` only, unless it is empty. Faces on every surface that can be drawn are followed:
-/// B-splines, planes, cylinders, cones, spheres, tori, surfaces of revolution and of linear
-/// extrusion.
+/// `ids` only, unless it is empty. Where two edges of one face each run beside each other, the part
+/// along which they do is measured as an edge of both faces, "#12+#15", and so are the sides of
+/// B-spline surfaces without faces, "#55.u0" (docs/check.md). Faces on every surface that can be
+/// drawn are followed: B-splines, planes, cylinders, cones, spheres, tori, surfaces of revolution
+/// and of linear extrusion.
 ///
 /// Edges are sampled at both ends, the knots of their curve and those of the surfaces that they
 /// cross, and evenly at 17 points or more; the steps are halved until no largest value changes by

@@ -3,11 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
+#include <unordered_map>
 
+#include "bare_faces.hpp"
 #include "base/parallel_for.hpp"
 #include "edge_walk.hpp"
+#include "joints.hpp"
 
 namespace knead::brep {
 namespace {
@@ -16,6 +20,8 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double least_tolerance = 1e-6;  // of gaps, of the size
 constexpr double least_share = 0.02;      // of its length that a partly smooth edge is smooth on
 constexpr int box_steps = 8;
+constexpr double meeting = 5e-5;  // of the size: edges of one face each that come so near meet …
+constexpr double parted = 10;     // … as long as they are not so many times as far apart
 
 /// One time that a bound runs along an edge.
 struct Use {
@@ -37,42 +43,116 @@ std::vector<std::vector<Use>> uses_of_edges(const Model& model) {
 
 std::array<double, 3> array_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
+/// What is measured: an edge, or a part of one and what it meets there.
+struct Measured {
+  std::string id;
+  Index edge = none, other = none;
+  std::optional<Joint> part = {};
+};
+
 /// What is prepared once: the edges and the faces around them.
 class Measurer {
  public:
-  Measurer(const Model& model, const EdgeTolerances& tolerances)
-      : model_(model), tolerances_(tolerances), uses_(uses_of_edges(model)) {}
+  /// \param sides of B-spline surfaces that are edges, by edge
+  Measurer(const Model& model, const EdgeTolerances& tolerances,
+           std::span<const std::optional<CheckedFace::Side>> sides)
+      : model_(model), tolerances_(tolerances), bare_(sides), uses_(uses_of_edges(model)) {}
 
   Expected<ModelMeasures> run(std::span<const std::string> ids) {
-    std::vector<Index> chosen;
-    std::set<std::string> wanted(ids.begin(), ids.end());
     for (Index e = 0; e < model_.edges.size(); ++e) {
-      if (uses_[e].empty()) continue;
-      used_.push_back(e);
-      if (ids.empty() || wanted.erase(model_.edges[e].id) > 0) chosen.push_back(e);
+      if (!uses_[e].empty()) used_.push_back(e);
     }
-    if (!wanted.empty()) return input_error("there is no such edge of a face", *wanted.begin());
     find_scale();
-    prepare(chosen);
+    std::vector<Measured> items = all_items();
+    if (auto right = choose(items, ids); !right) return std::unexpected(right.error());
+    prepare(items);
     ModelMeasures result{.size = scale_.size, .gap_tolerance = gap_};
-    result.edges.resize(chosen.size());
-    detail::parallel_for(static_cast<std::ptrdiff_t>(chosen.size()), 1,
+    result.edges.resize(items.size());
+    detail::parallel_for(static_cast<std::ptrdiff_t>(items.size()), 1,
                          [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
                            for (std::ptrdiff_t k = begin; k < end; ++k) {
                              const auto at = static_cast<std::size_t>(k);
-                             result.edges[at] = measured(chosen[at]);
+                             result.edges[at] = measured(items[at]);
                            }
                          });
     return result;
   }
 
  private:
+  /// Those with these ids, or of edges with them; an empty list: all.
+  Expected<void> choose(std::vector<Measured>& items, std::span<const std::string> ids) const {
+    if (ids.empty()) return {};
+    const std::set<std::string> wanted(ids.begin(), ids.end());
+    std::set<std::string> found;
+    std::erase_if(items, [&](const Measured& item) {
+      bool chosen = false;
+      const auto look = [&](const std::string& id) {
+        if (wanted.contains(id)) {
+          found.insert(id);
+          chosen = true;
+        }
+      };
+      look(item.id);
+      look(model_.edges[item.edge].id);
+      if (item.other != none) look(model_.edges[item.other].id);
+      return !chosen;
+    });
+    for (const std::string& id : wanted) {
+      if (!found.contains(id)) return input_error("there is no such edge of a face", id);
+    }
+    return {};
+  }
+
+  std::vector<Measured> all_items() const {
+    std::vector<LooseEdge> loose;
+    std::unordered_map<std::string, Index> part_of;
+    if (model_.assembly) {
+      for (Index k = 0; k < model_.assembly->parts.size(); ++k) {
+        for (const auto* ids :
+             {&model_.assembly->parts[k].faces, &model_.assembly->parts[k].surfaces})
+          for (const std::string& id : *ids) part_of.emplace(id, k);
+      }
+    }
+    for (const Index e : used_) {
+      if (uses_[e].size() != 1 || !*pieces_[e]) continue;
+      const auto part = part_of.find(model_.faces[uses_[e][0].face].id);
+      loose.push_back({e, &**pieces_[e], part == part_of.end() ? none : part->second});
+    }
+    const auto joints = joints_of(loose, std::max(meeting * scale_.size, 2 * gap_), parted);
+    std::vector<Measured> items;
+    std::size_t next = 0;
+    for (const Index e : used_) {
+      const std::string& id = model_.edges[e].id;
+      if (next == loose.size() || loose[next].edge != e) {
+        items.push_back({id, e});
+        continue;
+      }
+      std::map<std::string, int> times;
+      const bool is_whole = joints[next].size() == 1 && joints[next][0].other == none;
+      for (const Joint& joint : joints[next]) {
+        std::string name = id + (joint.other == none ? "" : "+" + model_.edges[joint.other].id);
+        if (const int again = times[name]++; again > 0) name += "/" + std::to_string(again + 1);
+        items.push_back({name, e, joint.other, is_whole ? std::nullopt : std::optional(joint)});
+      }
+      ++next;
+    }
+    return items;
+  }
+
+  Expected<EdgePiece> piece_of(Index e) const {
+    if (e >= bare_.size() || !bare_[e]) return edge_piece(model_, e);
+    auto curve = EdgeCurve::create(*model_.edges[e].curve);
+    if (!curve) return std::unexpected(curve.error());
+    const Interval whole = curve->domain().value_or(Interval{0, 1});
+    return EdgePiece{.curve = *std::move(curve), .from = whole.lower, .to = whole.upper};
+  }
+
   /// The size is that of all edges, whichever are measured.
   void find_scale() {
     pieces_.resize(model_.edges.size());
     Eigen::AlignedBox3d box;
     for (const Index e : used_) {
-      pieces_[e] = edge_piece(model_, e);
+      pieces_[e] = piece_of(e);
       if (!*pieces_[e]) continue;
       const EdgePiece& piece = **pieces_[e];
       for (int k = 0; k <= box_steps; ++k) {
@@ -89,10 +169,11 @@ class Measurer {
     gap_ = tolerances_.gap.value_or(std::max(stated, least_tolerance * scale_.size));
   }
 
-  void prepare(const std::vector<Index>& chosen) {
+  void prepare(const std::vector<Measured>& items) {
     std::set<Index> faces, splines;
-    for (const Index e : chosen) {
-      for (const Use& use : uses_[e]) faces.insert(use.face);
+    for (const Measured& item : items) {
+      for (const Use& use : uses_[item.edge]) faces.insert(use.face);
+      if (item.other != none) faces.insert(uses_[item.other][0].face);
     }
     const auto spline_of = [&](Index f) {
       const Index support = model_.faces[f].support;
@@ -128,18 +209,25 @@ class Measurer {
                          });
   }
 
-  EdgeMeasures measured(Index e) const {
+  EdgeMeasures measured(const Measured& item) const {
+    const Index e = item.edge;
     EdgeMeasures result;
-    result.id = model_.edges[e].id;
-    for (const Use& use : uses_[e]) {
+    result.id = item.id;
+    const auto add_face = [&](const Use& use) {
       const std::string& id = model_.faces[use.face].id;
       if (std::ranges::find(result.faces, id) == result.faces.end()) result.faces.push_back(id);
-    }
+    };
+    for (const Use& use : uses_[e]) add_face(use);
+    if (item.other != none) add_face(uses_[item.other][0]);
     if (!*pieces_[e]) {
       result.reason = pieces_[e]->error().message();
       return result;
     }
-    const EdgePiece& piece = **pieces_[e];
+    EdgePiece piece = **pieces_[e];
+    if (item.part) {
+      piece.from = item.part->from;
+      piece.to = item.part->to;
+    }
     const auto place = [&](double share) {
       const double s = piece.backwards ? 1 - share : share;
       return array_of(piece.curve.at(std::lerp(piece.from, piece.to, s)));
@@ -147,7 +235,7 @@ class Measurer {
     result.start = place(0);
     result.middle = place(0.5);
     result.end = place(1);
-    auto sides = sides_of(e, piece);
+    auto sides = sides_of(item, piece);
     if (!sides) {
       result.reason = sides.error().message();
       return result;
@@ -161,22 +249,37 @@ class Measurer {
       return result;
     }
     fill(result, walked, e, *sides);
+    if (item.part && item.part->several && result.kind != EdgeKind::unknown)
+      result.kind = EdgeKind::non_manifold;
     return result;
   }
 
   /// The face is to the left of its bound, seen from the tip of its normal; the edge may run
   /// against its bound, the curve against the edge, and the normal of the surface against the
   /// face's.
-  Expected<std::vector<EdgeSide>> sides_of(Index e, const EdgePiece& piece) const {
+  Expected<std::vector<EdgeSide>> sides_of(const Measured& item, const EdgePiece& piece) const {
     std::vector<EdgeSide> sides;
-    for (const Use& use : uses_[e]) {
-      const auto& face = *faces_[use.face];
-      if (!face) return std::unexpected(face.error());
-      EdgeSide& side = sides.emplace_back(EdgeSide{&*face});
-      for (const bool against :
-           {!use.forward, piece.backwards, !model_.faces[use.face].same_sense, face->turned()}) {
-        if (against) side.way = -side.way;
+    const auto add = [&](Index e, bool against_it) -> Expected<void> {
+      for (const Use& use : uses_[e]) {
+        const auto& face = *faces_[use.face];
+        if (!face) return std::unexpected(face.error());
+        EdgeSide& side = sides.emplace_back(EdgeSide{&*face});
+        for (const bool against : {!use.forward, (*pieces_[e])->backwards, against_it,
+                                   !model_.faces[use.face].same_sense, face->turned()}) {
+          if (against) side.way = -side.way;
+        }
       }
+      return {};
+    };
+    if (auto added = add(item.edge, false); !added) return std::unexpected(added.error());
+    if (item.other != none) {
+      if (auto added = add(item.other, !item.part->same_way); !added)
+        return std::unexpected(added.error());
+      if (sides[0].face == sides[1].face && item.edge < bare_.size()) {
+        sides[0].line = bare_[item.edge];
+        sides[1].line = bare_[item.other];
+      }
+      return sides;
     }
     if (sides.size() == 2 && sides[0].face == sides[1].face && sides[0].way != sides[1].way) {
       const double middle = (piece.from + piece.to) / 2;
@@ -246,6 +349,7 @@ class Measurer {
 
   const Model& model_;
   EdgeTolerances tolerances_;
+  std::span<const std::optional<CheckedFace::Side>> bare_;
   std::vector<std::vector<Use>> uses_;  // of every edge
   std::vector<Index> used_;
   std::vector<std::optional<Expected<EdgePiece>>> pieces_;
@@ -259,7 +363,9 @@ class Measurer {
 
 Expected<ModelMeasures> measure_edges(const Model& model, const EdgeTolerances& tolerances,
                                       std::span<const std::string> ids) {
-  return Measurer(model, tolerances).run(ids);
+  if (const auto faced = with_bare_faces(model))
+    return Measurer(faced->model, tolerances, faced->sides).run(ids);
+  return Measurer(model, tolerances, {}).run(ids);
 }
 
 }  // namespace knead::brep
