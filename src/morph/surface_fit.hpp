@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "brep/shared_edge.hpp"
+
+namespace knead::morph {
+
+/// A displacement wanted at a point of a surface, in file units.
+struct Datum {
+  int surface = 0;                        ///< position in the list of surfaces
+  std::array<double, 2> parameters = {};  ///< within the domain of that surface
+  Point displacement = Point::Zero();
+  double weight = 1;  ///< relative to the other data of this surface; >= 0
+};
+
+/// A surface of the model and what its faces show of it.
+struct FitSurface {
+  std::shared_ptr<const Surface> surface;
+  VisibleRegion region = {};
+  bool fixed = false;  ///< keeps its control points, and holds its neighbours' edges
+};
+
+/// An edge at which surfaces stay together.
+struct FitEdge {
+  std::shared_ptr<const SharedEdge> course;
+  std::vector<int> surfaces;  ///< position of each of `course->surfaces()` in the list of surfaces
+  /// In place of a course, which is null then: points of the edge with a foot on each surface.
+  /// Between them feet are those of the chord in fractions: exact for edges along lines of
+  /// parameters.
+  std::vector<SharedEdge::Sample> samples = {};
+  std::string name = {};  ///< with `samples`: what the edge is called
+};
+
+struct FitSettings {
+  /// The largest residual wanted at data, file units; none: 1e-5 of the size.
+  std::optional<double> tolerance = {};
+  /// Standard deviation of each coordinate of the data, file units; none: the data are exact, and
+  /// `tolerance` is what is sought. Else rounds and λ end where the residuals are of that size.
+  std::optional<double> noise = {};
+  std::optional<double> energy = {};   ///< λ > 0; none: chosen
+  std::optional<double> parting = {};  ///< largest at edges, file units; none: 1e-6 of the size
+  double angle = 0.02;  ///< largest by which tangent planes at smooth edges turn apart, degrees
+  /// At most so many times the control points that all surfaces have after raising to degree 3.
+  double refinement = 8;
+  std::optional<int> rounds = {};  ///< repeated solves on each factor, exactly; none: as needed
+};
+
+/// What is larger than wanted after the fit.
+struct FitExcess {
+  enum class Measure {
+    residual,       ///< of a datum, file units
+    parting,        ///< of the surfaces at an edge, file units
+    angle,          ///< at a smooth edge or knot line, degrees
+    contradiction,  ///< a datum on a fixed surface, file units
+  };
+  Measure measure = Measure::residual;
+  int surface = 0;
+  std::array<double, 2> parameters = {};  ///< on that surface
+  Point place = Point::Zero();            ///< before the displacement
+  std::string edge = {};                  ///< its name; empty where the measure is not of an edge
+  double found = 0, wanted = 0;
+};
+
+struct FitResult {
+  std::vector<Surface> surfaces;  ///< in the order given
+  double lambda = 0;              ///< that was used at last; 0: the affine map alone was enough
+  int rounds = 0;                 ///< solves on the last factor
+  int refinements = 0;            ///< times that knots were inserted
+  int control_points = 0;         ///< of all surfaces
+  double size = 0;                ///< diagonal of the box of the visible edges and data
+  double largest_residual = 0, rms_residual = 0;  ///< of data on surfaces that are not fixed
+  double largest_parting = 0;                     ///< |Δ displacement| at edges, file units
+  double largest_angle = 0;  ///< between tangent planes at smooth edges and knot lines, degrees
+  std::vector<FitExcess> above = {};  ///< by measure, the worst of every surface or edge
+};
+
+/// Moves surfaces so that their points follow data, and keeps them together at edges: the
+/// displacement D_s = Σ R_ij X_ij of every surface s, R its rational basis with unchanged weights,
+/// that minimises over all surfaces at once
+///
+///   Σ_data w |D − d|² + ρ_0 Σ_edges |D_a − D_b|² + ρ_1 Σ_smooth |∂D_a − ∂D_b|² + λ Σ_s E_s(D_s),
+///
+/// with ∂ the derivative by length across the edge, and E_s stretch and bend on the whole domain in
+/// the units of each surface (`normalised_scaling`). The affine map that fits the data best is
+/// taken from them before and applied to all control points, exactly. Iterated Tikhonov
+/// regularisation (H. Engl, M. Hanke, A. Neubauer, *Regularization of Inverse Problems*, 1996,
+/// 5.1): X ← X + (M + λK)⁻¹ (b − M X) on one factor, until tolerance or, of data with noise, the
+/// discrepancy principle; then knots are inserted where residual, parting or angle ask for it.
+/// Poles stay points and closed surfaces closed, exactly. docs/design/morph.md.
+///
+/// Data that are zero give the surfaces as they are, bit for bit; an affine map gives its image on
+/// the nets as they are. Results do not depend on the number of threads.
+///
+/// Errors (input): a number that is not finite, parameters outside the domain, an index out of
+/// range, no datum on a surface that is free; (numerical) a denominator that is not positive. Cost:
+/// a few sparse factorisations and about twenty solves on each; 300 bytes of memory per datum.
+[[nodiscard]] Expected<FitResult> fit_surfaces(std::span<const FitSurface> surfaces,
+                                               std::span<const FitEdge> edges,
+                                               std::span<const Datum> data,
+                                               const FitSettings& settings = {});
+
+}  // namespace knead::morph
