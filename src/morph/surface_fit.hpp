@@ -68,12 +68,12 @@ struct FitExcess {
 };
 
 struct FitResult {
-  std::vector<Surface> surfaces;  ///< in the order given
-  double lambda = 0;              ///< that was used at last; 0: the affine map alone was enough
-  int rounds = 0;                 ///< solves on the last factor
-  int refinements = 0;            ///< times that knots were inserted
-  int control_points = 0;         ///< of all surfaces
-  double size = 0;                ///< diagonal of the box of the visible edges and data
+  std::vector<Surface> surfaces = {};  ///< in the order given
+  double lambda = 0;       ///< that was used at last; 0: the affine map alone was enough
+  int rounds = 0;          ///< solves on the last factor
+  int refinements = 0;     ///< times that knots were inserted
+  int control_points = 0;  ///< of all surfaces
+  double size = 0;         ///< diagonal of the box of the visible edges and data
   double largest_residual = 0, rms_residual = 0;  ///< of data on surfaces that are not fixed
   double largest_parting = 0;                     ///< |Δ displacement| at edges, file units
   double largest_angle = 0;  ///< between tangent planes at smooth edges and knot lines, degrees

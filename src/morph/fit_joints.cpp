@@ -1,0 +1,271 @@
+#include "fit_joints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel_for.hpp"
+#include "knead/brep/model.hpp"
+#include "knead/spline/evaluate.hpp"
+
+namespace knead::morph {
+namespace {
+
+using Eigen::Vector2d;
+using Sample = SharedEdge::Sample;
+
+constexpr int per_span = 4;         // conditions: as many as a cubic has coefficients
+constexpr double most_parts = 256;  // of an interval between samples
+
+/// The number of the span at a fraction of the domain, and how far into it: continuous.
+double phase(const KnotVector& knots, const std::vector<int>& spans, double fraction) {
+  const Interval domain = knots.domain();
+  const double u =
+      std::clamp(domain.lower + fraction * domain.length(), domain.lower, domain.upper);
+  const int span = knots.find_span(u);
+  const auto at = std::ranges::lower_bound(spans, span) - spans.begin();
+  return static_cast<double>(at) + (u - knots[span]) / (knots[span + 1] - knots[span]);
+}
+
+/// A sample between two others at this share of the way.
+Sample between(const FitEdge& edge, const Sample& a, const Sample& b, double share) {
+  if (edge.course) return edge.course->at(std::lerp(a.parameter, b.parameter, share));
+  Sample result{
+      std::lerp(a.parameter, b.parameter, share), (1 - share) * a.point + share * b.point, {}};
+  for (std::size_t k = 0; k < a.feet.size(); ++k)
+    result.feet.emplace_back((1 - share) * a.feet[k] + share * b.feet[k]);
+  if (a.across.size() == b.across.size()) {
+    for (std::size_t k = 0; k < a.across.size(); ++k)
+      result.across.emplace_back((1 - share) * a.across[k] + share * b.across[k]);
+  }
+  return result;
+}
+
+/// The samples of an edge, with more between them wherever spans of its surfaces are short: an
+/// interval is divided into as many parts as the surface asks for that crosses most knots.
+std::vector<Sample> samples_for(const FitEdge& edge, const FitNets& nets) {
+  const std::vector<Sample>& given = edge.course ? edge.course->samples() : edge.samples;
+  std::vector<double> parts(given.size(), 1);
+  for (std::size_t s = 0; s < edge.surfaces.size(); ++s) {
+    for (int d = 0; d < 2; ++d) {
+      const KnotVector& knots = nets.surfaces[static_cast<std::size_t>(edge.surfaces[s])].knots(d);
+      const std::vector<int> spans = knots.spans();
+      double before = phase(knots, spans, given[0].feet[s][d]);
+      for (std::size_t k = 1; k < given.size(); ++k) {
+        const double now = phase(knots, spans, given[k].feet[s][d]);
+        parts[k] = std::max(parts[k], std::ceil(std::abs(now - before) * per_span));
+        before = now;
+      }
+    }
+  }
+  std::vector<Sample> result = {given.front()};
+  for (std::size_t k = 1; k < given.size(); ++k) {
+    const int count = static_cast<int>(std::min(parts[k], most_parts));
+    for (int j = 1; j < count; ++j)
+      result.push_back(between(edge, given[k - 1], given[k], static_cast<double>(j) / count));
+    result.push_back(given[k]);
+  }
+  return result;
+}
+
+bool is_smooth(const FitEdge& edge) {
+  if (edge.course) return edge.surfaces.size() > 1 && edge.course->angle() <= smooth_angle;
+  return edge.surfaces.size() > 1 && std::ranges::all_of(edge.samples, [](const Sample& sample) {
+           return sample.angle <= smooth_angle;
+         });
+}
+
+/// Changes of fractions as changes of parameters.
+Vector2d in_parameters(const Surface& s, const Vector2d& across) {
+  return {s.knots(0).domain().length() * across.x(), s.knots(1).domain().length() * across.y()};
+}
+
+/// The joints of the first surface at an edge with each of the others.
+std::vector<Joint> joints_of(const FitEdge& edge, const FitNets& nets) {
+  std::vector<Joint> result;
+  if (edge.surfaces.size() < 2) return result;
+  const std::vector<Sample> samples = samples_for(edge, nets);
+  double length = 0;
+  for (std::size_t k = 1; k < samples.size(); ++k)
+    length += (samples[k].point - samples[k - 1].point).norm();
+  for (std::size_t other = 1; other < edge.surfaces.size(); ++other) {
+    Joint joint{.edge = edge.course ? edge.course->id() : edge.name,
+                .surfaces = {edge.surfaces[0], edge.surfaces[other]},
+                .points = {},
+                .smooth = is_smooth(edge),
+                .length = length};
+    for (const Sample& sample : samples) {
+      std::array<Joint::Foot, 2> feet;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::size_t k = side == 0 ? 0 : other;
+        const Surface& s = nets.surfaces[static_cast<std::size_t>(joint.surfaces[side])];
+        feet[side].at = parameters_at_foot(s, sample.feet[k]);
+        if (k < sample.across.size()) feet[side].across = in_parameters(s, sample.across[k]);
+      }
+      joint.points.push_back(feet);
+    }
+    result.push_back(std::move(joint));
+  }
+  return result;
+}
+
+/// First derivatives of a surface along a line of constant parameter.
+struct LineTangents {
+  Points u, v;
+};
+Expected<LineTangents> tangents(const Surface& s, const Joint& joint, std::size_t side) {
+  Parameters<2> at(static_cast<Eigen::Index>(joint.points.size()), 2);
+  for (std::size_t k = 0; k < joint.points.size(); ++k) {
+    const auto& foot = joint.points[k][side].at;
+    at.row(static_cast<Eigen::Index>(k)) << foot[0], foot[1];
+  }
+  auto jet = evaluate<2>(s, at, 1, joint.sides[side]);
+  if (!jet) return std::unexpected(jet.error());
+  return LineTangents{jet->at({1, 0}), jet->at({0, 1})};
+}
+
+/// The normal at a point, of unit length; zero where there is none, as beside poles.
+Point normal(const LineTangents& t, std::size_t point) {
+  constexpr double least_sine = 1e-9;
+  const Point u = t.u.row(static_cast<Eigen::Index>(point)).transpose(),
+              v = t.v.row(static_cast<Eigen::Index>(point)).transpose(), n = u.cross(v);
+  return n.norm() > least_sine * u.norm() * v.norm() ? Point(n.normalized()) : Point(Point::Zero());
+}
+
+/// Gives a line of constant parameter its directions across, if the tangent planes of both sides
+/// are common: the unit vector in the first side's plane perpendicular to the line, in parameters
+/// of each side by least squares.
+Expected<bool> look_across(const Surface& s, int direction, Joint& joint) {
+  const auto low = tangents(s, joint, 0), high = tangents(s, joint, 1);
+  if (!low) return std::unexpected(low.error());
+  if (!high) return std::unexpected(high.error());
+  bool any = false;
+  for (std::size_t k = 0; k < joint.points.size(); ++k) {
+    const Point n = normal(*low, k), m = normal(*high, k);
+    if (n.isZero() || m.isZero()) continue;
+    if (angle_between_planes(n, m) > smooth_angle || n.dot(m) < 0) return false;
+    const auto row = static_cast<Eigen::Index>(k);
+    const Point along = (direction == 0 ? low->v : low->u).row(row).transpose();
+    const Point across = n.cross(along).normalized();
+    for (std::size_t side = 0; side < 2; ++side) {
+      const LineTangents& t = side == 0 ? *low : *high;
+      Eigen::Matrix<double, 3, 2> d;
+      d << t.u.row(row).transpose(), t.v.row(row).transpose();
+      const Eigen::Matrix2d gramian = d.transpose() * d;
+      joint.points[k][side].across = gramian.inverse() * (d.transpose() * across);
+    }
+    any = true;
+  }
+  return any;
+}
+
+/// The line at which a direction has the parameters `low` and `high`, the same but for closed ones.
+Joint line_at(const Surface& s, int surface, int direction, double low, double high) {
+  Joint result{
+      .edge = {}, .surfaces = {surface, surface}, .points = {}, .smooth = true, .position = false};
+  if (low == high) result.sides = {Side::left, Side::right};
+  const KnotVector& along = s.knots(1 - direction);
+  for (const int span : along.spans()) {
+    for (int k = 0; k < per_span; ++k) {
+      const double t = std::lerp(along[span], along[span + 1], (k + 0.5) / per_span);
+      std::array<Joint::Foot, 2> feet;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const double across = side == 0 ? low : high;
+        feet[side].at = direction == 0 ? std::array{across, t} : std::array{t, across};
+      }
+      result.points.push_back(feet);
+    }
+  }
+  return result;
+}
+
+/// The length of the line in the polygon of its points, on the side that is first.
+Expected<double> line_length(const Surface& s, const Joint& joint) {
+  Parameters<2> at(static_cast<Eigen::Index>(joint.points.size()), 2);
+  for (std::size_t k = 0; k < joint.points.size(); ++k)
+    at.row(static_cast<Eigen::Index>(k)) << joint.points[k][0].at[0], joint.points[k][0].at[1];
+  const auto points = evaluate<2>(s, at);
+  if (!points) return std::unexpected(points.error());
+  double result = 0;
+  for (Eigen::Index k = 1; k < at.rows(); ++k)
+    result += (points->points().row(k) - points->points().row(k - 1)).norm();
+  return result;
+}
+
+}  // namespace
+
+std::vector<Joint> joints_of_edges(std::span<const FitEdge> edges, const FitNets& nets) {
+  std::vector<std::vector<Joint>> each(edges.size());
+  constexpr double work = 1 << 18;  // some samples' feet may be sought
+  const auto count = static_cast<std::ptrdiff_t>(edges.size());
+  detail::parallel_for(
+      count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+          each[k] = joints_of(edges[k], nets);
+      });
+  std::vector<Joint> result;
+  for (std::vector<Joint>& joints : each) {
+    for (Joint& joint : joints) result.push_back(std::move(joint));
+  }
+  return result;
+}
+
+// A knot of multiplicity p or more: displacements are C0 there, and a surface that is smooth there
+// would get a crease. Surfaces that close have such a line where they meet themselves.
+Expected<std::vector<Joint>> joints_of_lines(const FitNets& nets) {
+  std::vector<Joint> result;
+  for (std::size_t k = 0; k < nets.surfaces.size(); ++k) {
+    if (nets.fixed[k]) continue;
+    const Surface& s = nets.surfaces[k];
+    const auto closed = brep::closed_directions(s);
+    for (int d = 0; d < 2; ++d) {
+      const KnotVector& knots = s.knots(d);
+      const Interval domain = knots.domain();
+      std::vector<std::array<double, 2>> lines;
+      for (const int span : knots.spans()) {
+        const double c = knots[span];
+        if (c > domain.lower && knots.multiplicity(c) >= knots.degree()) lines.push_back({c, c});
+      }
+      if (closed[static_cast<std::size_t>(d)]) lines.push_back({domain.upper, domain.lower});
+      for (const auto& [low, high] : lines) {
+        Joint line = line_at(s, static_cast<int>(k), d, low, high);
+        line.position = low != high || knots.multiplicity(low) > knots.degree();
+        const auto smooth = look_across(s, d, line);
+        if (!smooth) return std::unexpected(smooth.error());
+        if (!*smooth) continue;
+        const auto length = line_length(s, line);
+        if (!length) return std::unexpected(length.error());
+        line.length = *length;
+        result.push_back(std::move(line));
+      }
+    }
+  }
+  return result;
+}
+
+Expected<JointAngle> largest_angle(const Joint& joint, std::span<const Surface> before,
+                                   std::span<const Surface> after) {
+  JointAngle result;
+  std::array<LineTangents, 2> then, now;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto s = static_cast<std::size_t>(joint.surfaces[side]);
+    auto a = tangents(before[s], joint, side), b = tangents(after[s], joint, side);
+    if (!a) return std::unexpected(a.error());
+    if (!b) return std::unexpected(b.error());
+    then[side] = *std::move(a);
+    now[side] = *std::move(b);
+  }
+  for (std::size_t k = 0; k < joint.points.size(); ++k) {
+    if (joint.points[k][0].across.isZero() || joint.points[k][1].across.isZero()) continue;
+    const Point a = normal(now[0], k), b = normal(now[1], k);
+    const Point c = normal(then[0], k), d = normal(then[1], k);
+    if (a.isZero() || b.isZero() || c.isZero() || d.isZero()) continue;
+    const double turned = angle_between_planes(a, b) - angle_between_planes(c, d);
+    const double degrees = turned * 180 / std::numbers::pi;
+    if (degrees <= result.degrees) continue;
+    result = {degrees, k};
+  }
+  return result;
+}
+
+}  // namespace knead::morph

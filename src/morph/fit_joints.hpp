@@ -1,0 +1,47 @@
+#pragma once
+
+#include "fit_nets.hpp"
+
+namespace knead::morph {
+
+/// A curve along which two surfaces, or two sides of one, stay together: an edge, a knot line at
+/// which a surface is only continuous, or the line at which a closed surface meets itself.
+struct Joint {
+  /// One side at a point of the curve.
+  struct Foot {
+    std::array<double, 2> at = {};                     ///< parameters
+    Eigen::Vector2d across = Eigen::Vector2d::Zero();  ///< in parameters: a unit vector in space
+  };
+  std::string edge;  ///< its name; empty: a line of the surface
+  std::array<int, 2> surfaces = {};
+  std::array<Side, 2> sides = {Side::right, Side::right};  ///< of which limits are taken at knots
+  std::vector<std::array<Foot, 2>> points;
+  bool smooth = false;   ///< tangent planes are common, where `across` is not zero
+  bool position = true;  ///< whether positions are asked: not where the basis keeps them
+  double length = 0;     ///< file units
+};
+
+/// The joints of edges of two surfaces or more, at the samples of their courses and at least four
+/// points in every span crossed of either surface.
+[[nodiscard]] std::vector<Joint> joints_of_edges(std::span<const FitEdge> edges,
+                                                 const FitNets& nets);
+
+/// The knot lines of surfaces that are not fixed at which the basis is continuous at most and
+/// tangent planes of the surface are common, within `smooth_angle`; and so where closed surfaces
+/// meet themselves. Errors: those of evaluation.
+[[nodiscard]] Expected<std::vector<Joint>> joints_of_lines(const FitNets& nets);
+
+/// The angle in radians up to which tangent planes along a whole edge count as common.
+inline constexpr double smooth_angle = 0.5 * 3.14159265358979323846 / 180;
+
+/// The largest angle, degrees, between the tangent planes on both sides at the points of smooth
+/// joints, less what it is in the surfaces before; and the point at which it is.
+struct JointAngle {
+  double degrees = 0;
+  std::size_t point = 0;
+};
+[[nodiscard]] Expected<JointAngle> largest_angle(const Joint& joint,
+                                                 std::span<const Surface> before,
+                                                 std::span<const Surface> after);
+
+}  // namespace knead::morph

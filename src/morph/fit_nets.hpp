@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hold/constraint_rows.hpp"
+#include "surface_fit.hpp"
+
+namespace knead::morph {
+
+using detail::Terms;
+
+/// The nets of a fit, and which unknown moves each control point.
+struct FitNets {
+  std::vector<Surface> surfaces;
+  std::vector<bool> fixed;   ///< one for each surface
+  std::vector<int> first;    ///< number of the first control point of each surface, and the end
+  std::vector<int> unknown;  ///< of each control point; −1: it is fixed
+  int unknowns = 0;
+
+  /// Makes `first`, `unknown` and `unknowns` for the surfaces as they are. Control points of a pole
+  /// have one unknown, and so have both ends of a closed surface whose weights there agree: poles
+  /// stay points, and closed surfaces closed, exactly.
+  void number(std::span<const FitSurface> given);
+
+  /// R at a point of a surface, or its derivative in a direction of its parameters (`along` 0 or
+  /// 1), times `factor`, as terms of unknowns; those of fixed control points are left out. At a
+  /// knot the limit from `side`. Errors: a denominator that is not positive.
+  [[nodiscard]] Expected<void> add_row(int surface, const std::array<double, 2>& at, Side side,
+                                       int along, double factor, Terms& to) const;
+
+  /// The displacements of the control points of a surface; zero where they are fixed.
+  [[nodiscard]] Points of_surface(int surface, const Points& unknowns) const;
+};
+
+/// Σ c X_k.
+[[nodiscard]] Point value_of(const Terms& row, const Points& x);
+
+}  // namespace knead::morph

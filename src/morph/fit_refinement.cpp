@@ -1,0 +1,176 @@
+#include "fit_refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "knead/spline/spline_refinement.hpp"
+
+namespace knead::morph {
+namespace {
+
+constexpr double least_span = 1e-3;  // of the domain
+constexpr int most_parts = 4;
+constexpr double same_urgency = 0.25;    // of the larger of both directions
+constexpr std::size_t least_points = 4;  // of a cell: fewer say nothing of a finer net
+
+struct Cell {
+  int surface = 0;
+  std::array<int, 2> spans = {};
+  friend auto operator<=>(const Cell&, const Cell&) = default;
+};
+
+Cell cell_of(const FitNets& nets, const FitPoint& point) {
+  const Surface& s = nets.surfaces[static_cast<std::size_t>(point.surface)];
+  return {point.surface, {s.knots(0).find_span(point.at[0]), s.knots(1).find_span(point.at[1])}};
+}
+
+/// P_n(t), by Bonnet's recursion.
+double legendre(int n, double t) {
+  double before = 1, now = t;
+  for (int k = 1; k < n; ++k)
+    before = std::exchange(now, ((2 * k + 1) * t * now - k * before) / (k + 1));
+  return n == 0 ? 1 : now;
+}
+
+/// Where a parameter lies in a span, from −1 to 1.
+double within(const KnotVector& knots, int span, double u) {
+  return 2 * (u - knots[span]) / (knots[span + 1] - knots[span]) - 1;
+}
+
+/// The size of the part of the residuals of a cell that P_{p+1} in each direction explains, file
+/// units, and the largest residual.
+struct CellError {
+  std::array<double, 2> part = {};
+  double largest = 0;
+};
+CellError error_in(const Surface& s, const Cell& cell, std::span<const FitPoint> points,
+                   const std::function<Point(std::size_t)>& residual, std::size_t first) {
+  CellError result;
+  std::array<std::array<Point, 2>, 2> sums;
+  std::array<std::array<double, 2>, 2> norms = {};
+  for (auto& of_direction : sums) of_direction.fill(Point::Zero());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Point r = residual(first + k);
+    result.largest = std::max(result.largest, r.norm());
+    const std::array<double, 2> t = {within(s.knots(0), cell.spans[0], points[k].at[0]),
+                                     within(s.knots(1), cell.spans[1], points[k].at[1])};
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double p = legendre(s.knots(static_cast<int>(d)).degree() + 1, t[d]);
+      for (std::size_t other = 0; other < 2; ++other) {
+        const double shape = other == 0 ? p : p * t[1 - d];
+        sums[d][other] += shape * r;
+        norms[d][other] += shape * shape;
+      }
+    }
+  }
+  for (std::size_t d = 0; d < 2; ++d) {
+    for (std::size_t other = 0; other < 2; ++other) {
+      if (norms[d][other] > 0)
+        result.part[d] = std::max(result.part[d], sums[d][other].norm() / norms[d][other]);
+    }
+  }
+  return result;
+}
+
+void ask(SurfaceRefinement& surface, int direction, int span, int parts) {
+  int& now = surface.parts[static_cast<std::size_t>(direction)][span];
+  now = std::max(now, parts);
+}
+
+}  // namespace
+
+void sort_by_cells(const FitNets& nets, std::vector<FitPoint>& points) {
+  std::vector<std::pair<Cell, std::size_t>> order;
+  order.reserve(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) order.emplace_back(cell_of(nets, points[k]), k);
+  std::ranges::sort(order);
+  std::vector<FitPoint> sorted;
+  sorted.reserve(points.size());
+  for (const auto& [cell, k] : order) sorted.push_back(points[k]);
+  points = std::move(sorted);
+}
+
+void plan_for_residuals(const FitNets& nets, std::span<const FitPoint> points,
+                        const std::function<Point(std::size_t)>& residual, double wanted,
+                        double noise, RefinementPlan& plan) {
+  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+    const Cell cell = cell_of(nets, points[begin]);
+    while (end < points.size() && cell_of(nets, points[end]) == cell) ++end;
+    const auto surface = static_cast<std::size_t>(cell.surface);
+    if (nets.fixed[surface] || end - begin < least_points) continue;
+    const Surface& s = nets.surfaces[surface];
+    const CellError error = error_in(s, cell, points.subspan(begin, end - begin), residual, begin);
+    const double chance = 4 * noise * std::sqrt(9.0 / static_cast<double>(end - begin));
+    // Of exact data the largest residual counts, shared out by the parts; of others the parts.
+    const double largest_part = std::max(error.part[0], error.part[1]);
+    const double scale = noise > 0 || largest_part == 0 ? 1 : error.largest / largest_part;
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double found = scale * error.part[d];
+      if (found <= std::max(wanted, chance) || error.part[d] < same_urgency * largest_part)
+        continue;
+      const int degree = s.knots(static_cast<int>(d)).degree();
+      const double parts = std::ceil(std::pow(found / wanted, 1.0 / (degree + 1)));
+      ask(plan[surface], static_cast<int>(d), cell.spans[d],
+          std::clamp(static_cast<int>(parts), 2, most_parts));
+      plan[surface].urgency = std::max(plan[surface].urgency, found / wanted);
+    }
+  }
+}
+
+void plan_for_joint(const FitNets& nets, const Joint& joint, std::size_t point, double urgency,
+                    RefinementPlan& plan) {
+  const std::size_t next = point + 1 < joint.points.size() ? point + 1 : point - 1;
+  constexpr double along = 0.1;  // of the larger change of a parameter, in spans
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto surface = static_cast<std::size_t>(joint.surfaces[side]);
+    if (nets.fixed[surface]) continue;
+    const Surface& s = nets.surfaces[surface];
+    std::array<double, 2> change = {};
+    std::array<int, 2> spans = {};
+    for (std::size_t d = 0; d < 2; ++d) {
+      const KnotVector& knots = s.knots(static_cast<int>(d));
+      const double u = joint.points[point][side].at[d];
+      spans[d] = knots.find_span(u, joint.sides[side]);
+      change[d] =
+          std::abs(joint.points[next][side].at[d] - u) / (knots[spans[d] + 1] - knots[spans[d]]);
+    }
+    for (std::size_t d = 0; d < 2; ++d) {
+      if (change[d] >= along * change[1 - d]) ask(plan[surface], static_cast<int>(d), spans[d], 2);
+    }
+    plan[surface].urgency = std::max(plan[surface].urgency, urgency);
+  }
+}
+
+Expected<int> refine(const RefinementPlan& plan, int most, FitNets& nets) {
+  std::vector<std::size_t> order(plan.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return plan[k].urgency; });
+  int count = 0, total = 0;
+  for (const Surface& s : nets.surfaces) total += s.size();
+  for (const std::size_t k : order) {
+    const Surface& s = nets.surfaces[k];
+    std::array<std::vector<double>, 2> inserted;
+    for (int d = 0; d < 2; ++d) {
+      const KnotVector& knots = s.knots(d);
+      for (const auto& [span, parts] : plan[k].parts[static_cast<std::size_t>(d)]) {
+        const double a = knots[span], b = knots[span + 1];
+        const double fits = (b - a) / (least_span * knots.domain().length());
+        for (int j = 1; j < std::min<double>(parts, fits); ++j)
+          inserted[static_cast<std::size_t>(d)].push_back(std::lerp(a, b, double(j) / parts));
+      }
+    }
+    const auto net = s.net();
+    const int finer = (net[0] + static_cast<int>(inserted[0].size())) *
+                      (net[1] + static_cast<int>(inserted[1].size()));
+    if (finer == s.size() || total + finer - s.size() > most) continue;
+    auto made = insert_knots<2>(s, inserted);
+    if (!made) return std::unexpected(made.error());
+    total += finer - s.size();
+    nets.surfaces[k] = *std::move(made);
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace knead::morph

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "fit_system.hpp"
+
+namespace knead::morph {
+
+/// Which spans of a surface are to be divided, into how many parts, and how urgently.
+struct SurfaceRefinement {
+  std::array<std::map<int, int>, 2> parts = {};  ///< by direction: of a span, at its left knot
+  double urgency = 0;                            ///< the largest found / wanted
+};
+using RefinementPlan = std::vector<SurfaceRefinement>;
+
+/// Orders points by surface and cell of knots; points of a cell keep their order.
+void sort_by_cells(const FitNets& nets, std::vector<FitPoint>& points);
+
+/// Divides spans of cells in which residuals are too large, in the direction that leaves them.
+///
+/// What a least-squares fit of degree p leaves of smooth displacements in a cell is, to first
+/// order, the Legendre polynomial of degree p + 1 in the one direction or the other, by the
+/// derivative of that order in it. The residuals are projected on both, each times {1, t} of the
+/// other direction; a direction is divided if its part is more than what is wanted, into as many
+/// parts as the order of convergence p + 1 asks for.
+/// \param residual of a point by position, in the order of `sort_by_cells`
+/// \param wanted largest residual; `noise`: standard deviation of each coordinate, 0: exact data,
+/// else parts that noise alone explains, below four deviations, ask for nothing.
+void plan_for_residuals(const FitNets& nets, std::span<const FitPoint> points,
+                        const std::function<Point(std::size_t)>& residual, double wanted,
+                        double noise, RefinementPlan& plan);
+
+/// Halves the spans in which a joint has a point, in the directions in which it runs, on both
+/// sides.
+void plan_for_joint(const FitNets& nets, const Joint& joint, std::size_t point, double urgency,
+                    RefinementPlan& plan);
+
+/// Inserts the knots, the most urgent surfaces first, as long as all nets together have no more
+/// control points than `most`. Returns how many surfaces have got knots. Spans below a thousandth
+/// of the domain are not divided. Errors: those of `insert_knots`.
+[[nodiscard]] Expected<int> refine(const RefinementPlan& plan, int most, FitNets& nets);
+
+}  // namespace knead::morph

@@ -1,0 +1,196 @@
+#include "fit_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include "base/parallel_for.hpp"
+#include "normal_equations.hpp"
+
+namespace knead::morph {
+namespace {
+
+// Weights relative to those of the data, which are 1 for the area of the size squared.
+constexpr double position_weight = 1e3;
+constexpr double slope_weight = 1;
+constexpr double least_length = 1e-3;  // of the size: shorter edges weigh as much
+
+// The energy on a domain whose sides are the mean lengths of the lines of parameters, in units of
+// the root of the area. Bending makes displacements smooth between data; stretch lets them run out
+// flat beyond the last datum within about a side of the domain, where bending alone would go on
+// with the slope there to any distance.
+constexpr double bend = 1, stretch = 1;
+// The whole surface's displacement costs this: a surface that neither data nor edges move stays.
+constexpr double least_energy = 1e-6;
+
+/// The first error of several threads is that of the least index.
+class FirstError {
+ public:
+  void note(std::size_t index, const Error& error) {
+    const std::scoped_lock lock(mutex_);
+    if (first_ && first_->first <= index) return;
+    first_ = {index, error};
+  }
+  [[nodiscard]] Expected<void> result() const {
+    if (first_) return std::unexpected(first_->second);
+    return {};
+  }
+
+ private:
+  std::mutex mutex_;
+  std::optional<std::pair<std::size_t, Error>> first_;
+};
+
+/// The difference of both sides of a joint at a point: of R, or of its derivatives across.
+Expected<Terms> difference(const FitNets& nets, const Joint& joint, std::size_t point,
+                           bool derivative) {
+  Terms result;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Joint::Foot& foot = joint.points[point][side];
+    const double sign = side == 0 ? 1 : -1;
+    const int surface = joint.surfaces[side];
+    for (int along = derivative ? 0 : -1; along < (derivative ? 2 : 0); ++along) {
+      const double factor = derivative ? sign * foot.across[along] : sign;
+      const auto added = nets.add_row(surface, foot.at, joint.sides[side], along, factor, result);
+      if (!added) return std::unexpected(added.error());
+    }
+  }
+  return result;
+}
+
+/// E of one surface. The basis is that of the polynomial net, weights or not: an energy chooses
+/// among displacements, and this one is exact, quickly made and bounded whatever the weights.
+Expected<SparseMatrix> energy_of(const Surface& s, const FitUnits& units) {
+  Material material;
+  material.alpha = {stretch, 0, stretch};
+  material.beta = {bend, bend, bend};
+  Energy<2> energy = stretch_and_bend(material);
+  for (const EnergyTerm<2>& term : mass_energy<2>(least_energy)) energy.push_back(term);
+  const auto k = Stiffness<2>::create(s.knots(), on_scaled_domain<2>(energy, units.factors));
+  if (!k) return std::unexpected(k.error());
+  return k->assemble();
+}
+
+}  // namespace
+
+Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPoint> points,
+                                      std::span<const Joint> joints,
+                                      std::span<const FitUnits> units, double size) {
+  FitSystem result;
+  if (auto made = result.make_rows(nets, points, joints); !made)
+    return std::unexpected(made.error());
+  NormalEquations fit(nets.unknowns);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    fit.add(result.data_[k], points[k].weight, result.wanted_[k]);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const double share = std::max(joints[j].length / size, least_length) /
+                         static_cast<double>(joints[j].points.size());
+    for (const Terms& row : result.apart_[j]) fit.add(row, position_weight * share, Point::Zero());
+    for (const Terms& row : result.slopes_[j])
+      fit.add(row, slope_weight * share * size * size, Point::Zero());
+  }
+  result.right_ = fit.right();
+  result.m_ = fit.matrix();
+  NormalEquations energies(nets.unknowns);
+  for (std::size_t s = 0; s < nets.surfaces.size(); ++s) {
+    if (nets.fixed[s]) continue;
+    const auto own = energy_of(nets.surfaces[s], units[s]);
+    if (!own) return std::unexpected(own.error());
+    const auto from = static_cast<std::size_t>(nets.first[s]);
+    energies.add(
+        *own,
+        std::span(nets.unknown).subspan(from, static_cast<std::size_t>(nets.surfaces[s].size())),
+        units[s].share);
+  }
+  result.k_ = energies.matrix();
+  return result;
+}
+
+Expected<void> FitSystem::make_rows(const FitNets& nets, std::span<const FitPoint> points,
+                                    std::span<const Joint> joints) {
+  FirstError error;
+  data_.resize(points.size());
+  for (const FitPoint& point : points) wanted_.push_back(point.wanted);
+  const auto count = static_cast<std::ptrdiff_t>(points.size());
+  constexpr double row_work = 500;
+  detail::parallel_for(
+      count, detail::block_size(count, row_work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+          const auto made =
+              nets.add_row(points[k].surface, points[k].at, Side::right, -1, 1, data_[k]);
+          if (!made) error.note(k, made.error());
+        }
+      });
+  apart_.resize(joints.size());
+  slopes_.resize(joints.size());
+  const auto joint_count = static_cast<std::ptrdiff_t>(joints.size());
+  detail::parallel_for(
+      joint_count, detail::block_size(joint_count, 100 * row_work),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
+          const Joint& joint = joints[j];
+          for (std::size_t k = 0; k < joint.points.size(); ++k) {
+            const bool sloped = joint.smooth && !joint.points[k][0].across.isZero() &&
+                                !joint.points[k][1].across.isZero();
+            for (const bool derivative : {false, true}) {
+              if (derivative ? !sloped : !joint.position) continue;
+              auto row = difference(nets, joint, k, derivative);
+              if (!row) {
+                error.note(points.size() + j, row.error());
+                continue;
+              }
+              (derivative ? slopes_ : apart_)[j].push_back(*std::move(row));
+            }
+          }
+        }
+      });
+  return error.result();
+}
+
+FitSystem::Parting FitSystem::parting(std::size_t joint, const Points& x) const {
+  Parting result;
+  for (std::size_t k = 0; k < apart_[joint].size(); ++k) {
+    const double distance = value_of(apart_[joint][k], x).norm();
+    if (distance <= result.distance) continue;
+    result = {distance, k};
+  }
+  return result;
+}
+
+void FitSystem::measure(FitState& state) const {
+  const auto count = static_cast<std::ptrdiff_t>(data_.size());
+  std::vector<double> squares(data_.size());
+  detail::parallel_for(
+      count, detail::block_size(count, 60), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+          squares[k] = residual(k, state.x).squaredNorm();
+      });
+  const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+  state.rms_residual = squares.empty() ? 0 : std::sqrt(sum / static_cast<double>(squares.size()));
+  state.largest_residual = squares.empty() ? 0 : std::sqrt(*std::ranges::max_element(squares));
+  state.largest_parting = 0;
+  for (std::size_t j = 0; j < apart_.size(); ++j)
+    state.largest_parting = std::max(state.largest_parting, parting(j, state.x).distance);
+}
+
+// The diagonal is raised by a share that rounding takes anyway: with spans of very unequal lengths
+// K is positive definite only up to it. What is added is part of the regularisation, whose
+// influence the repeated solves remove, since the right side has the exact M.
+Expected<FitState> FitSystem::solve(double lambda,
+                                    const std::function<bool(const FitState&)>& enough) const {
+  constexpr double raised = 1e-13;
+  SparseMatrix a = m_ + lambda * k_;
+  for (int k = 0; k < a.cols(); ++k) a.coeffRef(k, k) *= 1 + raised;
+  const auto factor = SparseCholesky::factor(std::move(a));
+  if (!factor) return std::unexpected(factor.error());
+  FitState state{.x = Points::Zero(right_.rows(), 3)};
+  do {
+    state.x += factor->solve(Points(right_ - symmetric_product(m_, state.x)));
+    ++state.rounds;
+    measure(state);
+  } while (!enough(state));
+  return state;
+}
+
+}  // namespace knead::morph

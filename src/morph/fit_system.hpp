@@ -1,0 +1,74 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "fit_joints.hpp"
+#include "knead/energy/domain_scaling.hpp"
+#include "knead/solve/sparse_cholesky.hpp"
+
+namespace knead::morph {
+
+/// A datum as it is fitted: without the affine part, with a weight that is the share of the area of
+/// its surface that it stands for.
+struct FitPoint {
+  int surface = 0;
+  std::array<double, 2> at = {};
+  Point place = Point::Zero();   ///< before the displacement
+  Point wanted = Point::Zero();  ///< displacement
+  double weight = 0;
+};
+
+/// The units in which a surface is fitted.
+struct FitUnits {
+  std::array<double, 2> factors = {1, 1};  ///< of parameters, as `DomainScaling::factors`
+  double share = 1;  ///< its area, of the square of the size; at least `least_share`
+};
+inline constexpr double least_share = 1e-6;
+
+/// After so many solves, what is left.
+struct FitState {
+  Points x;
+  int rounds = 0;
+  double largest_residual = 0, rms_residual = 0, largest_parting = 0;
+};
+
+/// The linear system of a fit on given nets (docs/design/morph.md). Immutable.
+class FitSystem {
+ public:
+  /// Errors: those of evaluation. Cost: Σ (p + 1)⁴ per datum and point of a joint.
+  [[nodiscard]] static Expected<FitSystem> create(const FitNets& nets,
+                                                  std::span<const FitPoint> points,
+                                                  std::span<const Joint> joints,
+                                                  std::span<const FitUnits> units, double size);
+
+  /// Iterated Tikhonov, X ← X + (M + λK)⁻¹ (b − M X) from X = 0, until `enough` says so of the
+  /// state, which it is asked after every solve. Errors: the matrix cannot be factored.
+  [[nodiscard]] Expected<FitState> solve(double lambda,
+                                         const std::function<bool(const FitState&)>& enough) const;
+
+  /// D − d of a datum.
+  [[nodiscard]] Point residual(std::size_t point, const Points& x) const {
+    return value_of(data_[point], x) - wanted_[point];
+  }
+  /// The largest |D_a − D_b| of a joint, and the point at which it is.
+  struct Parting {
+    double distance = 0;
+    std::size_t point = 0;
+  };
+  [[nodiscard]] Parting parting(std::size_t joint, const Points& x) const;
+
+ private:
+  FitSystem() = default;
+  Expected<void> make_rows(const FitNets& nets, std::span<const FitPoint> points,
+                           std::span<const Joint> joints);
+  void measure(FitState& state) const;
+
+  std::vector<Terms> data_;
+  std::vector<Point> wanted_;
+  std::vector<std::vector<Terms>> apart_, slopes_;  ///< by joint and point
+  SparseMatrix m_, k_;
+  Points right_;
+};
+
+}  // namespace knead::morph
