@@ -14,7 +14,8 @@ namespace {
 using Eigen::Vector2d;
 using Sample = SharedEdge::Sample;
 
-constexpr int per_span = 4;         // conditions: as many as a cubic has coefficients
+// Points in a span: as many as a polynomial of that degree has coefficients.
+int points_per_span(const KnotVector& knots) { return knots.degree() + 1; }
 constexpr double most_parts = 256;  // of an interval between samples
 
 /// The number of the span at a fraction of the domain, and how far into it: continuous.
@@ -53,7 +54,7 @@ std::vector<Sample> samples_for(const FitEdge& edge, const FitNets& nets) {
       double before = phase(knots, spans, given[0].feet[s][d]);
       for (std::size_t k = 1; k < given.size(); ++k) {
         const double now = phase(knots, spans, given[k].feet[s][d]);
-        parts[k] = std::max(parts[k], std::ceil(std::abs(now - before) * per_span));
+        parts[k] = std::max(parts[k], std::ceil(std::abs(now - before) * points_per_span(knots)));
         before = now;
       }
     }
@@ -166,8 +167,9 @@ Joint line_at(const Surface& s, int surface, int direction, double low, double h
   if (low == high) result.sides = {Side::left, Side::right};
   const KnotVector& along = s.knots(1 - direction);
   for (const int span : along.spans()) {
-    for (int k = 0; k < per_span; ++k) {
-      const double t = std::lerp(along[span], along[span + 1], (k + 0.5) / per_span);
+    const int count = points_per_span(along);
+    for (int k = 0; k < count; ++k) {
+      const double t = std::lerp(along[span], along[span + 1], (k + 0.5) / count);
       std::array<Joint::Foot, 2> feet;
       for (std::size_t side = 0; side < 2; ++side) {
         const double across = side == 0 ? low : high;

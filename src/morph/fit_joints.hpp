@@ -19,9 +19,10 @@ struct Joint {
   bool smooth = false;   ///< tangent planes are common, where `across` is not zero
   bool position = true;  ///< whether positions are asked: not where the basis keeps them
   double length = 0;     ///< file units
+  double position_share = 1, slope_share = 1;  ///< of its weights, of what is usual
 };
 
-/// The joints of edges of two surfaces or more, at the samples of their courses and at least four
+/// The joints of edges of two surfaces or more, at the samples of their courses and at least p + 1
 /// points in every span crossed of either surface.
 [[nodiscard]] std::vector<Joint> joints_of_edges(std::span<const FitEdge> edges,
                                                  const FitNets& nets);

@@ -8,10 +8,9 @@
 
 namespace knead::morph {
 namespace {
-
 constexpr double least_span = 1e-3;  // of the domain
 constexpr int most_parts = 4;
-constexpr double same_urgency = 0.25;    // of the larger of both directions
+constexpr double second_part = 0.8;      // of what is wanted, of the direction with the lesser part
 constexpr std::size_t least_points = 4;  // of a cell: fewer say nothing of a finer net
 
 struct Cell {
@@ -42,6 +41,7 @@ double within(const KnotVector& knots, int span, double u) {
 /// units, and the largest residual.
 struct CellError {
   std::array<double, 2> part = {};
+  std::array<double, 2> deviation = {};  ///< of a part by noise of deviation 1 in each coordinate
   double largest = 0;
 };
 CellError error_in(const Surface& s, const Cell& cell, std::span<const FitPoint> points,
@@ -66,8 +66,9 @@ CellError error_in(const Surface& s, const Cell& cell, std::span<const FitPoint>
   }
   for (std::size_t d = 0; d < 2; ++d) {
     for (std::size_t other = 0; other < 2; ++other) {
-      if (norms[d][other] > 0)
-        result.part[d] = std::max(result.part[d], sums[d][other].norm() / norms[d][other]);
+      if (!(norms[d][other] > 0)) continue;
+      result.part[d] += sums[d][other].norm() / norms[d][other];
+      result.deviation[d] += std::sqrt(3 / norms[d][other]);
     }
   }
   return result;
@@ -101,16 +102,17 @@ void plan_for_residuals(const FitNets& nets, std::span<const FitPoint> points,
     if (nets.fixed[surface] || end - begin < least_points) continue;
     const Surface& s = nets.surfaces[surface];
     const CellError error = error_in(s, cell, points.subspan(begin, end - begin), residual, begin);
-    const double chance = 4 * noise * std::sqrt(9.0 / static_cast<double>(end - begin));
     // Of exact data the largest residual counts, shared out by the parts; of others the parts.
-    const double largest_part = std::max(error.part[0], error.part[1]);
-    const double scale = noise > 0 || largest_part == 0 ? 1 : error.largest / largest_part;
+    const double sum = error.part[0] + error.part[1];
+    const double scale = noise > 0 || sum == 0 ? 1 : error.largest / sum;
+    if (noise == 0 && error.largest <= wanted) continue;
     for (std::size_t d = 0; d < 2; ++d) {
       const double found = scale * error.part[d];
-      if (found <= std::max(wanted, chance) || error.part[d] < same_urgency * largest_part)
-        continue;
+      const double least =
+          error.part[d] >= error.part[1 - d] && noise == 0 ? 0 : second_part * wanted;
+      if (found <= std::max(least, 3 * noise * error.deviation[d])) continue;
       const int degree = s.knots(static_cast<int>(d)).degree();
-      const double parts = std::ceil(std::pow(found / wanted, 1.0 / (degree + 1)));
+      const double parts = std::floor(std::pow(found / wanted, 1.0 / (degree + 1)));
       ask(plan[surface], static_cast<int>(d), cell.spans[d],
           std::clamp(static_cast<int>(parts), 2, most_parts));
       plan[surface].urgency = std::max(plan[surface].urgency, found / wanted);

@@ -26,7 +26,7 @@ void sort_by_cells(const FitNets& nets, std::vector<FitPoint>& points);
 /// parts as the order of convergence p + 1 asks for.
 /// \param residual of a point by position, in the order of `sort_by_cells`
 /// \param wanted largest residual; `noise`: standard deviation of each coordinate, 0: exact data,
-/// else parts that noise alone explains, below four deviations, ask for nothing.
+/// else parts that noise alone explains, below three deviations, ask for nothing.
 void plan_for_residuals(const FitNets& nets, std::span<const FitPoint> points,
                         const std::function<Point(std::size_t)>& residual, double wanted,
                         double noise, RefinementPlan& plan);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#include <random>
 
 #include "base/parallel_for.hpp"
 #include "normal_equations.hpp"
@@ -56,6 +57,8 @@ Expected<Terms> difference(const FitNets& nets, const Joint& joint, std::size_t 
       if (!added) return std::unexpected(added.error());
     }
   }
+  // Edges along a side of a net concern one row of it, or two.
+  std::erase_if(result, [](const auto& term) { return term.second == 0; });
   return result;
 }
 
@@ -82,13 +85,14 @@ Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPo
     return std::unexpected(made.error());
   NormalEquations fit(nets.unknowns);
   for (std::size_t k = 0; k < points.size(); ++k)
-    fit.add(result.data_[k], points[k].weight, result.wanted_[k]);
+    fit.add(result.data_[k], result.weights_[k], result.wanted_[k]);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const double share = std::max(joints[j].length / size, least_length) /
                          static_cast<double>(joints[j].points.size());
-    for (const Terms& row : result.apart_[j]) fit.add(row, position_weight * share, Point::Zero());
-    for (const Terms& row : result.slopes_[j])
-      fit.add(row, slope_weight * share * size * size, Point::Zero());
+    const double position = position_weight * joints[j].position_share * share;
+    const double slope = slope_weight * joints[j].slope_share * share * size * size;
+    for (const Terms& row : result.apart_[j]) fit.add(row, position, Point::Zero());
+    for (const Terms& row : result.slopes_[j]) fit.add(row, slope, Point::Zero());
   }
   result.right_ = fit.right();
   result.m_ = fit.matrix();
@@ -111,7 +115,10 @@ Expected<void> FitSystem::make_rows(const FitNets& nets, std::span<const FitPoin
                                     std::span<const Joint> joints) {
   FirstError error;
   data_.resize(points.size());
-  for (const FitPoint& point : points) wanted_.push_back(point.wanted);
+  for (const FitPoint& point : points) {
+    wanted_.push_back(point.wanted);
+    weights_.push_back(point.weight * point.share);
+  }
   const auto count = static_cast<std::ptrdiff_t>(points.size());
   constexpr double row_work = 500;
   detail::parallel_for(
@@ -169,16 +176,40 @@ void FitSystem::measure(FitState& state) const {
   const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
   state.rms_residual = squares.empty() ? 0 : std::sqrt(sum / static_cast<double>(squares.size()));
   state.largest_residual = squares.empty() ? 0 : std::sqrt(*std::ranges::max_element(squares));
-  state.largest_parting = 0;
-  for (std::size_t j = 0; j < apart_.size(); ++j)
+  state.largest_parting = state.largest_slope = 0;
+  for (std::size_t j = 0; j < apart_.size(); ++j) {
     state.largest_parting = std::max(state.largest_parting, parting(j, state.x).distance);
+    for (const Terms& row : slopes_[j])
+      state.largest_slope = std::max(state.largest_slope, value_of(row, state.x).norm());
+  }
+}
+
+// Probes whose coordinates are 1 or -1 by chance, of a fixed sequence (M. Hutchinson, *A stochastic
+// estimator of the trace of the influence matrix*, 1990): three at once, one per coordinate.
+double FitSystem::freedom(const SparseCholesky& factor) const {
+  std::mt19937 random(1);
+  Points probes(static_cast<Eigen::Index>(data_.size()), 3);
+  Points right = Points::Zero(right_.rows(), 3);
+  for (std::size_t k = 0; k < data_.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const auto bits = random();
+    for (int c = 0; c < 3; ++c) probes(row, c) = (bits >> c & 1) != 0 ? 1 : -1;
+    for (const auto& [unknown, value] : data_[k])
+      right.row(unknown) += weights_[k] * value * probes.row(row);
+  }
+  const Points x = factor.solve(right);
+  double result = 0;
+  for (std::size_t k = 0; k < data_.size(); ++k)
+    result += value_of(data_[k], x).dot(probes.row(static_cast<Eigen::Index>(k)).transpose());
+  return result / 3;
 }
 
 // The diagonal is raised by a share that rounding takes anyway: with spans of very unequal lengths
 // K is positive definite only up to it. What is added is part of the regularisation, whose
 // influence the repeated solves remove, since the right side has the exact M.
 Expected<FitState> FitSystem::solve(double lambda,
-                                    const std::function<bool(const FitState&)>& enough) const {
+                                    const std::function<bool(const FitState&)>& enough,
+                                    bool with_freedom) const {
   constexpr double raised = 1e-13;
   SparseMatrix a = m_ + lambda * k_;
   for (int k = 0; k < a.cols(); ++k) a.coeffRef(k, k) *= 1 + raised;
@@ -190,6 +221,7 @@ Expected<FitState> FitSystem::solve(double lambda,
     ++state.rounds;
     measure(state);
   } while (!enough(state));
+  if (with_freedom) state.freedom = freedom(*factor);
   return state;
 }
 

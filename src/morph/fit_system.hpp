@@ -17,6 +17,7 @@ struct FitPoint {
   Point place = Point::Zero();   ///< before the displacement
   Point wanted = Point::Zero();  ///< displacement
   double weight = 0;
+  double share = 1;  ///< of that weight, from 1 on: more where residuals are too large
 };
 
 /// The units in which a surface is fitted.
@@ -31,6 +32,9 @@ struct FitState {
   Points x;
   int rounds = 0;
   double largest_residual = 0, rms_residual = 0, largest_parting = 0;
+  /// How many data a single solve could follow, the trace of the map from data to D at data.
+  double freedom = 0;
+  double largest_slope = 0;  ///< |∂D_a − ∂D_b| at smooth joints
 };
 
 /// The linear system of a fit on given nets (docs/design/morph.md). Immutable.
@@ -43,9 +47,11 @@ class FitSystem {
                                                   std::span<const FitUnits> units, double size);
 
   /// Iterated Tikhonov, X ← X + (M + λK)⁻¹ (b − M X) from X = 0, until `enough` says so of the
-  /// state, which it is asked after every solve. Errors: the matrix cannot be factored.
+  /// state, which it is asked after every solve. `with_freedom`: estimates it. Errors: the matrix
+  /// cannot be factored.
   [[nodiscard]] Expected<FitState> solve(double lambda,
-                                         const std::function<bool(const FitState&)>& enough) const;
+                                         const std::function<bool(const FitState&)>& enough,
+                                         bool with_freedom = false) const;
 
   /// D − d of a datum.
   [[nodiscard]] Point residual(std::size_t point, const Points& x) const {
@@ -63,9 +69,11 @@ class FitSystem {
   Expected<void> make_rows(const FitNets& nets, std::span<const FitPoint> points,
                            std::span<const Joint> joints);
   void measure(FitState& state) const;
+  [[nodiscard]] double freedom(const SparseCholesky& factor) const;
 
   std::vector<Terms> data_;
   std::vector<Point> wanted_;
+  std::vector<double> weights_;
   std::vector<std::vector<Terms>> apart_, slopes_;  ///< by joint and point
   SparseMatrix m_, k_;
   Points right_;

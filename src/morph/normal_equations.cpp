@@ -26,33 +26,51 @@ void NormalEquations::add(const Terms& row, double weight, const Point& value) {
 
 // Of unknowns that several control points share, entries of both triangles of the block fall on the
 // diagonal, and both count.
+void NormalEquations::enter(int row, int column, double value) {
+  if (row >= column) entries_.emplace_back(row, column, value);
+}
+
 void NormalEquations::flush() {
   for (std::size_t j = 0; j < current_.size(); ++j) {
     for (std::size_t i = j; i < current_.size(); ++i) {
       const double value = block_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       if (value == 0) continue;
-      entries_.emplace_back(current_[i], current_[j], value);
-      if (i != j) entries_.emplace_back(current_[j], current_[i], value);
+      enter(current_[i], current_[j], value);
+      if (i != j) enter(current_[j], current_[i], value);
     }
   }
   current_.clear();
+  compress_if_many();
+}
+
+// Points of edges run through many pairs of cells, whose blocks overlap: entries of the same place
+// are summed up before they take more memory than the matrix.
+void NormalEquations::compress() {
+  SparseMatrix part(lower_.rows(), lower_.cols());
+  part.setFromTriplets(entries_.begin(), entries_.end());
+  lower_ += part;
+  entries_.clear();
+}
+void NormalEquations::compress_if_many() {
+  constexpr std::size_t many = std::size_t{1} << 21;
+  if (entries_.size() > many) compress();
 }
 
 void NormalEquations::add(const SparseMatrix& own, std::span<const int> unknown, double factor) {
   for (int column = 0; column < own.outerSize(); ++column) {
     for (SparseMatrix::InnerIterator at(own, column); at; ++at) {
-      entries_.emplace_back(unknown[static_cast<std::size_t>(at.row())],
-                            unknown[static_cast<std::size_t>(column)], factor * at.value());
+      enter(unknown[static_cast<std::size_t>(at.row())], unknown[static_cast<std::size_t>(column)],
+            factor * at.value());
     }
   }
+  compress_if_many();
 }
 
 SparseMatrix NormalEquations::matrix() {
   flush();
-  SparseMatrix result(right_.rows(), right_.rows());
-  result.setFromTriplets(entries_.begin(), entries_.end());
+  compress();
   entries_ = {};
-  return result;
+  return lower_.selfadjointView<Eigen::Lower>();
 }
 
 }  // namespace knead::morph

@@ -10,7 +10,8 @@ namespace knead::morph {
 /// one. The sums depend on the order of the rows alone.
 class NormalEquations {
  public:
-  explicit NormalEquations(int unknowns) : right_(Points::Zero(unknowns, 3)) {}
+  explicit NormalEquations(int unknowns)
+      : right_(Points::Zero(unknowns, 3)), lower_(unknowns, unknowns) {}
 
   void add(const Terms& row, double weight, const Point& value);
   /// An operator of its own on the control points from `first` on, times a factor.
@@ -22,12 +23,16 @@ class NormalEquations {
 
  private:
   void flush();
+  void enter(int row, int column, double value);
+  void compress();
+  void compress_if_many();
 
   Points right_;
   std::vector<int> current_;
   Eigen::MatrixXd block_;
   Eigen::VectorXd row_;
-  std::vector<Eigen::Triplet<double>> entries_;
+  std::vector<Eigen::Triplet<double>> entries_;  ///< of the lower triangle, not yet in `lower_`
+  SparseMatrix lower_;
 };
 
 }  // namespace knead::morph

@@ -48,7 +48,9 @@ struct FitSettings {
   double angle = 0.02;  ///< largest by which tangent planes at smooth edges turn apart, degrees
   /// At most so many times the control points that all surfaces have after raising to degree 3.
   double refinement = 8;
-  std::optional<int> rounds = {};  ///< repeated solves on each factor, exactly; none: as needed
+  /// Repeated solves on each factor, exactly; none: as needed. If given, weights are never changed,
+  /// and on nets that are not refined displacements are linear in the data.
+  std::optional<int> rounds = {};
 };
 
 /// What is larger than wanted after the fit.
