@@ -16,7 +16,7 @@ using Sample = SharedEdge::Sample;
 
 // Points in a span: as many as a polynomial of that degree has coefficients.
 int points_per_span(const KnotVector& knots) { return knots.degree() + 1; }
-constexpr double most_parts = 256;  // of an interval between samples
+constexpr double most_between = 256;  // of an interval between samples
 
 /// The number of the span at a fraction of the domain, and how far into it: continuous.
 double phase(const KnotVector& knots, const std::vector<int>& spans, double fraction) {
@@ -61,7 +61,7 @@ std::vector<Sample> samples_for(const FitEdge& edge, const FitNets& nets) {
   }
   std::vector<Sample> result = {given.front()};
   for (std::size_t k = 1; k < given.size(); ++k) {
-    const int count = static_cast<int>(std::min(parts[k], most_parts));
+    const int count = static_cast<int>(std::min(parts[k], most_between));
     for (int j = 1; j < count; ++j)
       result.push_back(between(edge, given[k - 1], given[k], static_cast<double>(j) / count));
     result.push_back(given[k]);

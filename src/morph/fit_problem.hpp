@@ -20,6 +20,9 @@ struct FitProblem {
   AffinePart affine = {};
   FitNets nets = {};
   std::vector<std::array<double, 2>> shares = {};  ///< of the weights of each joint
+  /// By what factor each joint's positions and angles were too large when they last asked for finer
+  /// nets; 0: finer nets did not help.
+  std::vector<std::array<double, 2>> asked = {};
 
   [[nodiscard]] bool satisfied(const FitState& state) const {
     return state.largest_residual <= tolerance && state.largest_parting <= parting &&

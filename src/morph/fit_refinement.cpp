@@ -11,7 +11,7 @@ namespace {
 constexpr double least_span = 1e-3;  // of the domain
 constexpr int most_parts = 4;
 constexpr double second_part = 0.8;      // of what is wanted, of the direction with the lesser part
-constexpr std::size_t least_points = 4;  // of a cell: fewer say nothing of a finer net
+constexpr std::size_t least_points = 8;  // of a cell: fewer say nothing of its halves
 
 struct Cell {
   int surface = 0;

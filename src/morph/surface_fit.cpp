@@ -18,6 +18,8 @@ constexpr int most_rounds = 30, most_solves = 9;
 constexpr double near_wanted = 0.7, most_raise = 16, most_share = 4096, settling = 2;
 // Joints of usual weights ask for finer nets above this multiple of what is wanted, others above 1.
 constexpr double light_joint = 3;
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double helped = 0.8;    // refinement that leaves more has not
 constexpr double stalled = 0.97;  // a solve that leaves more than this is the last one
 
 /// The joints of the nets as they are.
@@ -79,6 +81,7 @@ Expected<Fit> fit_once(FitProblem& problem) {
   auto joints = joints_of(problem);
   if (!joints) return std::unexpected(joints.error());
   problem.shares.resize(joints->size(), {1, 1});
+  problem.asked.resize(joints->size(), {never, never});
   for (std::size_t j = 0; j < joints->size(); ++j) {
     (*joints)[j].position_share = problem.shares[j][0];
     (*joints)[j].slope_share = problem.shares[j][1];
@@ -107,8 +110,21 @@ Expected<Fit> fit_once(FitProblem& problem) {
   return result;
 }
 
+/// Asks for finer nets at a joint by one of its measures, positions (0) or angles (1). Of data with
+/// noise a joint is uneven by chance, and more weight smooths it first. A measure that the last
+/// refinement has hardly changed, as beside a cusp, does not ask again.
+void plan_for_measure(FitProblem& problem, const Joint& joint, std::size_t j, std::size_t measure,
+                      std::size_t point, double excess, RefinementPlan& plan) {
+  const double share = problem.shares[j][measure];
+  const bool heavy = problem.settings.noise ? share >= most_share : share > 1;
+  if (excess <= (heavy ? 1 : light_joint) || (problem.settings.noise && !heavy)) return;
+  double& asked = problem.asked[j][measure];
+  asked = excess < helped * asked ? excess : 0;
+  if (asked > 0) plan_for_joint(problem.nets, joint, point, excess, plan);
+}
+
 /// What of a fit asks for finer nets.
-RefinementPlan plan_for(const FitProblem& problem, const Fit& fit) {
+RefinementPlan plan_for(FitProblem& problem, const Fit& fit) {
   RefinementPlan plan(problem.given.size());
   const double noise = problem.settings.noise.value_or(0);
   plan_for_residuals(
@@ -117,16 +133,10 @@ RefinementPlan plan_for(const FitProblem& problem, const Fit& fit) {
       noise > 0 ? noise : problem.tolerance, noise, plan);
   for (std::size_t j = 0; j < fit.joints.size(); ++j) {
     const auto parting = fit.system.parting(j, fit.state.x);
-    const auto ask = [&](std::size_t weight, std::size_t point, double excess) {
-      // Of data with noise a joint is uneven by chance, and more weight smooths it.
-      const double light =
-          problem.settings.noise ? std::numeric_limits<double>::infinity() : light_joint;
-      const double raised = problem.settings.noise ? most_share : 1 + 1e-9;
-      if (excess > (problem.shares[j][weight] >= raised ? 1 : light))
-        plan_for_joint(problem.nets, fit.joints[j], point, excess, plan);
-    };
-    ask(0, parting.point, parting.distance / problem.parting);
-    ask(1, fit.angles[j].point, fit.angles[j].degrees / problem.settings.angle);
+    plan_for_measure(problem, fit.joints[j], j, 0, parting.point,
+                     parting.distance / problem.parting, plan);
+    plan_for_measure(problem, fit.joints[j], j, 1, fit.angles[j].point,
+                     fit.angles[j].degrees / problem.settings.angle, plan);
   }
   return plan;
 }
