@@ -1,5 +1,8 @@
 #include "affine_part.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "base/decompositions.hpp"
 
 namespace knead::morph {
@@ -7,12 +10,13 @@ namespace {
 
 constexpr double least_extent = 1e-5;  // of the largest
 
-/// The pseudoinverse of Σ w y yᵀ, without the directions in which there is no extent.
-Expected<Eigen::Matrix3d> inverse_of_moments(const Eigen::Matrix3d& moments) {
+/// The pseudoinverse of Σ w y yᵀ, without the directions in which there is no extent, or none
+/// beyond this moment.
+Expected<Eigen::Matrix3d> inverse_of_moments(const Eigen::Matrix3d& moments, double rounding) {
   const auto eigen = detail::symmetric_eigen<Eigen::MatrixXd>(moments);
   if (!eigen) return std::unexpected(eigen.error());
   Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
-  const double least = least_extent * least_extent * eigen->values[2];
+  const double least = std::max(least_extent * least_extent * eigen->values[2], rounding);
   for (int k = 0; k < 3; ++k) {
     if (eigen->values[k] <= least) continue;
     result += eigen->vectors.col(k) * eigen->vectors.col(k).transpose() / eigen->values[k];
@@ -41,7 +45,9 @@ Expected<AffinePart> best_affine(const Points& points, const Points& displacemen
     const Point y = points.row(k).transpose() - result.centre;
     moments += weights[static_cast<std::size_t>(k)] * y * y.transpose();
   }
-  const auto inverse = inverse_of_moments(moments);
+  const double rounding =
+      16 * std::numeric_limits<double>::epsilon() * points.cwiseAbs().maxCoeff();
+  const auto inverse = inverse_of_moments(moments, total * rounding * rounding);
   if (!inverse) return std::unexpected(inverse.error());
   for (int solve = 0; solve < 2; ++solve) {
     Eigen::Matrix3d mixed = Eigen::Matrix3d::Zero();

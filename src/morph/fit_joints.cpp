@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/parallel_for.hpp"
+#include "hold/edge_course.hpp"
 #include "knead/brep/model.hpp"
 #include "knead/spline/evaluate.hpp"
 
@@ -14,18 +15,13 @@ namespace {
 using Eigen::Vector2d;
 using Sample = SharedEdge::Sample;
 
-// Points in a span: as many as a polynomial of that degree has coefficients.
-int points_per_span(const KnotVector& knots) { return knots.degree() + 1; }
-constexpr double most_between = 256;  // of an interval between samples
-
-/// The number of the span at a fraction of the domain, and how far into it: continuous.
-double phase(const KnotVector& knots, const std::vector<int>& spans, double fraction) {
-  const Interval domain = knots.domain();
-  const double u =
-      std::clamp(domain.lower + fraction * domain.length(), domain.lower, domain.upper);
-  const int span = knots.find_span(u);
-  const auto at = std::ranges::lower_bound(spans, span) - spans.begin();
-  return static_cast<double>(at) + (u - knots[span]) / (knots[span + 1] - knots[span]);
+// Points in a span: as many as a polynomial of that degree has coefficients, and more of higher
+// ones. Between n equidistant points a polynomial of degree p can be far larger than at them,
+// unless n grows as p² (D. Coppersmith, T. Rivlin, "The growth of polynomials bounded at equally
+// spaced points", 1992).
+int points_per_span(const KnotVector& knots) {
+  const int order = knots.degree() + 1;
+  return std::max(order, order * order / 4);
 }
 
 /// A sample between two others at this share of the way.
@@ -42,35 +38,18 @@ Sample between(const FitEdge& edge, const Sample& a, const Sample& b, double sha
   return result;
 }
 
-/// The samples of an edge, with more between them wherever spans of its surfaces are short: an
-/// interval is divided into as many parts as the surface asks for that crosses most knots.
+/// The samples of an edge, as many in every span that it crosses as it has coefficients.
 std::vector<Sample> samples_for(const FitEdge& edge, const FitNets& nets) {
-  const std::vector<Sample>& given = edge.course ? edge.course->samples() : edge.samples;
-  std::vector<double> parts(given.size(), 1);
-  for (std::size_t s = 0; s < edge.surfaces.size(); ++s) {
-    for (int d = 0; d < 2; ++d) {
-      const KnotVector& knots = nets.surfaces[static_cast<std::size_t>(edge.surfaces[s])].knots(d);
-      const std::vector<int> spans = knots.spans();
-      double before = phase(knots, spans, given[0].feet[s][d]);
-      for (std::size_t k = 1; k < given.size(); ++k) {
-        const double now = phase(knots, spans, given[k].feet[s][d]);
-        parts[k] = std::max(parts[k], std::ceil(std::abs(now - before) * points_per_span(knots)));
-        before = now;
-      }
-    }
-  }
-  std::vector<Sample> result = {given.front()};
-  for (std::size_t k = 1; k < given.size(); ++k) {
-    const int count = static_cast<int>(std::min(parts[k], most_between));
-    for (int j = 1; j < count; ++j)
-      result.push_back(between(edge, given[k - 1], given[k], static_cast<double>(j) / count));
-    result.push_back(given[k]);
-  }
-  return result;
+  std::vector<const Surface*> surfaces;
+  for (const int s : edge.surfaces) surfaces.push_back(&nets.surfaces[static_cast<std::size_t>(s)]);
+  return finer_samples(edge.course ? edge.course->samples() : edge.samples, surfaces,
+                       {points_per_span, [&](const Sample& a, const Sample& b, double share) {
+                          return between(edge, a, b, share);
+                        }});
 }
 
 bool is_smooth(const FitEdge& edge) {
-  if (edge.course) return edge.surfaces.size() > 1 && edge.course->angle() <= smooth_angle;
+  if (edge.course) return knead::is_smooth(*edge.course);
   return edge.surfaces.size() > 1 && std::ranges::all_of(edge.samples, [](const Sample& sample) {
            return sample.angle <= smooth_angle;
          });
@@ -110,7 +89,7 @@ std::vector<Joint> joints_of(const FitEdge& edge, const FitNets& nets) {
   return result;
 }
 
-/// First derivatives of a surface along a line of constant parameter.
+/// First derivatives of a surface at the points of a joint, by fractions of its domain.
 struct LineTangents {
   Points u, v;
 };
@@ -122,15 +101,19 @@ Expected<LineTangents> tangents(const Surface& s, const Joint& joint, std::size_
   }
   auto jet = evaluate<2>(s, at, 1, joint.sides[side]);
   if (!jet) return std::unexpected(jet.error());
-  return LineTangents{jet->at({1, 0}), jet->at({0, 1})};
+  return LineTangents{s.knots(0).domain().length() * jet->at({1, 0}),
+                      s.knots(1).domain().length() * jet->at({0, 1})};
 }
 
 /// The normal at a point, of unit length; zero where there is none, as beside poles.
 Point normal(const LineTangents& t, std::size_t point) {
-  constexpr double least_sine = 1e-9;
+  constexpr double least_speed = 1e-5, least_sine = 1e-9;
   const Point u = t.u.row(static_cast<Eigen::Index>(point)).transpose(),
               v = t.v.row(static_cast<Eigen::Index>(point)).transpose(), n = u.cross(v);
-  return n.norm() > least_sine * u.norm() * v.norm() ? Point(n.normalized()) : Point(Point::Zero());
+  if (!(std::min(u.norm(), v.norm()) > least_speed * std::max(u.norm(), v.norm()) &&
+        n.norm() > least_sine * u.norm() * v.norm()))
+    return Point::Zero();
+  return n.normalized();
 }
 
 /// Gives a line of constant parameter its directions across, if the tangent planes of both sides
@@ -153,7 +136,7 @@ Expected<bool> look_across(const Surface& s, int direction, Joint& joint) {
       Eigen::Matrix<double, 3, 2> d;
       d << t.u.row(row).transpose(), t.v.row(row).transpose();
       const Eigen::Matrix2d gramian = d.transpose() * d;
-      joint.points[k][side].across = gramian.inverse() * (d.transpose() * across);
+      joint.points[k][side].across = in_parameters(s, gramian.inverse() * (d.transpose() * across));
     }
     any = true;
   }

@@ -23,7 +23,7 @@ struct Joint {
 };
 
 /// The joints of edges of two surfaces or more, at the samples of their courses and at least p + 1
-/// points in every span crossed of either surface.
+/// points, and (p + 1)²/4, in every span crossed of either surface.
 [[nodiscard]] std::vector<Joint> joints_of_edges(std::span<const FitEdge> edges,
                                                  const FitNets& nets);
 
@@ -31,9 +31,6 @@ struct Joint {
 /// tangent planes of the surface are common, within `smooth_angle`; and so where closed surfaces
 /// meet themselves. Errors: those of evaluation.
 [[nodiscard]] Expected<std::vector<Joint>> joints_of_lines(const FitNets& nets);
-
-/// The angle in radians up to which tangent planes along a whole edge count as common.
-inline constexpr double smooth_angle = 0.5 * 3.14159265358979323846 / 180;
 
 /// The largest angle, degrees, between the tangent planes on both sides at the points of smooth
 /// joints, less what it is in the surfaces before; and the point at which it is.

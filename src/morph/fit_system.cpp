@@ -1,8 +1,9 @@
 #include "fit_system.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <mutex>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -25,22 +26,22 @@ constexpr double bend = 1, stretch = 1;
 // The whole surface's displacement costs this: a surface that neither data nor edges move stays.
 constexpr double least_energy = 1e-6;
 
-/// The first error of several threads is that of the least index.
-class FirstError {
+constexpr double row_work = 500;  // multiplications for a row of a bicubic net, allocations too
+
+/// The least index at which several threads have failed, whatever their order.
+class FirstFailure {
  public:
-  void note(std::size_t index, const Error& error) {
-    const std::scoped_lock lock(mutex_);
-    if (first_ && first_->first <= index) return;
-    first_ = {index, error};
+  void note(std::size_t index) {
+    std::size_t least = least_;
+    while (index < least && !least_.compare_exchange_weak(least, index)) {
+    }
   }
-  [[nodiscard]] Expected<void> result() const {
-    if (first_) return std::unexpected(first_->second);
-    return {};
-  }
+  [[nodiscard]] bool any() const { return least_ != none; }
+  [[nodiscard]] std::size_t index() const { return least_; }
 
  private:
-  std::mutex mutex_;
-  std::optional<std::pair<std::size_t, Error>> first_;
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::atomic<std::size_t> least_ = none;
 };
 
 /// The difference of both sides of a joint at a point: of R, or of its derivatives across.
@@ -81,8 +82,8 @@ Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPo
                                       std::span<const Joint> joints,
                                       std::span<const FitUnits> units, double size) {
   FitSystem result;
-  if (auto made = result.make_rows(nets, points, joints); !made)
-    return std::unexpected(made.error());
+  if (auto made = result.make_data(nets, points); !made) return std::unexpected(made.error());
+  if (auto made = result.make_joints(nets, joints); !made) return std::unexpected(made.error());
   NormalEquations fit(nets.unknowns);
   for (std::size_t k = 0; k < points.size(); ++k)
     fit.add(result.data_[k], result.weights_[k], result.wanted_[k]);
@@ -111,48 +112,56 @@ Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPo
   return result;
 }
 
-Expected<void> FitSystem::make_rows(const FitNets& nets, std::span<const FitPoint> points,
-                                    std::span<const Joint> joints) {
-  FirstError error;
-  data_.resize(points.size());
+Expected<void> FitSystem::make_data(const FitNets& nets, std::span<const FitPoint> points) {
+  const auto row_of = [&](std::size_t k, Terms& row) {
+    return nets.add_row(points[k].surface, points[k].at, Side::right, -1, 1, row);
+  };
   for (const FitPoint& point : points) {
     wanted_.push_back(point.wanted);
     weights_.push_back(point.weight * point.share);
   }
+  data_.resize(points.size());
+  FirstFailure failure;
   const auto count = static_cast<std::ptrdiff_t>(points.size());
-  constexpr double row_work = 500;
   detail::parallel_for(
       count, detail::block_size(count, row_work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-          const auto made =
-              nets.add_row(points[k].surface, points[k].at, Side::right, -1, 1, data_[k]);
-          if (!made) error.note(k, made.error());
+          if (!row_of(k, data_[k])) failure.note(k);
         }
       });
+  Terms again;
+  return failure.any() ? row_of(failure.index(), again) : Expected<void>();
+}
+
+Expected<void> FitSystem::make_joints(const FitNets& nets, std::span<const Joint> joints) {
   apart_.resize(joints.size());
   slopes_.resize(joints.size());
-  const auto joint_count = static_cast<std::ptrdiff_t>(joints.size());
-  detail::parallel_for(
-      joint_count, detail::block_size(joint_count, 100 * row_work),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
-          const Joint& joint = joints[j];
-          for (std::size_t k = 0; k < joint.points.size(); ++k) {
-            const bool sloped = joint.smooth && !joint.points[k][0].across.isZero() &&
-                                !joint.points[k][1].across.isZero();
-            for (const bool derivative : {false, true}) {
-              if (derivative ? !sloped : !joint.position) continue;
-              auto row = difference(nets, joint, k, derivative);
-              if (!row) {
-                error.note(points.size() + j, row.error());
-                continue;
-              }
-              (derivative ? slopes_ : apart_)[j].push_back(*std::move(row));
-            }
-          }
-        }
-      });
-  return error.result();
+  const auto rows_of = [&](std::size_t j) -> Expected<void> {
+    const Joint& joint = joints[j];
+    apart_[j].clear();
+    slopes_[j].clear();
+    for (std::size_t k = 0; k < joint.points.size(); ++k) {
+      const bool sloped = joint.smooth && !joint.points[k][0].across.isZero() &&
+                          !joint.points[k][1].across.isZero();
+      for (const bool derivative : {false, true}) {
+        if (derivative ? !sloped : !joint.position) continue;
+        auto row = difference(nets, joint, k, derivative);
+        if (!row) return std::unexpected(row.error());
+        (derivative ? slopes_ : apart_)[j].push_back(*std::move(row));
+      }
+    }
+    return {};
+  };
+  FirstFailure failure;
+  const auto count = static_cast<std::ptrdiff_t>(joints.size());
+  detail::parallel_for(count, detail::block_size(count, 100 * row_work),
+                       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+                         for (auto j = static_cast<std::size_t>(begin);
+                              j < static_cast<std::size_t>(end); ++j) {
+                           if (!rows_of(j)) failure.note(j);
+                         }
+                       });
+  return failure.any() ? rows_of(failure.index()) : Expected<void>();
 }
 
 FitSystem::Parting FitSystem::parting(std::size_t joint, const Points& x) const {
@@ -205,15 +214,23 @@ double FitSystem::freedom(const SparseCholesky& factor) const {
 }
 
 // The diagonal is raised by a share that rounding takes anyway: with spans of very unequal lengths
-// K is positive definite only up to it. What is added is part of the regularisation, whose
-// influence the repeated solves remove, since the right side has the exact M.
+// M + λK is positive definite only up to it, and with slopes beside poles up to more. What is added
+// is part of the regularisation, whose influence the repeated solves remove, since the right side
+// has the exact M.
+Expected<SparseCholesky> FitSystem::factor(double lambda) const {
+  constexpr double least_raise = 1e-13, most_raise_of_diagonal = 1e-6;
+  for (double raise = least_raise;; raise *= 100) {
+    SparseMatrix a = m_ + lambda * k_;
+    for (int k = 0; k < a.cols(); ++k) a.coeffRef(k, k) *= 1 + raise;
+    auto result = SparseCholesky::factor(std::move(a));
+    if (result || raise > most_raise_of_diagonal) return result;
+  }
+}
+
 Expected<FitState> FitSystem::solve(double lambda,
                                     const std::function<bool(const FitState&)>& enough,
                                     bool with_freedom) const {
-  constexpr double raised = 1e-13;
-  SparseMatrix a = m_ + lambda * k_;
-  for (int k = 0; k < a.cols(); ++k) a.coeffRef(k, k) *= 1 + raised;
-  const auto factor = SparseCholesky::factor(std::move(a));
+  const auto factor = this->factor(lambda);
   if (!factor) return std::unexpected(factor.error());
   FitState state{.x = Points::Zero(right_.rows(), 3)};
   do {

@@ -66,8 +66,9 @@ class FitSystem {
 
  private:
   FitSystem() = default;
-  Expected<void> make_rows(const FitNets& nets, std::span<const FitPoint> points,
-                           std::span<const Joint> joints);
+  Expected<void> make_data(const FitNets& nets, std::span<const FitPoint> points);
+  Expected<void> make_joints(const FitNets& nets, std::span<const Joint> joints);
+  [[nodiscard]] Expected<SparseCholesky> factor(double lambda) const;
   void measure(FitState& state) const;
   [[nodiscard]] double freedom(const SparseCholesky& factor) const;
 

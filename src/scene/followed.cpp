@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <unordered_map>
 
@@ -22,46 +21,16 @@ using Sample = SharedEdge::Sample;
 // the conditions, where nothing forces the distance to be small.
 constexpr double least_distance = 1e-6;  // of the size
 constexpr double share_of_uncertainty = 0.1;
-constexpr double most_parts = 256;  // of an interval between samples
 constexpr int coupled_per_span = 4, measured_per_span = 7;
 
-/// The number of the span at a fraction of the domain, and how far into it: continuous.
-double phase(const KnotVector& knots, double fraction) {
-  const Interval domain = knots.domain();
-  const double u =
-      std::clamp(domain.lower + fraction * domain.length(), domain.lower, domain.upper);
-  const std::vector<int> spans = knots.spans();
-  const int span = knots.find_span(u);
-  const auto at = std::ranges::find(spans, span) - spans.begin();
-  return static_cast<double>(at) + (u - knots[span]) / (knots[span + 1] - knots[span]);
-}
-
-/// The samples of a course, with more between them wherever spans of these surfaces are short.
-/// The phases of two samples differ by the number of spans between them, knots of any spacing
-/// included; an interval is divided into as many parts as the surface asks for that changes most.
-/// Samples given are kept, so that the result is never coarser than the edge's own.
+/// The samples of an edge's course, with so many parts of every span that it crosses.
 std::vector<Sample> fine_samples(const SharedEdge& edge, std::span<const Surface* const> surfaces,
                                  int per_span) {
-  const std::vector<Sample>& given = edge.samples();
-  std::vector<Sample> result = {given.front()};
-  for (std::size_t k = 1; k < given.size(); ++k) {
-    double parts = 1;
-    for (std::size_t s = 0; s < surfaces.size(); ++s) {
-      for (int d = 0; d < 2; ++d) {
-        const KnotVector& knots = surfaces[s]->knots(d);
-        const double a = phase(knots, given[k - 1].feet[s][d]),
-                     b = phase(knots, given[k].feet[s][d]);
-        parts = std::max(parts, std::ceil(std::abs(b - a) * per_span));
-      }
-    }
-    const int count = static_cast<int>(std::min(parts, most_parts));
-    for (int j = 1; j < count; ++j) {
-      result.push_back(edge.at(std::lerp(given[k - 1].parameter, given[k].parameter,
-                                         static_cast<double>(j) / static_cast<double>(count))));
-    }
-    result.push_back(given[k]);
-  }
-  return result;
+  return finer_samples(edge.samples(), surfaces,
+                       {[=](const KnotVector&) { return per_span; },
+                        [&](const Sample& a, const Sample& b, double share) {
+                          return edge.at(std::lerp(a.parameter, b.parameter, share));
+                        }});
 }
 
 // A tenth of the file's uncertainty, so that the displacement spends only a part of what the file
@@ -122,10 +91,6 @@ const SharedEdge* followed_at(const std::vector<FollowedInput>& followed, const 
     if (result == nullptr || is_smooth(*edge.course)) result = edge.course.get();
   }
   return result;
-}
-
-bool is_smooth(const SharedEdge& edge) {
-  return edge.surfaces().size() > 1 && edge.angle() <= smooth_angle;
 }
 
 // The places of the conditions, in parameters of each patch, and at smooth edges the directions w_k

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <numbers>
 #include <optional>
 
 #include "hold/edge_coupling.hpp"
+#include "hold/edge_course.hpp"
 #include "scene/model/model.hpp"
 
 namespace knead {
@@ -20,14 +20,6 @@ namespace knead {
 /// several; none: null.
 [[nodiscard]] const SharedEdge* followed_at(const std::vector<FollowedInput>& followed,
                                             const Seam& seam);
-
-/// The angle in radians up to which an edge counts as smooth, and the tangent planes along it are
-/// kept common.
-inline constexpr double smooth_angle = 0.5 * std::numbers::pi / 180;
-
-/// Whether the surfaces at an edge have the same tangent planes all along it, as the file was
-/// opened.
-[[nodiscard]] bool is_smooth(const SharedEdge& edge);
 
 /// Edges with two surfaces or more, as points on all of them: the samples of their courses, and
 /// four more for every span that they cross of any surface.
