@@ -236,6 +236,17 @@ TEST(SurfaceFit, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
+TEST(SurfaceFit, TakesOneDatumForATranslation) {
+  const Model model = sheets(true);
+  const Datum datum{1, {0.3, 0.4}, Point(1, -2, 0.5)};
+  const FitResult result = fit(model, std::span(&datum, 1));
+  for (std::size_t s = 0; s < 2; ++s) {
+    const Points moved =
+        model.surfaces[s].surface->control_points().rowwise() + datum.displacement.transpose();
+    EXPECT_LT((result.surfaces[s].control_points() - moved).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
 TEST(SurfaceFit, RefusesWhatIsNoInput) {
   const Model model = sheets(true);
   const std::vector<Datum> data = data_on(model, bend(0.1), 4);
