@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "base/interruption.hpp"
 #include "base/parallel_for.hpp"
 #include "normal_equations.hpp"
 
@@ -223,6 +224,7 @@ Expected<SparseCholesky> FitSystem::factor(double lambda) const {
     SparseMatrix a = m_ + lambda * k_;
     for (int k = 0; k < a.cols(); ++k) a.coeffRef(k, k) *= 1 + raise;
     auto result = SparseCholesky::factor(std::move(a));
+    if (Interruption::asked_for()) return interrupted_error();  // what it made means nothing
     if (result || raise > most_raise_of_diagonal) return result;
   }
 }
@@ -234,6 +236,7 @@ Expected<FitState> FitSystem::solve(double lambda,
   if (!factor) return std::unexpected(factor.error());
   FitState state{.x = Points::Zero(right_.rows(), 3)};
   do {
+    if (Interruption::asked_for()) return interrupted_error();
     state.x += factor->solve(Points(right_ - symmetric_product(m_, state.x)));
     ++state.rounds;
     measure(state);

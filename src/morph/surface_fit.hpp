@@ -100,8 +100,9 @@ struct FitResult {
 /// the nets as they are. Results do not depend on the number of threads.
 ///
 /// Errors (input): a number that is not finite, parameters outside the domain, an index out of
-/// range, no datum on a surface that is free; (numerical) a denominator that is not positive. Cost:
-/// a few sparse factorisations and about twenty solves on each; 300 bytes of memory per datum.
+/// range, no datum on a surface that is free; (numerical) a denominator that is not positive; those
+/// of an `Interruption`. Cost: a few sparse factorisations and about twenty solves on each; 300
+/// bytes of memory per datum.
 [[nodiscard]] Expected<FitResult> fit_surfaces(std::span<const FitSurface> surfaces,
                                                std::span<const FitEdge> edges,
                                                std::span<const Datum> data,

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/interruption.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "morph/fit_models.hpp"
 #include "support/thread_counts.hpp"
@@ -245,6 +246,15 @@ TEST(SurfaceFit, TakesOneDatumForATranslation) {
         model.surfaces[s].surface->control_points().rowwise() + datum.displacement.transpose();
     EXPECT_LT((result.surfaces[s].control_points() - moved).cwiseAbs().maxCoeff(), 1e-14);
   }
+}
+
+TEST(SurfaceFit, EndsWhenItIsInterrupted) {
+  const Model model = sheets(true);
+  const std::vector<Datum> data = data_on(model, bend(0.1));
+  Interruption interruption([] { return false; });
+  const auto result = fit_surfaces(model.surfaces, model.edges, data);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().message(), interrupted_error().error().message());
 }
 
 TEST(SurfaceFit, RefusesWhatIsNoInput) {
