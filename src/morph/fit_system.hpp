@@ -67,6 +67,7 @@ class FitSystem {
  private:
   FitSystem() = default;
   Expected<void> make_data(const FitNets& nets, std::span<const FitPoint> points);
+  Expected<void> make_poles(const FitNets& nets);
   Expected<void> make_joints(const FitNets& nets, std::span<const Joint> joints);
   [[nodiscard]] Expected<SparseCholesky> factor(double lambda) const;
   void measure(FitState& state) const;
@@ -76,6 +77,7 @@ class FitSystem {
   std::vector<Point> wanted_;
   std::vector<double> weights_;
   std::vector<std::vector<Terms>> apart_, slopes_;  ///< by joint and point
+  std::vector<std::vector<Terms>> poles_;           ///< by surface
   SparseMatrix m_, k_;
   Points right_;
 };

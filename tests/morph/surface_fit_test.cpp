@@ -124,6 +124,13 @@ TEST(SurfaceFit, KeepsClosedSurfacesClosedAndPolesPoints) {
         EXPECT_LT(angle_between_planes(*low, *high) * 180 / std::numbers::pi, 0.05);
       }
     }
+    // The tangent plane at the pole is one: normals at 3e-5 of a meridian turn by 0.005° at most.
+    const auto beside = normal_at_foot(result.surfaces[1], {0.1, 3e-5});
+    for (const double u : {0.3, 0.45, 0.6, 0.95}) {
+      const auto other = normal_at_foot(result.surfaces[1], {u, 3e-5});
+      ASSERT_TRUE(beside && other && !beside->isZero() && !other->isZero());
+      EXPECT_LT(angle_between_planes(*beside, *other) * 180 / std::numbers::pi, 0.05);
+    }
     const Surface& ball = result.surfaces[1];
     const int n = ball.net()[1];
     for (int i = 1; i < ball.net()[0]; ++i) {
