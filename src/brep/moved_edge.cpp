@@ -193,7 +193,9 @@ Expected<MovedEdges> moved_edges(const Model& model, std::span<const Replacement
       }
     }
     if (largest <= rounding * size) continue;
-    auto curve = moved_curve(*edge, before, after, share_of_tolerance * tolerance);
+    // A file that allows for more does not make the curve coarser: its distance adds to the gap.
+    const double fit = std::min(share_of_tolerance * tolerance, least_tolerance * size);
+    auto curve = moved_curve(*edge, before, after, fit);
     if (!curve) return std::unexpected(curve.error());
     result.edges.push_back({id, *std::move(curve)});
   }
