@@ -16,7 +16,7 @@
 #include "knead/contact/free_system.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/matrix_files.hpp"
+#include "knead/exchange/numerical_files.hpp"
 #include "plain_surface.hpp"
 #include "rational_option.hpp"
 #include "say.hpp"

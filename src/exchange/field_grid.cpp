@@ -1,4 +1,4 @@
-#include "knead/exchange/field_grid.hpp"
+#include "knead/exchange/numerical_files.hpp"
 
 #include <fmt/format.h>
 

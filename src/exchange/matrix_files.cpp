@@ -1,4 +1,4 @@
-#include "knead/exchange/matrix_files.hpp"
+#include "knead/exchange/numerical_files.hpp"
 
 #include <fmt/format.h>
 

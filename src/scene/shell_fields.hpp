@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "knead/energy/shell_energy.hpp"
-#include "knead/exchange/field_grid.hpp"
+#include "knead/exchange/numerical_files.hpp"
 #include "scene.hpp"
 
 namespace knead {

@@ -68,6 +68,29 @@ class BoxTree {
       waiting[count++] = node.first + 1;
     }
   }
+  /// Calls `visit(index)` for the boxes, and perhaps for others, that are nearer to a point than
+  /// `within`, the nearer half of the tree first; `visit` may lessen `within`.
+  template <class Visit>
+  void near(const Point& x, double& within, const Visit& visit) const {
+    if (nodes_.empty()) return;
+    std::array<std::pair<std::uint32_t, double>, 96> waiting{};  // as above
+    std::size_t count = 0;
+    waiting[count++] = {0, nodes_[0].box.exteriorDistance(x)};
+    while (count > 0) {
+      const auto [at, distance] = waiting[--count];
+      if (!(distance < within)) continue;
+      const Node& node = nodes_[at];
+      if (node.count > 0) {
+        for (std::uint32_t k = 0; k < node.count; ++k) visit(order_[node.first + k]);
+        continue;
+      }
+      std::pair one(node.first, nodes_[node.first].box.exteriorDistance(x));
+      std::pair other(node.first + 1, nodes_[node.first + 1].box.exteriorDistance(x));
+      if (one.second > other.second) std::swap(one, other);
+      waiting[count++] = other;
+      waiting[count++] = one;
+    }
+  }
   /// Round all boxes; empty where there is none.
   [[nodiscard]] Eigen::AlignedBox3d box() const {
     return nodes_.empty() ? Eigen::AlignedBox3d() : nodes_[0].box;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "binding.hpp"
-#include "knead/exchange/field_grid.hpp"
+#include "knead/exchange/numerical_files.hpp"
 
 namespace knead::python {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "knead/energy/shell_energy.hpp"
-#include "knead/exchange/field_grid.hpp"
+#include "knead/exchange/numerical_files.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead {

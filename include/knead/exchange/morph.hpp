@@ -1,0 +1,136 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "knead/exchange/source.hpp"
+
+// The surfaces of a CAD file follow data: displacements at points, a pair of meshes, or a map of
+// space (docs/morph.md).
+
+namespace knead {
+
+/// A file in memory; `name` stands for it in errors, and its ending tells formats that their bytes
+/// do not.
+struct MorphFile {
+  std::string bytes, name;
+};
+
+/// Where the points of a model should go: one of the three.
+struct MorphData {
+  std::optional<MorphFile> vectors = {};        ///< points with displacements
+  std::optional<MorphFile> from = {}, to = {};  ///< the same mesh before and after
+  std::string space = {};  ///< the displacement, three formulas of x, y and z separated by ";"
+};
+
+/// How a model follows data. Lengths are in units of the model.
+struct MorphSettings {
+  double scale = 1;                      ///< of the displacements; −1 compensates
+  std::optional<double> tolerance = {};  ///< largest residual wanted; none: 1e-5 of the size
+  std::vector<std::string> faces = {};   ///< ids of faces or surfaces that may move; none: all
+  std::vector<std::string> keep = {};    ///< ids of those that stay
+  bool convert = true;                   ///< planes and the like become B-splines, to move
+  double refinement = 8;                 ///< control points at most, as a multiple
+  std::optional<double> reach = {};  ///< farthest that a point may be from a face; none: 1 % of the
+                                     ///< model's box
+  bool along_normal = false;         ///< only the part of displacements along the normal
+  std::string unit = {};             ///< of the data; empty: that of the model
+  std::vector<std::string> columns = {};  ///< of CSV: the six of point and displacement
+  std::string field = {};                 ///< of VTK: the vector field at points
+};
+
+/// Lengths over all points of a set: their mean, root mean square, the values that 95 and 99 % of
+/// them do not exceed, and the largest.
+struct Deviation {
+  double mean = 0, rms = 0, of_95 = 0, of_99 = 0, largest = 0;
+};
+
+/// How the points on one surface were followed.
+struct MorphedSurface {
+  std::string id = {};
+  std::vector<std::string> faces = {};  ///< on it
+  int points = 0;
+  Deviation before = {}, after = {};
+  int control_points_before = 0, control_points_after = 0;
+};
+
+/// A surface or edge that did not take part, and why.
+struct MorphException {
+  std::string id = {}, reason = {};
+};
+
+/// A point of the data that is farther from every face than the reach.
+struct MorphLeftOut {
+  int number = 0;  ///< of the point in the data, from 1
+  std::array<double, 3> place = {};
+  std::optional<double> distance = {};  ///< none: more than a hundred times the reach
+};
+
+/// An edge with other figures than before.
+struct MorphedEdge {
+  std::string id = {}, kind = {};
+  std::optional<double> gap_before = {}, gap_after = {};      ///< the larger of gap and off_curve
+  std::optional<double> angle_before = {}, angle_after = {};  ///< degrees
+  std::optional<double> curvature_before = {}, curvature_after = {};  ///< percent
+};
+
+/// What is above what was wanted after the fit.
+struct MorphExcess {
+  std::string measure = {};  ///< "residual", "parting", "angle", "contradiction"
+  std::string surface = {}, edge = {};
+  std::array<double, 3> place = {};
+  double found = 0, wanted = 0;
+};
+
+/// What `knead morph` says of its work. Lengths are in units of the model, times in seconds.
+struct MorphReport {
+  std::string file = {}, format = {}, unit = {};
+  double scale = 1, size = 0, tolerance = 0, reach = 0;
+  int points = 0, used = 0, left_out = 0;  ///< of the data
+  std::vector<MorphLeftOut> listed = {};   ///< the first of those that were left out
+  Deviation distance = {};                 ///< of the points used from the model
+  Deviation before = {}, after = {};       ///< of displacements that are wanted from those made
+  std::vector<MorphedSurface> surfaces = {};
+  std::vector<std::string> converted = {};
+  std::vector<MorphException> fixed = {};          ///< surfaces that stay, but for those asked for
+  std::vector<MorphException> unknown_edges = {};  ///< that could not be followed
+  std::vector<MorphedEdge> edges = {};
+  std::vector<MorphExcess> above = {};
+  int control_points_before = 0, control_points_after = 0;
+  double bytes_before = 0, bytes_after = 0;
+  double lambda = 0;
+  int rounds = 0, refinements = 0;
+  double time_model = 0, time_data = 0, time_fit = 0, time_save = 0, time_check = 0;
+};
+
+/// The file after it has followed the data.
+struct MorphedFile {
+  std::string bytes;
+  MorphReport report;
+};
+
+/// Moves the faces of a file so that they follow data, with every edge and vertex written anew, and
+/// everything else as it was. Every point of the data stands for its nearest visible point; one
+/// least-squares fit moves all surfaces together (docs/morph.md). Planes and other forms become
+/// B-splines before, exactly. A scale of 0 gives the bytes of the file.
+///
+/// Afterwards all edges are measured. One whose faces, or whose curve and faces, are parted by more
+/// than the largest of what they were (+ 1 %), the uncertainty that the file states, and 1e-6 of
+/// the size is an error (numerical), and nothing is returned.
+///
+/// Errors (input): a file without B-spline surfaces; not one kind of data; those of the readers; no
+/// point within reach of a face; the boxes of data and model differ by more than five times, and no
+/// unit was said; an id that is neither a face nor a surface; a part in several places that has
+/// data; (numerical) those of the fit. Cost: a minute or less for a thousand faces.
+[[nodiscard]] Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source,
+                                               const MorphData& data,
+                                               const MorphSettings& settings = {});
+
+/// A report as JSON, over several lines, and the schema of that.
+[[nodiscard]] std::string morph_json(const MorphReport& report);
+[[nodiscard]] std::string morph_schema();
+
+}  // namespace knead
