@@ -47,6 +47,7 @@ Action add_matrices(CLI::App& app);
 Action add_schema(CLI::App& app);
 Action add_snake(CLI::App& app);
 Action add_check(CLI::App& app);
+Action add_morph(CLI::App& app);
 
 /// The end of every help text.
 inline constexpr std::string_view exit_codes =

@@ -61,8 +61,8 @@ int fail(const knead::Error& error) {
 /// The value of these options may begin with a minus sign, which would read as an option: joined
 /// with "=".
 std::vector<std::string> joined_arguments(int argc, char** argv) {
-  static constexpr std::array<std::string_view, 6> number_lists = {
-      "--knots", "--alpha", "--beta", "--rational-weights", "--from", "--to"};
+  static constexpr std::array<std::string_view, 8> number_lists = {
+      "--knots", "--alpha", "--beta", "--rational-weights", "--from", "--to", "--scale", "--space"};
   std::vector<std::string> arguments(argv + 1, argv + argc);
   for (std::size_t k = 0; k + 1 < arguments.size(); ++k) {
     for (std::string_view option : number_lists) {
@@ -104,12 +104,12 @@ int run(int argc, char** argv) {
   app.footer(std::string(knead::cli::exit_codes) +
              "\nErrors are one line on standard error: file, place, what is wrong; remedy."
              "\n`knead COMMAND --help` explains a command.");
-  const std::array<knead::cli::Action, 13> actions = {
+  const std::array<knead::cli::Action, 14> actions = {
       knead::cli::add_info(app),     knead::cli::add_sculpt(app),  knead::cli::add_analyse(app),
       knead::cli::add_commands(app), knead::cli::add_gramian(app), knead::cli::add_stiffness(app),
       knead::cli::add_matrices(app), knead::cli::add_basis(app),   knead::cli::add_mesh(app),
       knead::cli::add_export(app),   knead::cli::add_schema(app),  knead::cli::add_snake(app),
-      knead::cli::add_check(app)};
+      knead::cli::add_check(app),    knead::cli::add_morph(app)};
   try {
     app.parse(joined_arguments(argc, argv));
   } catch (const CLI::Success& success) {

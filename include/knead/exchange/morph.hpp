@@ -32,8 +32,10 @@ struct MorphSettings {
   std::optional<double> tolerance = {};  ///< largest residual wanted; none: 1e-5 of the size
   std::vector<std::string> faces = {};   ///< ids of faces or surfaces that may move; none: all
   std::vector<std::string> keep = {};    ///< ids of those that stay
-  bool convert = true;                   ///< planes and the like become B-splines, to move
-  double refinement = 8;                 ///< control points at most, as a multiple
+  /// Of parts in several places: paths of those that the data are about ("engine/valve").
+  std::vector<std::string> places = {};
+  bool convert = true;               ///< planes and the like become B-splines, to move
+  double refinement = 8;             ///< control points at most, as a multiple
   std::optional<double> reach = {};  ///< farthest that a point may be from a face; none: 1 % of the
                                      ///< model's box
   bool along_normal = false;         ///< only the part of displacements along the normal
@@ -89,10 +91,10 @@ struct MorphExcess {
 struct MorphReport {
   std::string file = {}, format = {}, unit = {};
   double scale = 1, size = 0, tolerance = 0, reach = 0;
-  int points = 0, used = 0, left_out = 0;  ///< of the data
-  std::vector<MorphLeftOut> listed = {};   ///< the first of those that were left out
-  Deviation distance = {};                 ///< of the points used from the model
-  Deviation before = {}, after = {};       ///< of displacements that are wanted from those made
+  int points = 0, used = 0, left_out = 0;         ///< of the data
+  std::vector<MorphLeftOut> listed = {};          ///< the first of those that were left out
+  double largest_distance = 0, rms_distance = 0;  ///< of the points used from the model
+  Deviation before = {}, after = {};  ///< of displacements that are wanted from those made
   std::vector<MorphedSurface> surfaces = {};
   std::vector<std::string> converted = {};
   std::vector<MorphException> fixed = {};          ///< surfaces that stay, but for those asked for

@@ -1,0 +1,290 @@
+#include "knead/exchange/morph.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "knead/brep/edge_measures.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/spline/evaluate.hpp"
+#include "morph_points.hpp"
+#include "moving_model.hpp"
+
+namespace knead {
+namespace {
+
+using brep::EdgeKind;
+using brep::EdgeMeasures;
+using detail::MorphPoints;
+using detail::MovingModel;
+
+/// Seconds since the last call.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+Deviation deviation_of(std::vector<double> lengths) {
+  if (lengths.empty()) return {};
+  std::ranges::sort(lengths);
+  const auto count = static_cast<double>(lengths.size());
+  const auto share = [&](double part) {
+    return lengths[static_cast<std::size_t>(std::ceil(part * count)) - 1];
+  };
+  Deviation result{.of_95 = share(0.95), .of_99 = share(0.99), .largest = lengths.back()};
+  for (const double x : lengths) result.mean += x / count, result.rms += x * x / count;
+  result.rms = std::sqrt(result.rms);
+  return result;
+}
+
+// A region's polygon is off its edge by less than the data's own accuracy: points of it hold an
+// edge beside a face that cannot move.
+void hold_edges(const MovingModel& model, std::vector<morph::Datum>& data) {
+  constexpr double weight = 1e3;  // beside data: residuals there are a thousandth of theirs
+  for (const auto& [surface, edge] : model.held) {
+    const morph::FitSurface& on = model.placed[static_cast<std::size_t>(surface)];
+    for (Eigen::Vector2d at : on.region.edges[edge].course) {
+      for (double& x : at) {
+        if (x < 0 || x > 1) x -= std::floor(x);
+      }
+      data.push_back({surface, parameters_of(*on.surface, at), Point::Zero(), weight});
+    }
+  }
+}
+
+Expected<void> add_deviations(const MovingModel& model, const MorphPoints& points,
+                              const std::vector<Surface>& moved, MorphReport& report) {
+  const std::size_t count = model.surfaces.size();
+  std::vector<std::vector<double>> before(count), after(count);
+  std::vector<double> all_before, all_after;
+  for (const morph::Datum& datum : points.found.data) {
+    const auto k = static_cast<std::size_t>(datum.surface);
+    const auto from = evaluate_point<2>(*model.placed[k].surface, datum.parameters);
+    const auto to = evaluate_point<2>(moved[k], datum.parameters);
+    if (!from) return std::unexpected(from.error());
+    if (!to) return std::unexpected(to.error());
+    before[k].push_back(datum.displacement.norm());
+    after[k].push_back((*to - *from - datum.displacement).norm());
+    all_before.push_back(before[k].back());
+    all_after.push_back(after[k].back());
+  }
+  report.before = deviation_of(std::move(all_before));
+  report.after = deviation_of(std::move(all_after));
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!model.shown[k]) continue;
+    const int net = model.surfaces[k].surface->size(), new_net = moved[k].size();
+    report.control_points_before += net;
+    report.control_points_after += new_net;
+    if (before[k].empty() && model.surfaces[k].fixed) continue;
+    report.surfaces.push_back(
+        {model.source->surfaces()[k].id, model.faces[k], static_cast<int>(before[k].size()),
+         deviation_of(std::move(before[k])), deviation_of(std::move(after[k])), net, new_net});
+  }
+  return {};
+}
+
+std::optional<double> parted(const EdgeMeasures& edge) {
+  if (!edge.gap && !edge.off_curve) return std::nullopt;
+  return std::max(edge.gap ? edge.gap->value : 0, edge.off_curve ? edge.off_curve->value : 0);
+}
+
+std::optional<double> value_of(const std::optional<brep::EdgeFigure>& figure) {
+  return figure ? std::optional(figure->value) : std::nullopt;
+}
+
+std::array<double, 3> place_of(const EdgeMeasures& edge) {
+  if (edge.gap && edge.off_curve)
+    return edge.gap->value >= edge.off_curve->value ? edge.gap->at.point : edge.off_curve->at.point;
+  return edge.gap ? edge.gap->at.point : edge.off_curve ? edge.off_curve->at.point : edge.middle;
+}
+
+/// Compares the edges of the file that would be written with those of the one that was opened, and
+/// refuses what has come open.
+Expected<void> check_edges(const brep::ModelMeasures& before, const brep::ModelMeasures& after,
+                           MorphReport& report) {
+  std::map<std::string, const EdgeMeasures*> old;
+  for (const EdgeMeasures& edge : before.edges) old[edge.id] = &edge;
+  for (const EdgeMeasures& edge : after.edges) {
+    const auto found = old.find(edge.id);
+    if (found == old.end()) continue;
+    const EdgeMeasures& was = *found->second;
+    const auto gap = parted(edge), gap_before = parted(was);
+    // The tolerance is the larger of the file's uncertainty and 1e-6 of the size.
+    const double most = std::max(1.01 * gap_before.value_or(0), before.gap_tolerance);
+    const auto at = place_of(edge);
+    const std::string where =
+        fmt::format("edge {} of faces {} at ({:.6g}, {:.6g}, {:.6g})", edge.id,
+                    fmt::join(edge.faces, ", "), at[0], at[1], at[2]);
+    if (gap && gap_before && *gap > most) {
+      return numerical_error(
+          fmt::format("it would be parted by {:.3g}, more than {:.3g}", *gap, most), where,
+          "allow more control points with --refine, a larger --tolerance, or --keep its faces");
+    }
+    if (edge.kind == EdgeKind::unknown && was.kind != EdgeKind::unknown)
+      return numerical_error("it could not be followed any more: " + edge.reason, where,
+                             "keep its faces with --keep");
+    const auto angle = value_of(edge.angle), angle_before = value_of(was.angle);
+    const auto bend = value_of(edge.relative_curvature),
+               bend_before = value_of(was.relative_curvature);
+    if (gap == gap_before && angle == angle_before && bend == bend_before) continue;
+    report.edges.push_back({edge.id, std::string(brep::name_of(edge.kind)), gap_before, gap,
+                            angle_before, angle, bend_before, bend});
+  }
+  return {};
+}
+
+void describe_points(const MorphPoints& points, MorphReport& report) {
+  const auto& found = points.found;
+  report.points = static_cast<int>(points.count);
+  report.used = static_cast<int>(found.data.size());
+  report.left_out = static_cast<int>(found.left_out);
+  report.reach = points.reach;
+  report.size = points.size;
+  report.largest_distance = found.largest_distance;
+  report.rms_distance = found.rms_distance;
+  for (const morph::LeftOutPoint& point : found.listed) {
+    MorphLeftOut listed{static_cast<int>(point.number) + 1,
+                        {point.place.x(), point.place.y(), point.place.z()},
+                        {}};
+    if (std::isfinite(point.distance)) listed.distance = point.distance;
+    report.listed.push_back(listed);
+  }
+}
+
+void describe_fit(const MovingModel& model, const morph::FitResult& fit, MorphReport& report) {
+  static constexpr const char* measures[] = {"residual", "parting", "angle", "contradiction"};
+  report.lambda = fit.lambda;
+  report.rounds = fit.rounds;
+  report.refinements = fit.refinements;
+  for (const morph::FitExcess& excess : fit.above) {
+    report.above.push_back({measures[static_cast<std::size_t>(excess.measure)],
+                            model.source->surfaces()[static_cast<std::size_t>(excess.surface)].id,
+                            excess.edge,
+                            {excess.place.x(), excess.place.y(), excess.place.z()},
+                            excess.found,
+                            excess.wanted});
+  }
+}
+
+/// A surface of the model in the coordinates of its part.
+Expected<Surface> in_its_part(Surface surface, const Eigen::Affine3d& to_model) {
+  if (to_model.matrix().isIdentity(0)) return surface;
+  const Eigen::Affine3d back = to_model.inverse();
+  Points net = surface.control_points();
+  for (Eigen::Index row = 0; row < net.rows(); ++row)
+    net.row(row) = (back * Point(net.row(row).transpose())).transpose();
+  return surface.with_control_points(net);
+}
+
+/// The bytes with the surfaces that have moved, and every edge of theirs anew.
+Expected<std::string> saved(const MovingModel& model, std::vector<Surface> moved) {
+  std::vector<std::shared_ptr<const Surface>> surfaces;
+  std::vector<std::string> edges;
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    if (model.surfaces[k].fixed) {
+      surfaces.push_back(model.surfaces[k].surface);
+      continue;
+    }
+    auto own = in_its_part(std::move(moved[k]), model.places[k].to_model);
+    if (!own) return std::unexpected(own.error());
+    surfaces.push_back(std::make_shared<const Surface>(*std::move(own)));
+  }
+  for (const morph::FitEdge& edge : model.edges) {
+    const bool moves = std::ranges::any_of(
+        edge.surfaces, [&](int k) { return !model.surfaces[static_cast<std::size_t>(k)].fixed; });
+    if (moves) edges.push_back(edge.course->id());
+  }
+  return model.source->save(surfaces, edges);
+}
+
+Expected<void> check_settings(const MorphSettings& settings) {
+  const auto positive = [](std::optional<double> x) { return !x || (*x > 0 && std::isfinite(*x)); };
+  if (!std::isfinite(settings.scale)) return input_error("the scale is not finite", "scale");
+  if (!positive(settings.tolerance))
+    return input_error("it is no length above 0", "tolerance", "use one of the file's unit");
+  if (!positive(settings.reach))
+    return input_error("it is no length above 0", "reach", "use one of the file's unit");
+  if (!(settings.refinement >= 1 && settings.refinement <= 1000))
+    return input_error("it is not from 1 to 1000", "refinement",
+                       "it is a multiple of the control points");
+  return {};
+}
+
+Expected<brep::ModelMeasures> measures_after(const std::string& bytes, const Source& source) {
+  const auto opened = open_source(bytes, source.name());
+  if (!opened) return std::unexpected(opened.error());
+  return brep::measure_edges(*(*opened)->model());
+}
+
+}  // namespace
+
+Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, const MorphData& data,
+                                 const MorphSettings& settings) {
+  if (auto right = check_settings(settings); !right) return std::unexpected(right.error());
+  Stopwatch watch;
+  MorphedFile result;
+  MorphReport& report = result.report;
+  report.file = source->name();
+  report.format = source->format();
+  report.scale = settings.scale;
+  std::vector<std::shared_ptr<const Surface>> as_opened;
+  for (const SourceSurface& s : source->surfaces()) as_opened.push_back(s.surface);
+  auto opened = source->save(as_opened);
+  if (!opened) return std::unexpected(opened.error());
+  report.bytes_before = static_cast<double>(opened->size());
+  auto model = detail::moving_model(source, settings);
+  if (!model) return std::unexpected(model.error());
+  report.unit = model->model->assembly ? model->model->assembly->unit : model->model->length_unit();
+  report.time_model = watch.lap();
+
+  auto points = detail::points_of(*model, data, settings);
+  if (!points) return std::unexpected(points.error());
+  describe_points(*points, report);
+  report.time_data = watch.lap();
+  if (settings.scale == 0) {
+    result.bytes = *std::move(opened);
+    report.bytes_after = report.bytes_before;
+    return result;
+  }
+
+  std::vector<morph::Datum> all = points->found.data;
+  hold_edges(*model, all);
+  report.tolerance = settings.tolerance.value_or(1e-5 * points->size);
+  auto fit =
+      morph::fit_surfaces(model->placed, model->edges, all,
+                          {.tolerance = report.tolerance, .refinement = settings.refinement});
+  if (!fit) return std::unexpected(fit.error());
+  describe_fit(*model, *fit, report);
+  if (auto added = add_deviations(*model, *points, fit->surfaces, report); !added)
+    return std::unexpected(added.error());
+  report.time_fit = watch.lap();
+
+  auto bytes = saved(*model, std::move(fit->surfaces));
+  if (!bytes) return std::unexpected(bytes.error());
+  result.bytes = *std::move(bytes);
+  report.bytes_after = static_cast<double>(result.bytes.size());
+  report.converted = std::move(model->converted);
+  report.fixed = std::move(model->fixed);
+  report.unknown_edges = std::move(model->unknown_edges);
+  report.time_save = watch.lap();
+
+  const auto before = brep::measure_edges(*source->model());
+  if (!before) return std::unexpected(before.error());
+  const auto after = measures_after(result.bytes, *source);
+  if (!after) return std::unexpected(after.error());
+  if (auto right = check_edges(*before, *after, report); !right)
+    return std::unexpected(right.error());
+  report.time_check = watch.lap();
+  return result;
+}
+
+}  // namespace knead

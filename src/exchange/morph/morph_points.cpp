@@ -1,0 +1,196 @@
+#include "morph_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "knead/base/printable.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/spline/evaluate.hpp"
+
+namespace knead::detail {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector2d;
+using morph::FitSurface;
+
+/// Data and model in different units differ in size by 10 or more; so do data on a small part.
+Expected<void> check_size(const std::vector<Point>& points, const AlignedBox3d& model,
+                          const MorphSettings& settings, const std::string& unit) {
+  constexpr double most = 5;
+  AlignedBox3d box;
+  for (const Point& p : points) box.extend(p);
+  const double data = box.diagonal().norm(), size = model.diagonal().norm();
+  if (!settings.unit.empty() || points.size() < 2 || (data <= most * size && size <= most * data))
+    return {};
+  return input_error(
+      fmt::format("the box of the data measures {:.4g} and that of the model {:.4g} {}", data, size,
+                  unit == "unknown" ? "" : unit),
+      "data",
+      fmt::format("say in what unit the data are with --unit, {}",
+                  unit == "unknown" ? list_of_length_units() : "also if it is " + unit));
+}
+
+/// How many units of the model one of the data is.
+Expected<double> unit_factor(const MovingModel& model, const MorphSettings& settings) {
+  if (settings.unit.empty()) return 1.0;
+  const auto data = millimetres_of(settings.unit);
+  if (!data)
+    return input_error("there is no unit \"" + settings.unit + "\"", "unit",
+                       "use " + list_of_length_units());
+  const auto own = millimetres_of(model.model->assembly ? model.model->assembly->unit
+                                                        : model.model->length_unit());
+  return own ? *data / *own : 1.0;
+}
+
+/// A grid over what is visible of a surface, fractions, and its edges.
+std::vector<Vector2d> places_on(const FitSurface& surface) {
+  constexpr int least = 24;    // lines per direction
+  constexpr int per_span = 5;  // of the largest degree that is raised to, and more
+  constexpr std::size_t along_edges = 33;
+  const auto extent = surface.region.extent();
+  std::array<int, 2> lines{};
+  for (int d = 0; d < 2; ++d) {
+    const auto spans = static_cast<int>(surface.surface->knots(d).spans().size());
+    lines[static_cast<std::size_t>(d)] = std::clamp(per_span * spans, least, 400);
+  }
+  std::vector<Vector2d> result;
+  for (int i = 0; i < lines[0]; ++i) {
+    for (int j = 0; j < lines[1]; ++j) {
+      const Vector2d part((i + 0.5) / lines[0], (j + 0.5) / lines[1]);
+      const Vector2d at = extent[0] + part.cwiseProduct(extent[1] - extent[0]);
+      if (surface.region.contains(at)) result.push_back(at);
+    }
+  }
+  for (const TrimEdge& edge : surface.region.edges) {
+    const std::size_t step = std::max<std::size_t>(1, edge.course.size() / along_edges);
+    for (std::size_t k = 0; k < edge.course.size(); k += step) {
+      Vector2d at = edge.course[k];
+      for (double& x : at) {
+        if (x < 0 || x > 1) x -= std::floor(x);
+      }
+      result.push_back(at);
+    }
+  }
+  return result;
+}
+
+/// The unit normal of a surface; zero where it has none.
+Expected<Point> unit_normal(const Surface& surface, const std::array<double, 2>& at) {
+  Parameters<2> place(1, 2);
+  place << at[0], at[1];
+  const auto normals = unit_normals(surface, place);
+  if (!normals) return std::unexpected(normals.error());
+  return Point(normals->row(0).transpose());
+}
+
+// A map is known everywhere: each surface has points of its own, which need no partner. Those of
+// surfaces that stay are left out, which are no data.
+Expected<morph::Correspondences> mapped_points(const MovingModel& model,
+                                               const fields::SpaceMap& map,
+                                               const MorphSettings& settings) {
+  morph::Correspondences result;
+  for (std::size_t k = 0; k < model.placed.size(); ++k) {
+    const FitSurface& surface = model.placed[k];
+    if (!model.shown[k] || surface.fixed) continue;
+    for (const Vector2d& at : places_on(surface)) {
+      const auto parameters = parameters_of(*surface.surface, at);
+      const auto point = evaluate_point<2>(*surface.surface, parameters);
+      if (!point) return std::unexpected(point.error());
+      auto wanted = map.at(*point);
+      if (!wanted) return std::unexpected(wanted.error());
+      if (settings.along_normal) {
+        const auto normal = unit_normal(*surface.surface, parameters);
+        if (!normal) return std::unexpected(normal.error());
+        *wanted = wanted->dot(*normal) * *normal;
+      }
+      result.numbers.push_back(result.data.size());
+      result.data.push_back({static_cast<int>(k), parameters, settings.scale * *wanted, 1});
+    }
+  }
+  return result;
+}
+
+/// Errors: a part in several places has data, and nobody has said which of them is meant.
+Expected<void> check_places(const MovingModel& model, const std::vector<morph::Datum>& data) {
+  for (const morph::Datum& datum : data) {
+    const SurfacePlace& place = model.places[static_cast<std::size_t>(datum.surface)];
+    if (place.others.empty()) continue;
+    std::string list;
+    for (const std::string& path : place.others) list += (list.empty() ? "" : ", ") + path;
+    return input_error(
+        fmt::format("the part \"{}\" has data, and stands in {} places", printable(place.part, 60),
+                    place.others.size()),
+        model.source->surfaces()[static_cast<std::size_t>(datum.surface)].id,
+        "say with --place which of them the data are about: " + printable(list, 300));
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<fields::Displacements> given_displacements(const MorphData& data,
+                                                    const MorphSettings& settings) {
+  if (data.vectors) {
+    fields::DisplacementColumns which{.field = settings.field};
+    if (!settings.columns.empty()) {
+      if (settings.columns.size() != which.columns.size())
+        return input_error(fmt::format("{} columns are named, not six", settings.columns.size()),
+                           "columns", "name those of x, y, z and of the displacement");
+      std::ranges::copy(settings.columns, which.columns.begin());
+    }
+    return fields::read_displacements(data.vectors->bytes, data.vectors->name, which);
+  }
+  return fields::mesh_pair(data.from->bytes, data.from->name, data.to->bytes, data.to->name);
+}
+
+Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
+                                const MorphSettings& settings) {
+  const int kinds =
+      (data.vectors ? 1 : 0) + (data.from && data.to ? 1 : 0) + (data.space.empty() ? 0 : 1);
+  if (kinds != 1 || data.from.has_value() != data.to.has_value())
+    return input_error("data are displacements, or a mesh before and after, or a map of space",
+                       "data", "give one of them");
+  const auto search = morph::VisibleSearch::create(model.placed, model.shown);
+  if (!search) return std::unexpected(search.error());
+  const AlignedBox3d box = search->box();
+  MorphPoints result;
+  result.size = box.isEmpty() ? 0 : box.diagonal().norm();
+  result.reach = settings.reach.value_or(0.01 * result.size);
+  if (!data.space.empty()) {
+    const auto map = fields::SpaceMap::parse(data.space);
+    if (!map) return std::unexpected(map.error().within("space"));
+    auto points = mapped_points(model, *map, settings);
+    if (!points) return std::unexpected(points.error());
+    result.found = *std::move(points);
+    result.count = result.found.data.size();
+  } else {
+    auto given = given_displacements(data, settings);
+    if (!given) return std::unexpected(given.error());
+    const auto factor = unit_factor(model, settings);
+    if (!factor) return std::unexpected(factor.error());
+    for (Point& p : given->points) p *= *factor;
+    for (Point& d : given->vectors) d *= settings.scale * *factor;
+    const std::string unit =
+        model.model->assembly ? model.model->assembly->unit : model.model->length_unit();
+    if (auto right = check_size(given->points, box, settings, unit); !right)
+      return std::unexpected(right.error());
+    auto found = morph::correspond(*search, model.placed, given->points, given->vectors,
+                                   {result.reach, settings.along_normal});
+    if (!found) return std::unexpected(found.error());
+    result.found = *std::move(found);
+    result.count = given->points.size();
+  }
+  if (result.found.data.empty()) {
+    return input_error(
+        fmt::format("none of {} points is within {:.4g} of a face", result.count, result.reach),
+        "data", "is it in the coordinates and the unit of the model? --unit, --reach");
+  }
+  if (auto right = check_places(model, result.found.data); !right)
+    return std::unexpected(right.error());
+  return result;
+}
+
+}  // namespace knead::detail

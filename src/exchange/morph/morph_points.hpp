@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "exchange/fields/displacements.hpp"
+#include "morph/correspondence.hpp"
+#include "moving_model.hpp"
+
+namespace knead::detail {
+
+/// Data as points of the surfaces, and where they came from.
+struct MorphPoints {
+  morph::Correspondences found;  ///< displacements in the coordinates of the model
+  std::size_t count = 0;         ///< of points in the data
+  double reach = 0;
+  double size = 0;  ///< diagonal of the box of what is visible, in the model
+};
+
+/// The displacements of the data, unscaled, in their own unit. Errors: those of the readers; not
+/// one kind of data is given (input).
+[[nodiscard]] Expected<fields::Displacements> given_displacements(const MorphData& data,
+                                                                  const MorphSettings& settings);
+
+/// The points that they are about. Errors: those of `morph_file`.
+[[nodiscard]] Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
+                                              const MorphSettings& settings);
+
+}  // namespace knead::detail

@@ -1,0 +1,113 @@
+// The report on a morph as JSON, and the schema of that.
+#include "describe/record_json.hpp"
+#include "describe/text.hpp"
+#include "knead/exchange/morph.hpp"
+
+namespace knead {
+
+static void describe(Deviation& d, Fields& fields) {
+  fields.name("deviation", "Lengths over all points of a set.");
+  fields.add("mean", d.mean, {.unit = Unit::length});
+  fields.add("rms", d.rms, {.help = "root mean square", .unit = Unit::length});
+  fields.add("of_95", d.of_95, {.help = "95 % are at most this", .unit = Unit::length});
+  fields.add("of_99", d.of_99, {.help = "99 % are at most this", .unit = Unit::length});
+  fields.add("largest", d.largest, {.unit = Unit::length});
+}
+
+static void describe(MorphedSurface& s, Fields& fields) {
+  fields.name("morphed surface", "How the points on one surface were followed.");
+  fields.add("id", s.id, {.presence = Presence::required});
+  fields.add("faces", s.faces, {.help = "ids of the faces on it"});
+  fields.add("points", s.points, {.help = "of the data"});
+  fields.add("before", s.before, {.help = "displacements that are wanted"});
+  fields.add("after", s.after, {.help = "what of them is missing"});
+  fields.add("control_points_before", s.control_points_before);
+  fields.add("control_points_after", s.control_points_after);
+}
+
+static void describe(MorphException& e, Fields& fields) {
+  fields.name("morph exception", "What did not take part.");
+  fields.add("id", e.id, {.presence = Presence::required});
+  fields.add("reason", e.reason, {.presence = Presence::required});
+}
+
+static void describe(MorphLeftOut& p, Fields& fields) {
+  fields.name("point left out", "A point farther from every face than the reach.");
+  fields.add("number", p.number, {.help = "in the data, from 1"});
+  fields.add("place", p.place, {.unit = Unit::length});
+  fields.add(
+      "distance", p.distance,
+      {.help = "from the model; null: more than a hundred times the reach", .unit = Unit::length});
+}
+
+static void describe(MorphedEdge& e, Fields& fields) {
+  fields.name("morphed edge", "An edge with other figures than before (docs/check.md).");
+  fields.add("id", e.id, {.presence = Presence::required});
+  fields.add("kind", e.kind, {.help = "as `knead check` calls it"});
+  fields.add("gap_before", e.gap_before, {.help = "the larger of gap and off_curve"});
+  fields.add("gap_after", e.gap_after, {.unit = Unit::length});
+  fields.add("angle_before", e.angle_before, {.help = "degrees"});
+  fields.add("angle_after", e.angle_after, {.help = "degrees"});
+  fields.add("curvature_before", e.curvature_before, {.help = "percent"});
+  fields.add("curvature_after", e.curvature_after, {.help = "percent"});
+}
+
+static void describe(MorphExcess& e, Fields& fields) {
+  fields.name("morph excess", "What is above what was wanted.");
+  fields.add("measure", e.measure,
+             {.help = "residual, parting, angle (degrees), or contradiction: data on what stays"});
+  fields.add("surface", e.surface);
+  fields.add("edge", e.edge, {.omit_empty = true});
+  fields.add("place", e.place, {.help = "before", .unit = Unit::length});
+  fields.add("found", e.found);
+  fields.add("wanted", e.wanted);
+}
+
+static void describe(MorphReport& r, Fields& fields) {
+  fields.name("morph report", "How the surfaces of a CAD file have followed data.");
+  fields.add_all("file", r.file, "format", r.format);
+  fields.add("unit", r.unit, {.help = "of lengths, as the file names it"});
+  fields.add("scale", r.scale, {.help = "of the displacements"});
+  fields.add("size", r.size, {.help = "diagonal of the model's box", .unit = Unit::length});
+  fields.add("tolerance", r.tolerance, {.help = "largest residual wanted", .unit = Unit::length});
+  fields.add("reach", r.reach, {.help = "farthest from a face", .unit = Unit::length});
+  fields.add("points", r.points, {.help = "of the data"});
+  fields.add("used", r.used, {.help = "of them"});
+  fields.add("left_out", r.left_out, {.help = "farther from every face than the reach"});
+  fields.add("listed", r.listed, {.help = "the first of those"});
+  fields.add("largest_distance", r.largest_distance,
+             {.help = "of the points used from the model", .unit = Unit::length});
+  fields.add("rms_distance", r.rms_distance, {.unit = Unit::length});
+  fields.add("before", r.before, {.help = "displacements that are wanted"});
+  fields.add("after", r.after, {.help = "what of them is missing"});
+  fields.add("surfaces", r.surfaces);
+  fields.add("converted", r.converted, {.help = "surfaces that became B-splines"});
+  fields.add("fixed", r.fixed, {.help = "surfaces that could not move"});
+  fields.add("unknown_edges", r.unknown_edges, {.help = "that could not be followed"});
+  fields.add("edges", r.edges, {.help = "with other figures than before"});
+  fields.add("above", r.above, {.help = "what is above what was wanted"});
+  fields.add("control_points_before", r.control_points_before);
+  fields.add("control_points_after", r.control_points_after);
+  fields.add("bytes_before", r.bytes_before);
+  fields.add("bytes_after", r.bytes_after);
+  fields.add("lambda", r.lambda, {.help = "weight of the energy"});
+  fields.add("rounds", r.rounds, {.help = "solves on the last factor"});
+  fields.add("refinements", r.refinements, {.help = "times that knots were inserted"});
+  fields.add("time_model", r.time_model, {.help = "seconds: conversion, regions, edges"});
+  fields.add("time_data", r.time_data, {.help = "seconds: reading, nearest points"});
+  fields.add("time_fit", r.time_fit, {.help = "seconds"});
+  fields.add("time_save", r.time_save, {.help = "seconds"});
+  fields.add("time_check", r.time_check, {.help = "seconds: opening and measuring edges"});
+}
+
+std::string morph_json(const MorphReport& report) {
+  return indented_json(
+      to_json(type_of<MorphReport>(), &report, Absent::null, shortest_json_number));
+}
+
+std::string morph_schema() {
+  return R"({"$schema":"https://json-schema.org/draft/2020-12/schema",)" +
+         schema_of(type_of<MorphReport>(), Absent::null).substr(1) + "\n";
+}
+
+}  // namespace knead

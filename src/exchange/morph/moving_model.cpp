@@ -1,0 +1,285 @@
+#include "moving_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "base/parallel_for.hpp"
+#include "brep/shared_edge.hpp"
+#include "knead/base/printable.hpp"
+#include "knead/brep/face_conversion.hpp"
+#include "knead/brep/face_edges.hpp"
+
+namespace knead::detail {
+namespace {
+
+using brep::Model;
+
+/// The ids of the surfaces that are named themselves, or by faces on them.
+Expected<std::set<std::string>> surfaces_named(const Model& model,
+                                               const std::vector<std::string>& ids,
+                                               std::string_view option) {
+  std::set<std::string> result;
+  for (const std::string& id : ids) {
+    const auto face = std::ranges::find(model.faces, id, &brep::Face::id);
+    const auto support = std::ranges::find(model.supports, id, &brep::Support::id);
+    if (face != model.faces.end() && face->support != brep::none) {
+      result.insert(model.supports[face->support].id);
+    } else if (support != model.supports.end() || model.find_surface(id) != nullptr) {
+      result.insert(id);
+    } else {
+      return input_error(fmt::format("\"{}\" is neither a face nor a surface", printable(id, 40)),
+                         option, "`knead info --faces FILE` lists them");
+    }
+  }
+  return result;
+}
+
+/// Which surfaces may move, by the ids of the file as opened.
+struct Choice {
+  std::set<std::string> faces, keep;
+  bool all = true;
+
+  [[nodiscard]] bool moves(const std::string& surface) const {
+    return (all || faces.contains(surface)) && !keep.contains(surface);
+  }
+};
+
+Expected<Choice> choice_of(const Model& model, const MorphSettings& settings) {
+  auto faces = surfaces_named(model, settings.faces, "faces");
+  if (!faces) return std::unexpected(faces.error());
+  auto keep = surfaces_named(model, settings.keep, "keep");
+  if (!keep) return std::unexpected(keep.error());
+  return Choice{*std::move(faces), *std::move(keep), settings.faces.empty()};
+}
+
+/// The source with all of these surfaces converted that can be; the others are told to `fixed`.
+std::shared_ptr<const Source> converted(std::shared_ptr<const Source> source,
+                                        const std::vector<brep::OtherSurface>& wanted,
+                                        MovingModel& result) {
+  std::vector<std::string> able;
+  std::vector<Expected<Surface>> forms(wanted.size(), Expected<Surface>(std::unexpected(Error())));
+  const auto model = source->model();
+  parallel_for(
+      static_cast<std::ptrdiff_t>(wanted.size()), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+          forms[k] = brep::exact_spline(*model, wanted[k].id);
+      });
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    if (forms[k])
+      able.push_back(wanted[k].id);
+    else
+      result.fixed.push_back({wanted[k].id, forms[k].error().message()});
+  }
+  if (able.empty()) return source;
+  if (auto made = source->with_splines(able)) {
+    result.converted = std::move(able);
+    return *std::move(made);
+  }
+  // One by one, to find those that the file's format cannot take.
+  for (const std::string& id : able) {
+    auto made = source->with_splines(std::span(&id, 1));
+    if (!made) {
+      result.fixed.push_back({id, made.error().message()});
+      continue;
+    }
+    source = *std::move(made);
+    result.converted.push_back(id);
+  }
+  return source;
+}
+
+/// Which surface of the converted file each face of the file as opened lies on, if one.
+void add_surfaces(const Model& opened, const Choice& choice, MovingModel& result) {
+  const Model& model = *result.model;
+  std::map<std::string, std::string> support_of_face;  // as opened
+  for (const brep::Face& face : opened.faces) {
+    if (face.support != brep::none) support_of_face[face.id] = opened.supports[face.support].id;
+  }
+  const std::size_t count = result.source->surfaces().size();
+  result.faces.resize(count);
+  result.shown.assign(count, model.faces.empty());
+  std::vector<bool> moves(count, false);
+  for (std::size_t k = 0; k < count; ++k)
+    moves[k] = model.faces.empty() && choice.moves(result.source->surfaces()[k].id);
+  for (const brep::Face& face : model.faces) {
+    const auto* spline = model.spline_under(face);
+    if (spline == nullptr) continue;
+    const auto k = static_cast<std::size_t>(spline - model.surfaces.data());
+    result.shown[k] = true;
+    result.faces[k].push_back(face.id);
+    const auto before = support_of_face.find(face.id);
+    moves[k] = choice.moves(before == support_of_face.end() ? spline->id : before->second);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    morph::FitSurface surface{result.source->surfaces()[k].surface, {}, !moves[k]};
+    result.surfaces.push_back(std::move(surface));
+  }
+}
+
+void add_regions(MovingModel& result) {
+  const VisibleRegions regions(result.model);
+  const auto count = static_cast<std::ptrdiff_t>(result.surfaces.size());
+  std::vector<std::string> wrong(result.surfaces.size());
+  parallel_for(count, 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      if (!result.shown[k]) continue;
+      auto region = regions.of(result.source->surfaces()[k].id);
+      if (region)
+        result.surfaces[k].region = *std::move(region);
+      else
+        wrong[k] = region.error().message();
+    }
+  });
+  for (std::size_t k = 0; k < wrong.size(); ++k) {
+    if (wrong[k].empty()) continue;
+    result.shown[k] = false;
+    result.surfaces[k].fixed = true;
+    result.fixed.push_back({result.source->surfaces()[k].id, wrong[k]});
+  }
+}
+
+// Each edge once, however many surfaces it is on. One that cannot be followed on all of them, as a
+// face at it is no B-spline surface, holds those that are.
+void add_edges(MovingModel& result) {
+  std::map<std::string, std::vector<std::pair<int, std::size_t>>> uses;
+  std::vector<std::string> ids;
+  for (std::size_t k = 0; k < result.surfaces.size(); ++k) {
+    const auto& edges = result.surfaces[k].region.edges;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      auto& use = uses[edges[e].id];
+      if (use.empty()) ids.push_back(edges[e].id);
+      use.emplace_back(static_cast<int>(k), e);
+    }
+  }
+  if (result.model->edges.empty()) return;
+  std::vector<std::optional<Expected<SharedEdge>>> courses(ids.size());
+  parallel_for(
+      static_cast<std::ptrdiff_t>(ids.size()), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+          courses[k].emplace(SharedEdge::create(*result.model, ids[k]));
+      });
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (!*courses[k]) {
+      result.unknown_edges.push_back({ids[k], courses[k]->error().message()});
+      for (const auto& use : uses[ids[k]]) {
+        if (!result.surfaces[static_cast<std::size_t>(use.first)].fixed) result.held.push_back(use);
+      }
+      continue;
+    }
+    morph::FitEdge edge;
+    edge.course = std::make_shared<const SharedEdge>(**std::move(courses[k]));
+    for (const std::string& id : edge.course->surfaces())
+      edge.surfaces.push_back(static_cast<int>(result.model->surface_index(id)));
+    result.edges.push_back(std::move(edge));
+  }
+}
+
+/// The paths of a part's places; those that are equal are counted from the second on: "a/bolt",
+/// "a/bolt:2".
+std::vector<std::string> names_of(const brep::Part& part) {
+  std::vector<std::string> names;
+  std::map<std::string, int> known;
+  for (const brep::PartPlace& place : part.places) {
+    const int count = ++known[place.path];
+    names.push_back(count == 1 ? place.path : fmt::format("{}:{}", place.path, count));
+  }
+  return names;
+}
+
+/// Where the surface stands: where its part does, of several places the one that is asked for.
+SurfacePlace place_of(const brep::Part& part, const std::vector<std::string>& asked) {
+  SurfacePlace result{part.places.front().to_model, part.name, {}};
+  if (part.places.size() == 1) return result;
+  result.others = names_of(part);
+  for (std::size_t k = 0; k < part.places.size(); ++k) {
+    if (std::ranges::find(asked, result.others[k]) != asked.end())
+      return {part.places[k].to_model, part.name, {}};
+  }
+  return result;
+}
+
+/// A surface with its edges as they stand in the model.
+Expected<morph::FitSurface> moved_by(const Eigen::Affine3d& move, morph::FitSurface surface) {
+  Points net = surface.surface->control_points();
+  for (Eigen::Index row = 0; row < net.rows(); ++row)
+    net.row(row) = (move * Point(net.row(row).transpose())).transpose();
+  auto moved = surface.surface->with_control_points(net);
+  if (!moved) return std::unexpected(moved.error());
+  surface.surface = std::make_shared<const Surface>(*std::move(moved));
+  for (TrimEdge& edge : surface.region.edges) {
+    for (Point& p : edge.points) p = move * p;
+  }
+  return surface;
+}
+
+Expected<void> add_places(const MorphSettings& settings, MovingModel& result) {
+  result.places.resize(result.surfaces.size());
+  const auto& assembly = result.model->assembly;
+  if (assembly) {
+    for (const std::string& path : settings.places) {
+      const bool known = std::ranges::any_of(assembly->parts, [&](const brep::Part& part) {
+        const auto names = names_of(part);
+        return std::ranges::find(names, path) != names.end();
+      });
+      if (!known)
+        return input_error("no part stands at \"" + printable(path, 60) + "\"", "place",
+                           "`knead info FILE` lists the places");
+    }
+  }
+  result.placed = result.surfaces;
+  for (std::size_t k = 0; assembly && k < result.surfaces.size(); ++k) {
+    const brep::Part* part = assembly->part_of(result.source->surfaces()[k].id);
+    if (part == nullptr || part->places.empty()) continue;
+    result.places[k] = place_of(*part, settings.places);
+    const Eigen::Affine3d& move = result.places[k].to_model;
+    if (move.matrix().isIdentity(0)) continue;
+    auto placed = moved_by(move, result.surfaces[k]);
+    if (!placed) return std::unexpected(placed.error());
+    result.placed[k] = *std::move(placed);
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<MovingModel> moving_model(const std::shared_ptr<const Source>& source,
+                                   const MorphSettings& settings) {
+  MovingModel result;
+  const auto opened = source->model();
+  if (!opened) {
+    return input_error(fmt::format("a {} file has no faces", source->format()), source->name(),
+                       "write its surfaces as faces with `knead export --faces`");
+  }
+  const auto choice = choice_of(*opened, settings);
+  if (!choice) return std::unexpected(choice.error());
+  std::vector<brep::OtherSurface> others;
+  for (auto& other : brep::other_surfaces(*opened)) {
+    if (other.faces.empty() || !choice->moves(other.id)) continue;
+    if (settings.convert)
+      others.push_back(std::move(other));
+    else
+      result.fixed.push_back({other.id, fmt::format("a {} is not converted", other.form)});
+  }
+  result.source = converted(source, others, result);
+  result.model = result.source->model();
+  if (result.source->surfaces().empty())
+    return input_error("there is no B-spline surface that could move", source->name(),
+                       "let others be converted");
+  add_surfaces(*opened, *choice, result);
+  add_regions(result);
+  add_edges(result);
+  if (auto right = add_places(settings, result); !right) return std::unexpected(right.error());
+  if (std::ranges::all_of(result.surfaces, &morph::FitSurface::fixed)) {
+    return input_error("nothing is free to move", source->name(),
+                       result.fixed.empty() ? "keep fewer faces"
+                                            : fmt::format("surface {}: {}", result.fixed.front().id,
+                                                          result.fixed.front().reason));
+  }
+  return result;
+}
+
+}  // namespace knead::detail

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "knead/exchange/morph.hpp"
+#include "morph/surface_fit.hpp"
+
+namespace knead::detail {
+
+/// Where a surface stands in the model.
+struct SurfacePlace {
+  Eigen::Affine3d to_model = Eigen::Affine3d::Identity();
+  std::string part = {};                 ///< its name
+  std::vector<std::string> others = {};  ///< all places of it, if it is not said which is meant
+};
+
+/// A file whose faces are to move, as `fit_surfaces` takes it.
+struct MovingModel {
+  std::shared_ptr<const Source> source;  ///< with the surfaces that are converted
+  std::shared_ptr<const brep::Model> model;
+  std::vector<morph::FitSurface> surfaces;      ///< one for each of the source
+  std::vector<bool> shown;                      ///< of each: faces show some of it
+  std::vector<std::vector<std::string>> faces;  ///< on each
+  std::vector<SurfacePlace> places;             ///< of each
+  std::vector<morph::FitSurface> placed;        ///< `surfaces` in the coordinates of the model
+  std::vector<morph::FitEdge> edges;
+  std::vector<std::string> converted;
+  std::vector<MorphException> fixed, unknown_edges;
+  /// Edges between a surface that moves and one that cannot, by position in `surfaces` and in the
+  /// edges of its region.
+  std::vector<std::pair<int, std::size_t>> held;
+};
+
+/// Converts what is to move, follows the visible parts of all surfaces and all edges, by threads.
+/// Errors: those of `morph_file`.
+[[nodiscard]] Expected<MovingModel> moving_model(const std::shared_ptr<const Source>& source,
+                                                 const MorphSettings& settings);
+
+}  // namespace knead::detail
