@@ -47,13 +47,15 @@ Expected<double> unit_factor(const MovingModel& model, const MorphSettings& sett
 
 /// A grid over what is visible of a surface, fractions, and its edges.
 std::vector<Vector2d> places_on(const FitSurface& surface) {
-  constexpr int least = 24;    // lines per direction
-  constexpr int per_span = 5;  // of the largest degree that is raised to, and more
+  constexpr int least = 24;  // lines per direction
   constexpr std::size_t along_edges = 33;
   const auto extent = surface.region.extent();
   std::array<int, 2> lines{};
   for (int d = 0; d < 2; ++d) {
-    const auto spans = static_cast<int>(surface.surface->knots(d).spans().size());
+    // More lines in every span than it has functions there, also after raising to degree 3.
+    const KnotVector& knots = surface.surface->knots(d);
+    const int per_span = std::max(knots.degree(), 3) + 2;
+    const auto spans = static_cast<int>(knots.spans().size());
     lines[static_cast<std::size_t>(d)] = std::clamp(per_span * spans, least, 400);
   }
   std::vector<Vector2d> result;
