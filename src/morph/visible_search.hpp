@@ -30,6 +30,7 @@ struct VisibleFoot {
 /// Accuracy: of visible points inside a face that of `ClosestPointSearch`; on edges the deviation
 /// of the chords from the edge (`TrimEdge::deviation`), by which the nearest point of a surface may
 /// be beyond the edge too. Points at equal distances: the one found first, always the same.
+/// The surfaces must outlive it.
 class VisibleSearch {
  public:
   /// Surfaces that nothing shows are to be left out by `shown`, one flag for each; empty: none is.

@@ -55,7 +55,7 @@ TEST(LargeStep, IsListedAndChangedInFourTimesItsSize) {
                                    command("points", {{"which", {820}}, {"by", {0, 0, 1}}})}));
   const auto size = std::filesystem::file_size(file);
   ASSERT_GT(size, 20U << 20U);
-  const rlim_t program = rlim_t{40} << 20U;  // its code, libraries and stack
+  const rlim_t program = rlim_t{44} << 20U;  // its code, libraries and stack
   const LessMemory limit(program + 4 * size);
   const Outcome info = knead({"info", file});
   EXPECT_EQ(info.code, 0) << info.err;
