@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "knead/brep/edge_measures.hpp"
 #include "knead/exchange/format.hpp"
@@ -107,10 +108,26 @@ std::array<double, 3> place_of(const EdgeMeasures& edge) {
   return edge.gap ? edge.gap->at.point : edge.off_curve ? edge.off_curve->at.point : edge.middle;
 }
 
+/// What would help an edge that comes open.
+std::string remedy_at(const MovingModel& model, const EdgeMeasures& edge) {
+  std::set<std::string> moving;
+  for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+    if (!model.surfaces[k].fixed) moving.insert(model.faces[k].begin(), model.faces[k].end());
+  }
+  for (const std::string& face : edge.faces) {
+    if (!moving.contains(face))
+      return fmt::format(
+          "face {} stays while the data move what is beside it: let it move, or "
+          "--keep its neighbours too",
+          face);
+  }
+  return "allow more control points with --refine, or a --tolerance that is smaller or larger";
+}
+
 /// Compares the edges of the file that would be written with those of the one that was opened, and
 /// refuses what has come open.
-Expected<void> check_edges(const brep::ModelMeasures& before, const brep::ModelMeasures& after,
-                           MorphReport& report) {
+Expected<void> check_edges(const MovingModel& model, const brep::ModelMeasures& before,
+                           const brep::ModelMeasures& after, MorphReport& report) {
   std::map<std::string, const EdgeMeasures*> old;
   for (const EdgeMeasures& edge : before.edges) old[edge.id] = &edge;
   for (const EdgeMeasures& edge : after.edges) {
@@ -127,7 +144,7 @@ Expected<void> check_edges(const brep::ModelMeasures& before, const brep::ModelM
     if (gap && gap_before && *gap > most) {
       return numerical_error(
           fmt::format("it would be parted by {:.3g}, more than {:.3g}", *gap, most), where,
-          "allow more control points with --refine, a larger --tolerance, or --keep its faces");
+          remedy_at(model, edge));
     }
     if (edge.kind == EdgeKind::unknown && was.kind != EdgeKind::unknown)
       return numerical_error("it could not be followed any more: " + edge.reason, where,
@@ -185,25 +202,25 @@ Expected<Surface> in_its_part(Surface surface, const Eigen::Affine3d& to_model) 
   return surface.with_control_points(net);
 }
 
-/// The bytes with the surfaces that have moved, and every edge of theirs anew.
+/// The bytes with the surfaces that have moved, and every edge between them anew. An edge at a
+/// surface that stays is where it was.
 Expected<std::string> saved(const MovingModel& model, std::vector<Surface> moved) {
   std::vector<std::shared_ptr<const Surface>> surfaces;
-  std::vector<std::string> edges;
-  for (std::size_t k = 0; k < moved.size(); ++k) {
-    if (model.surfaces[k].fixed) {
-      surfaces.push_back(model.surfaces[k].surface);
-      continue;
-    }
+  for (const SourceSurface& surface : model.written->surfaces()) {
+    surfaces.push_back(surface.surface);
+    const auto k = model.model->surface_index(surface.id);
+    if (k == brep::none || model.surfaces[k].fixed) continue;
     auto own = in_its_part(std::move(moved[k]), model.places[k].to_model);
     if (!own) return std::unexpected(own.error());
-    surfaces.push_back(std::make_shared<const Surface>(*std::move(own)));
+    surfaces.back() = std::make_shared<const Surface>(*std::move(own));
   }
+  std::vector<std::string> edges;
   for (const morph::FitEdge& edge : model.edges) {
-    const bool moves = std::ranges::any_of(
-        edge.surfaces, [&](int k) { return !model.surfaces[static_cast<std::size_t>(k)].fixed; });
-    if (moves) edges.push_back(edge.course->id());
+    const bool stays = std::ranges::any_of(
+        edge.surfaces, [&](int k) { return model.surfaces[static_cast<std::size_t>(k)].fixed; });
+    if (!stays) edges.push_back(edge.course->id());
   }
-  return model.source->save(surfaces, edges);
+  return model.written->save(surfaces, edges);
 }
 
 Expected<void> check_settings(const MorphSettings& settings) {
@@ -281,7 +298,7 @@ Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, co
   if (!before) return std::unexpected(before.error());
   const auto after = measures_after(result.bytes, *source);
   if (!after) return std::unexpected(after.error());
-  if (auto right = check_edges(*before, *after, report); !right)
+  if (auto right = check_edges(*model, *before, *after, report); !right)
     return std::unexpected(right.error());
   report.time_check = watch.lap();
   return result;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "knead/base/printable.hpp"
 #include "knead/exchange/format.hpp"
@@ -45,8 +46,8 @@ Expected<double> unit_factor(const MovingModel& model, const MorphSettings& sett
   return own ? *data / *own : 1.0;
 }
 
-/// A grid over what is visible of a surface, fractions, and its edges.
-std::vector<Vector2d> places_on(const FitSurface& surface) {
+/// A grid over what is visible of a surface, fractions, and its edges between faces that move.
+std::vector<Vector2d> places_on(const FitSurface& surface, const std::set<std::string>& moving) {
   constexpr int least = 24;  // lines per direction
   constexpr std::size_t along_edges = 33;
   const auto extent = surface.region.extent();
@@ -67,6 +68,10 @@ std::vector<Vector2d> places_on(const FitSurface& surface) {
     }
   }
   for (const TrimEdge& edge : surface.region.edges) {
+    // Beside a face that stays the edge is held.
+    const bool moves = std::ranges::all_of(
+        edge.neighbours, [&](const std::string& face) { return moving.contains(face); });
+    if (!moves) continue;
     const std::size_t step = std::max<std::size_t>(1, edge.course.size() / along_edges);
     for (std::size_t k = 0; k < edge.course.size(); k += step) {
       Vector2d at = edge.course[k];
@@ -94,10 +99,14 @@ Expected<morph::Correspondences> mapped_points(const MovingModel& model,
                                                const fields::SpaceMap& map,
                                                const MorphSettings& settings) {
   morph::Correspondences result;
+  std::set<std::string> moving;
+  for (std::size_t k = 0; k < model.placed.size(); ++k) {
+    if (!model.placed[k].fixed) moving.insert(model.faces[k].begin(), model.faces[k].end());
+  }
   for (std::size_t k = 0; k < model.placed.size(); ++k) {
     const FitSurface& surface = model.placed[k];
     if (!model.shown[k] || surface.fixed) continue;
-    for (const Vector2d& at : places_on(surface)) {
+    for (const Vector2d& at : places_on(surface, moving)) {
       const auto parameters = parameters_of(*surface.surface, at);
       const auto point = evaluate_point<2>(*surface.surface, parameters);
       if (!point) return std::unexpected(point.error());

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "base/parallel_for.hpp"
 #include "brep/shared_edge.hpp"
@@ -56,48 +57,82 @@ Expected<Choice> choice_of(const Model& model, const MorphSettings& settings) {
   return Choice{*std::move(faces), *std::move(keep), settings.faces.empty()};
 }
 
-/// The source with all of these surfaces converted that can be; the others are told to `fixed`.
-std::shared_ptr<const Source> converted(std::shared_ptr<const Source> source,
-                                        const std::vector<brep::OtherSurface>& wanted,
-                                        MovingModel& result) {
-  std::vector<std::string> able;
-  std::vector<Expected<Surface>> forms(wanted.size(), Expected<Surface>(std::unexpected(Error())));
+/// A source with surfaces as B-splines, and those that could not become one.
+struct Converted {
+  std::shared_ptr<const Source> source;
+  std::vector<std::string> ids;
+  std::vector<MorphException> failed;
+};
+
+/// Converts all of these that can be.
+Converted converted(const std::shared_ptr<const Source>& source,
+                    const std::vector<std::string>& wanted) {
+  Converted result{source, {}, {}};
+  std::vector<std::string> reasons(wanted.size());
   const auto model = source->model();
-  parallel_for(
-      static_cast<std::ptrdiff_t>(wanted.size()), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
-          forms[k] = brep::exact_spline(*model, wanted[k].id);
-      });
+  parallel_for(std::ssize(wanted), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      const auto form = brep::exact_spline(*model, wanted[k]);
+      if (!form) reasons[k] = form.error().message();
+    }
+  });
   for (std::size_t k = 0; k < wanted.size(); ++k) {
-    if (forms[k])
-      able.push_back(wanted[k].id);
+    if (reasons[k].empty())
+      result.ids.push_back(wanted[k]);
     else
-      result.fixed.push_back({wanted[k].id, forms[k].error().message()});
+      result.failed.push_back({wanted[k], reasons[k]});
   }
-  if (able.empty()) return source;
-  if (auto made = source->with_splines(able)) {
-    result.converted = std::move(able);
-    return *std::move(made);
+  if (result.ids.empty()) return result;
+  if (auto made = source->with_splines(result.ids)) {
+    result.source = *std::move(made);
+    return result;
   }
   // One by one, to find those that the file's format cannot take.
-  for (const std::string& id : able) {
-    auto made = source->with_splines(std::span(&id, 1));
+  for (const std::string& id : std::exchange(result.ids, {})) {
+    auto made = result.source->with_splines(std::span(&id, 1));
     if (!made) {
-      result.fixed.push_back({id, made.error().message()});
+      result.failed.push_back({id, made.error().message()});
       continue;
     }
-    source = *std::move(made);
-    result.converted.push_back(id);
+    result.source = *std::move(made);
+    result.ids.push_back(id);
   }
-  return source;
+  return result;
+}
+
+// The fit knows all surfaces as B-splines, so that those that stay hold the edges of those that
+// move; only these are written as such.
+void convert(const std::shared_ptr<const Source>& source, const Choice& choice,
+             const MorphSettings& settings, MovingModel& result) {
+  std::vector<std::string> all, moving;
+  for (const auto& other : brep::other_surfaces(*source->model())) {
+    if (other.faces.empty()) continue;
+    all.push_back(other.id);
+    if (!choice.moves(other.id)) continue;
+    if (settings.convert)
+      moving.push_back(other.id);
+    else
+      result.fixed.push_back({other.id, fmt::format("a {} is not converted", other.form)});
+  }
+  Converted known = converted(source, all);
+  result.source = std::move(known.source);
+  std::erase_if(moving, [&](const std::string& id) {
+    return std::ranges::find(known.ids, id) == known.ids.end();
+  });
+  for (MorphException& failed : known.failed) {
+    if (settings.convert && choice.moves(failed.id)) result.fixed.push_back(std::move(failed));
+  }
+  result.written = result.source;
+  if (moving.size() < known.ids.size()) result.written = converted(source, moving).source;
+  result.converted = std::move(moving);
 }
 
 /// Which surface of the converted file each face of the file as opened lies on, if one.
-void add_surfaces(const Model& opened, const Choice& choice, MovingModel& result) {
+void add_surfaces(const Model& opened, const Choice& choice, bool convert, MovingModel& result) {
   const Model& model = *result.model;
-  std::map<std::string, std::string> support_of_face;  // as opened
+  std::map<std::string, const brep::Support*> support_of_face;  // as opened
   for (const brep::Face& face : opened.faces) {
-    if (face.support != brep::none) support_of_face[face.id] = opened.supports[face.support].id;
+    if (face.support != brep::none) support_of_face[face.id] = &opened.supports[face.support];
   }
   const std::size_t count = result.source->surfaces().size();
   result.faces.resize(count);
@@ -112,7 +147,8 @@ void add_surfaces(const Model& opened, const Choice& choice, MovingModel& result
     result.shown[k] = true;
     result.faces[k].push_back(face.id);
     const auto before = support_of_face.find(face.id);
-    moves[k] = choice.moves(before == support_of_face.end() ? spline->id : before->second);
+    moves[k] = before != support_of_face.end() && choice.moves(before->second->id) &&
+               (convert || before->second->spline != brep::none);
   }
   for (std::size_t k = 0; k < count; ++k) {
     morph::FitSurface surface{result.source->surfaces()[k].surface, {}, !moves[k]};
@@ -252,24 +288,16 @@ Expected<MovingModel> moving_model(const std::shared_ptr<const Source>& source,
   const auto opened = source->model();
   if (!opened) {
     return input_error(fmt::format("a {} file has no faces", source->format()), source->name(),
-                       "write its surfaces as faces with `knead export --faces`");
+                       "`knead export` writes its surfaces as faces of a new file");
   }
   const auto choice = choice_of(*opened, settings);
   if (!choice) return std::unexpected(choice.error());
-  std::vector<brep::OtherSurface> others;
-  for (auto& other : brep::other_surfaces(*opened)) {
-    if (other.faces.empty() || !choice->moves(other.id)) continue;
-    if (settings.convert)
-      others.push_back(std::move(other));
-    else
-      result.fixed.push_back({other.id, fmt::format("a {} is not converted", other.form)});
-  }
-  result.source = converted(source, others, result);
+  convert(source, *choice, settings, result);
   result.model = result.source->model();
   if (result.source->surfaces().empty())
     return input_error("there is no B-spline surface that could move", source->name(),
                        "let others be converted");
-  add_surfaces(*opened, *choice, result);
+  add_surfaces(*opened, *choice, settings.convert, result);
   add_regions(result);
   add_edges(result);
   if (auto right = add_places(settings, result); !right) return std::unexpected(right.error());

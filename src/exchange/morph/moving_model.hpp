@@ -18,7 +18,8 @@ struct SurfacePlace {
 
 /// A file whose faces are to move, as `fit_surfaces` takes it.
 struct MovingModel {
-  std::shared_ptr<const Source> source;  ///< with the surfaces that are converted
+  std::shared_ptr<const Source> source;   ///< with all surfaces as B-splines that can be
+  std::shared_ptr<const Source> written;  ///< with those that move alone
   std::shared_ptr<const brep::Model> model;
   std::vector<morph::FitSurface> surfaces;      ///< one for each of the source
   std::vector<bool> shown;                      ///< of each: faces show some of it
@@ -26,7 +27,7 @@ struct MovingModel {
   std::vector<SurfacePlace> places;             ///< of each
   std::vector<morph::FitSurface> placed;        ///< `surfaces` in the coordinates of the model
   std::vector<morph::FitEdge> edges;
-  std::vector<std::string> converted;
+  std::vector<std::string> converted;  ///< those of `written`
   std::vector<MorphException> fixed, unknown_edges;
   /// Edges between a surface that moves and one that cannot, by position in `surfaces` and in the
   /// edges of its region.
