@@ -1,5 +1,6 @@
 #include "moved_edge.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -20,7 +21,8 @@ namespace {
 constexpr double margin = 0.125;            // of the edge, at its ends
 constexpr double share_of_tolerance = 0.1;  // for the fit of a curve
 constexpr double least_tolerance = 1e-7;    // of the size, as for held edges
-// Of the size: surfaces that have parted by more leave the edge where it was.
+// Of the model's size: surfaces that have parted by more leave the edge where it was. Of small
+// faces that is much of their own size, and still what a fit of the whole model may leave.
 constexpr double open_above = 1e-5;
 constexpr double rounding = 1e-11;  // of the size
 
@@ -165,6 +167,11 @@ Expected<MovedEdges> moved_edges(const Model& model, std::span<const Replacement
                                  std::span<const std::string> ids) {
   MovedEdges result;
   std::map<std::string, Point> vertices;
+  Eigen::AlignedBox3d box;
+  for (const Vertex& vertex : model.vertices) {
+    if (!vertex.wrong) box.extend(vertex.place);
+  }
+  const double whole = box.isEmpty() ? 0 : box.diagonal().norm();
   for (const std::string& id : ids) {
     const auto edge = SharedEdge::create(model, id);
     if (!edge) return std::unexpected(edge.error());
@@ -179,7 +186,7 @@ Expected<MovedEdges> moved_edges(const Model& model, std::span<const Replacement
     const Path path(*edge, before, after);
     const auto parted = path.parted();
     if (!parted) return std::unexpected(parted.error());
-    if (*parted > std::max(edge->uncertainty(), open_above * size)) continue;
+    if (*parted > std::max(edge->uncertainty(), open_above * std::max(size, whole))) continue;
     double largest = 0;
     for (const auto& sample : edge->samples()) {
       const auto way = path.displacement(sample);

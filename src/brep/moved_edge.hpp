@@ -51,8 +51,9 @@ struct MovedEdges {
 /// The edges with these ids, and their vertices, as they are after some surfaces were replaced.
 /// Edges and vertices that moved by less than rounding (1e-11 of the surfaces' size) are left out,
 /// as are edges whose surfaces have parted by more than the file's uncertainty and 1e-5 of the
-/// size. The vertex that is all of a loop goes along with the surface of its face. Errors: those of
-/// `SharedEdge::create` and `moved_curve`.
+/// size of the model (the box of its vertices) or of the surfaces. The vertex that is all of a loop
+/// goes along with the surface of its face. Errors: those of `SharedEdge::create` and
+/// `moved_curve`.
 [[nodiscard]] Expected<MovedEdges> moved_edges(const Model& model,
                                                std::span<const Replacement> replacements,
                                                std::span<const std::string> ids);
