@@ -1,6 +1,7 @@
 // `knead morph`: the sample follows maps whose image is known, and what it refuses.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include "knead/spline/evaluate.hpp"
 #include "program.hpp"
 #include "session/schema_check.hpp"
+#include "support/made_step.hpp"
 
 namespace knead::testing {
 namespace {
@@ -59,6 +61,36 @@ double largest_difference(const Surface& after, const Surface& before, double sc
     }
   }
   return worst;
+}
+
+/// A bilinear patch over x from `from` to `to` and y from 0 to 1, on a net of its own.
+Surface patch(double from, double to, int spans) {
+  const auto u = *KnotVector::clamped_uniform(3, spans + 3), v = *KnotVector::clamped_uniform(1, 2);
+  Points net(u.count() * 2, 3);
+  for (int i = 0; i < u.count(); ++i) {
+    double at = 0;  // Greville's abscissa: the patch is linear
+    for (int k = 1; k <= 3; ++k) at += u[i + k] / (3 * u.domain().length());
+    for (int j = 0; j < 2; ++j) net.row(2 * i + j) << std::lerp(from, to, at), j, 0;
+  }
+  return *Surface::create({u, v}, net);
+}
+
+TEST(Morph, SurfacesWithoutFacesStayTogether) {
+  const Workshop workshop;
+  const std::string file = workshop / "bare.step", out = workshop / "out.step";
+  StepBuilder b;
+  b.surface(patch(0, 2, 3), "left");
+  b.surface(patch(2, 5, 4), "right");
+  std::ofstream(file) << b.forward("AUTOMOTIVE_DESIGN");
+  const Outcome run = knead({"morph", file, "-o", out, "--space", "0; 0; 0.1*sin(x + 2*y)"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json report = knead({"check", out, "--json"}).json();
+  const auto pairs = std::ranges::count_if(report.at("edges"), [](const Json& edge) {
+    return edge.at("id").get<std::string>().find('+') != std::string::npos &&
+           edge.at("gap").at("value").get<double>() < 5e-6 &&
+           edge.at("angle").at("value").get<double>() < 0.05;
+  });
+  EXPECT_EQ(pairs, 1) << report.dump(1);
 }
 
 TEST(Morph, AnAffineMapOfSpaceIsItsImage) {

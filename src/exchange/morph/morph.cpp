@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include "knead/brep/edge_measures.hpp"
 #include "knead/exchange/format.hpp"
@@ -124,10 +125,41 @@ std::string remedy_at(const MovingModel& model, const EdgeMeasures& edge) {
   return "allow more control points with --refine, or a --tolerance that is smaller or larger";
 }
 
+/// The edge without the number of its part: "#12+#15" of "#12+#15/2".
+std::string_view without_part(std::string_view id) { return id.substr(0, id.find('/')); }
+
+/// Refuses a pair of edges that met without being one, if one of them is open now that was not.
+Expected<void> check_pairs(const brep::ModelMeasures& before, const brep::ModelMeasures& after) {
+  const auto open_in = [](const brep::ModelMeasures& measures) {
+    std::set<std::string_view> open;
+    for (const EdgeMeasures& edge : measures.edges) {
+      if (edge.kind == EdgeKind::open) open.insert(without_part(edge.id));
+    }
+    return open;
+  };
+  const auto open_before = open_in(before), open = open_in(after);
+  for (const EdgeMeasures& edge : before.edges) {
+    const std::string_view pair = without_part(edge.id);
+    const std::size_t plus = pair.find('+');
+    if (plus == std::string_view::npos) continue;
+    for (const std::string_view one : {pair.substr(0, plus), pair.substr(plus + 1)}) {
+      if (!open.contains(one) || open_before.contains(one)) continue;
+      const auto& at = edge.middle;
+      return numerical_error(
+          "they would come apart",
+          fmt::format("edges {} of faces {} at ({:.6g}, {:.6g}, {:.6g})", edge.id,
+                      fmt::join(edge.faces, ", "), at[0], at[1], at[2]),
+          "allow more control points with --refine, a larger --tolerance, or --keep its faces");
+    }
+  }
+  return {};
+}
+
 /// Compares the edges of the file that would be written with those of the one that was opened, and
 /// refuses what has come open.
 Expected<void> check_edges(const MovingModel& model, const brep::ModelMeasures& before,
                            const brep::ModelMeasures& after, MorphReport& report) {
+  if (auto right = check_pairs(before, after); !right) return right;
   std::map<std::string, const EdgeMeasures*> old;
   for (const EdgeMeasures& edge : before.edges) old[edge.id] = &edge;
   for (const EdgeMeasures& edge : after.edges) {
@@ -218,7 +250,7 @@ Expected<std::string> saved(const MovingModel& model, std::vector<Surface> moved
   for (const morph::FitEdge& edge : model.edges) {
     const bool stays = std::ranges::any_of(
         edge.surfaces, [&](int k) { return model.surfaces[static_cast<std::size_t>(k)].fixed; });
-    if (!stays) edges.push_back(edge.course->id());
+    if (!stays && edge.course) edges.push_back(edge.course->id());
   }
   return model.written->save(surfaces, edges);
 }

@@ -13,6 +13,8 @@
 #include "knead/base/printable.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/face_edges.hpp"
+#include "knead/hold/seams.hpp"
+#include "morph/seam_edges.hpp"
 
 namespace knead::detail {
 namespace {
@@ -214,6 +216,32 @@ void add_edges(MovingModel& result) {
   }
 }
 
+/// Surfaces without faces, of the same part, stay together where they meet geometrically.
+Expected<void> add_seams(MovingModel& result) {
+  std::map<const brep::Part*, std::vector<int>> bare;
+  const auto& assembly = result.model->assembly;
+  for (std::size_t k = 0; k < result.surfaces.size(); ++k) {
+    if (!result.shown[k] || !result.faces[k].empty()) continue;
+    bare[assembly ? assembly->part_of(result.source->surfaces()[k].id) : nullptr].push_back(
+        static_cast<int>(k));
+  }
+  for (const auto& [part, numbers] : bare) {
+    if (numbers.size() < 2) continue;
+    std::vector<const Surface*> patches;
+    for (const int k : numbers)
+      patches.push_back(result.surfaces[static_cast<std::size_t>(k)].surface.get());
+    const auto seams = find_seams(patches, suggested_seam_tolerance(patches));
+    if (!seams) return std::unexpected(seams.error());
+    auto edges = morph::edges_of_seams(patches, seams->seams);
+    if (!edges) return std::unexpected(edges.error());
+    for (morph::FitEdge& edge : *edges) {
+      for (int& surface : edge.surfaces) surface = numbers[static_cast<std::size_t>(surface)];
+      result.edges.push_back(std::move(edge));
+    }
+  }
+  return {};
+}
+
 /// The paths of a part's places; those that are equal are counted from the second on: "a/bolt",
 /// "a/bolt:2".
 std::vector<std::string> names_of(const brep::Part& part) {
@@ -300,6 +328,7 @@ Expected<MovingModel> moving_model(const std::shared_ptr<const Source>& source,
   add_surfaces(*opened, *choice, settings.convert, result);
   add_regions(result);
   add_edges(result);
+  if (auto right = add_seams(result); !right) return std::unexpected(right.error());
   if (auto right = add_places(settings, result); !right) return std::unexpected(right.error());
   if (std::ranges::all_of(result.surfaces, &morph::FitSurface::fixed)) {
     return input_error("nothing is free to move", source->name(),
