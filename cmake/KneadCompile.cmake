@@ -32,6 +32,14 @@ function(knead_own_options)  # knead_own_options(files of the library with compi
   set_source_files_properties(${ARGN} TARGET_DIRECTORY knead PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
+# knead_small(files of the library...): compiled for size in releases, each alone: what describes, reads and reports, for
+# which nobody waits. Wheels hold it.
+function(knead_small)
+  knead_own_options(${ARGN})
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY knead
+    PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS "$<$<CONFIG:Release>:-Os>")
+endfunction()
+
 # knead_kernels(vector128|avx2|avx512 files of the library... [OPTIONS ...]): kernels compiled for an instruction set,
 # each from one source for all sets, which mostly are vectors already. Which of them runs is decided on the machine.
 function(knead_kernels set)

@@ -102,7 +102,7 @@ class Queries(unittest.TestCase):
             doc.check(gap=1, against=3)
         with self.assertRaisesRegex(knead.Error, "against"):
             doc.check(gap=1, against=b"no file")
-        self.assertEqual(sheet().check()["edges"], [])
+        self.assertEqual(sheet().check()["counts"], [{"kind": "open", "count": 4}])
 
 
 class Sculpting(unittest.TestCase):

@@ -10,8 +10,8 @@
 
 #include "bare_faces.hpp"
 #include "base/parallel_for.hpp"
+#include "edge_meetings.hpp"
 #include "edge_walk.hpp"
-#include "joints.hpp"
 
 namespace knead::brep {
 namespace {
@@ -47,7 +47,7 @@ std::array<double, 3> array_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
 struct Measured {
   std::string id;
   Index edge = none, other = none;
-  std::optional<Joint> part = {};
+  std::optional<EdgeMeeting> part = {};
 };
 
 /// What is prepared once: the edges and the faces around them.
@@ -118,7 +118,7 @@ class Measurer {
       const auto part = part_of.find(model_.faces[uses_[e][0].face].id);
       loose.push_back({e, &**pieces_[e], part == part_of.end() ? none : part->second});
     }
-    const auto joints = joints_of(loose, std::max(meeting * scale_.size, 2 * gap_), parted);
+    const auto meetings = meetings_of(loose, std::max(meeting * scale_.size, 2 * gap_), parted);
     std::vector<Measured> items;
     std::size_t next = 0;
     for (const Index e : used_) {
@@ -128,11 +128,11 @@ class Measurer {
         continue;
       }
       std::map<std::string, int> times;
-      const bool is_whole = joints[next].size() == 1 && joints[next][0].other == none;
-      for (const Joint& joint : joints[next]) {
-        std::string name = id + (joint.other == none ? "" : "+" + model_.edges[joint.other].id);
+      const bool is_whole = meetings[next].size() == 1 && meetings[next][0].other == none;
+      for (const EdgeMeeting& met : meetings[next]) {
+        std::string name = id + (met.other == none ? "" : "+" + model_.edges[met.other].id);
         if (const int again = times[name]++; again > 0) name += "/" + std::to_string(again + 1);
-        items.push_back({name, e, joint.other, is_whole ? std::nullopt : std::optional(joint)});
+        items.push_back({name, e, met.other, is_whole ? std::nullopt : std::optional(met)});
       }
       ++next;
     }

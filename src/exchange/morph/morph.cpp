@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "knead/brep/edge_measures.hpp"
 #include "knead/exchange/format.hpp"

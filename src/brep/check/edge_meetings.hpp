@@ -15,7 +15,7 @@ struct LooseEdge {
 };
 
 /// A part of a loose edge along which it meets the same other one all along, or none.
-struct Joint {
+struct EdgeMeeting {
   double from = 0, to = 0;  ///< parameters of its piece
   Index other = none;       ///< an edge
   bool same_way = true;     ///< both curves run the same way
@@ -32,7 +32,7 @@ struct Joint {
 ///
 /// Both are polylines within a quarter of `reach`; the nearest segments are found in a `BoxTree`,
 /// and the ends of parts by bisection. Cost: n log n for n segments.
-[[nodiscard]] std::vector<std::vector<Joint>> joints_of(const std::vector<LooseEdge>& edges,
-                                                        double reach, double parted);
+[[nodiscard]] std::vector<std::vector<EdgeMeeting>> meetings_of(const std::vector<LooseEdge>& edges,
+                                                                double reach, double parted);
 
 }  // namespace knead::brep

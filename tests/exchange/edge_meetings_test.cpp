@@ -64,7 +64,7 @@ Surface wall(double from, double to, double angle, double gap = 0) {
   return patch(a, b, a + up, b + up);
 }
 
-TEST(Joints, ALongSideMeetsTwoShortOnes) {
+TEST(EdgeMeetings, ALongSideMeetsTwoShortOnes) {
   const double gap = 2e-4;  // of a size of 5
   const auto all = measured(bare(
       {patch({0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {4, 1, 0}), wall(0, 1.5, 30), wall(1.5, 4, 0, gap)}));
@@ -83,7 +83,7 @@ TEST(Joints, ALongSideMeetsTwoShortOnes) {
   for (const EdgeMeasures& edge : all.edges) EXPECT_NE(edge.kind, EdgeKind::unknown) << edge.reason;
 }
 
-TEST(Joints, WhatIsLeftOfASideIsOpen) {
+TEST(EdgeMeetings, WhatIsLeftOfASideIsOpen) {
   const auto all =
       measured(bare({patch({0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {4, 1, 0}), wall(1, 2, 90)}));
   EXPECT_NEAR(find(all, "#1.v1").length, 1, 1e-6);
@@ -92,7 +92,7 @@ TEST(Joints, WhatIsLeftOfASideIsOpen) {
   EXPECT_EQ(count(all, EdgeKind::open), 8U) << "three sides of each, and both rests";
 }
 
-TEST(Joints, AnotherParametrisationIsTheSame) {
+TEST(EdgeMeetings, AnotherParametrisationIsTheSame) {
   const Surface base = patch({0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {4, 1, 0}), up = wall(0, 4, 12);
   const Surface finer = *insert_knots<2>(*elevate_degree<2>(up, 0, 3), {{{0.3, 0.31, 0.7}, {}}});
   // The same wall from right to left: its side runs against that of the base.
@@ -106,7 +106,7 @@ TEST(Joints, AnotherParametrisationIsTheSame) {
   }
 }
 
-TEST(Joints, ACylinderMeetsItselfAndItsLids) {
+TEST(EdgeMeetings, ACylinderMeetsItselfAndItsLids) {
   const Surface side = testing::cylinder(2);
   const auto all = measured(bare({side}));
   ASSERT_EQ(count(all, EdgeKind::seam), 1U);
@@ -119,13 +119,13 @@ TEST(Joints, ACylinderMeetsItselfAndItsLids) {
   EXPECT_EQ(count(all, EdgeKind::open), 2U);
 }
 
-TEST(Joints, ManyAtOneLineAreNonManifold) {
+TEST(EdgeMeetings, ManyAtOneLineAreNonManifold) {
   const auto all = measured(bare({patch({0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {4, 1, 0}), wall(0, 4, 20),
                                   wall(0, 4, 70), wall(0, 4, 120)}));
   EXPECT_EQ(count(all, EdgeKind::non_manifold), 3U) << "each of the others with one";
 }
 
-TEST(Joints, SidesThatRunApartFromAVertexDoNotMeet) {
+TEST(EdgeMeetings, SidesThatRunApartFromAVertexDoNotMeet) {
   for (const double angle : {3.0, 20.0}) {
     const Point far(4 * std::cos(angle * degree), 4 * std::sin(angle * degree), 0);
     const auto all = measured(bare({patch({0, 0, 0}, {4, 0, 0}, {0, -1, 0}, {4, -1, 0}),
@@ -139,14 +139,14 @@ TEST(Joints, SidesThatRunApartFromAVertexDoNotMeet) {
   }
 }
 
-TEST(Joints, SidesThatContinueEachOtherDoNotMeet) {
+TEST(EdgeMeetings, SidesThatContinueEachOtherDoNotMeet) {
   const auto all = measured(bare({patch({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}),
                                   patch({1, 0, 1e-5}, {2, 0, 0}, {1, -1, 0}, {2, -1, 0})}));
   EXPECT_EQ(count(all, EdgeKind::open), 8U);
   EXPECT_EQ(all.edges.size(), 8U);
 }
 
-TEST(Joints, PointsAndLinesAreNoFaces) {
+TEST(EdgeMeetings, PointsAndLinesAreNoFaces) {
   const Surface line = patch({0, 1, 0}, {4, 1, 0}, {0, 1, 0}, {4, 1, 0});
   const Surface point = patch({0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0});
   const Surface fan = patch({0, 0, 0}, {0, 0, 0}, {0, 1, 0}, {4, 1, 0});
@@ -155,7 +155,7 @@ TEST(Joints, PointsAndLinesAreNoFaces) {
   EXPECT_EQ(all.edges.size(), 6U) << "three sides of the fan, of which one meets the wall";
 }
 
-TEST(Joints, PartsHaveCoordinatesOfTheirOwn) {
+TEST(EdgeMeetings, PartsHaveCoordinatesOfTheirOwn) {
   Model model = bare({patch({0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {4, 1, 0}), wall(0, 4, 45)});
   EXPECT_EQ(count(measured(model), EdgeKind::sharp), 1U);
   brep::Assembly assembly;
@@ -168,7 +168,7 @@ TEST(Joints, PartsHaveCoordinatesOfTheirOwn) {
   EXPECT_EQ(count(measured(model), EdgeKind::open), 8U);
 }
 
-TEST(Joints, OneOfBothEdgesOrTheirPairChoosesIt) {
+TEST(EdgeMeetings, OneOfBothEdgesOrTheirPairChoosesIt) {
   const Model model = bare({patch({0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {4, 1, 0}), wall(0, 4, 45)});
   for (const char* id : {"#1.v1", "#2.v0", "#1.v1+#2.v0"}) {
     const std::vector<std::string> ids = {id};

@@ -1,4 +1,4 @@
-#include "joints.hpp"
+#include "edge_meetings.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -32,9 +32,9 @@ struct Partner {
   [[nodiscard]] bool is_same(const Partner& p) const { return of == p.of; }
 };
 
-class JointFinder {
+class MeetingFinder {
  public:
-  JointFinder(const std::vector<LooseEdge>& edges, double reach, double parted)
+  MeetingFinder(const std::vector<LooseEdge>& edges, double reach, double parted)
       : edges_(edges), reach_(reach), farthest_(parted * reach) {
     std::vector<Eigen::AlignedBox3d> boxes;
     parameters_.resize(edges.size());
@@ -52,7 +52,7 @@ class JointFinder {
     tree_ = BoxTree(boxes);
   }
 
-  std::vector<Joint> parts(std::size_t k) const {
+  std::vector<EdgeMeeting> parts(std::size_t k) const {
     const EdgePiece& piece = *edges_[k].piece;
     std::vector<std::pair<double, Partner>> samples;
     std::vector<double> at = parameters_[k];
@@ -190,8 +190,8 @@ class JointFinder {
     return inside;
   }
 
-  std::vector<Joint> without_short(std::size_t k,
-                                   const std::vector<std::pair<double, Partner>>& ends) const {
+  std::vector<EdgeMeeting> without_short(
+      std::size_t k, const std::vector<std::pair<double, Partner>>& ends) const {
     const EdgePiece& piece = *edges_[k].piece;
     const auto length = [&](double from, double to) {
       return (piece.curve.at(to) - piece.curve.at(from)).norm();
@@ -200,13 +200,13 @@ class JointFinder {
     for (std::size_t s = 0; s + 1 < parameters_[k].size(); ++s)
       whole += length(parameters_[k][s], parameters_[k][s + 1]);
     const double least = std::max(least_length * whole, least_reaches * reach_);
-    std::vector<Joint> parts;
+    std::vector<EdgeMeeting> parts;
     bool leading = false;  // what there is so far is short
     for (std::size_t s = 0; s < ends.size(); ++s) {
       const double from = ends[s].first, to = s + 1 < ends.size() ? ends[s + 1].first : piece.to;
       const Partner& partner = ends[s].second;
-      const Joint part{from, to, partner.of < edges_.size() ? edges_[partner.of].edge : none,
-                       partner.same_way, partner.several};
+      const EdgeMeeting part{from, to, partner.of < edges_.size() ? edges_[partner.of].edge : none,
+                             partner.same_way, partner.several};
       const bool is_short = (to - from) < 0.1 * (piece.to - piece.from) && length(from, to) < least;
       if (parts.empty()) {
         parts.push_back(part);
@@ -232,10 +232,10 @@ class JointFinder {
 
 }  // namespace
 
-std::vector<std::vector<Joint>> joints_of(const std::vector<LooseEdge>& edges, double reach,
-                                          double parted) {
-  const JointFinder finder(edges, reach, parted);
-  std::vector<std::vector<Joint>> result(edges.size());
+std::vector<std::vector<EdgeMeeting>> meetings_of(const std::vector<LooseEdge>& edges, double reach,
+                                                  double parted) {
+  const MeetingFinder finder(edges, reach, parted);
+  std::vector<std::vector<EdgeMeeting>> result(edges.size());
   detail::parallel_for(
       static_cast<std::ptrdiff_t>(edges.size()), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         for (std::ptrdiff_t k = begin; k < end; ++k)
@@ -245,11 +245,11 @@ std::vector<std::vector<Joint>> joints_of(const std::vector<LooseEdge>& edges, d
   std::set<std::pair<Index, Index>> met;
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const Index edge = edges[k].edge;
-    std::erase_if(result[k], [&](const Joint& joint) {
-      return joint.other != none && met.contains({joint.other, edge});
+    std::erase_if(result[k], [&](const EdgeMeeting& part) {
+      return part.other != none && met.contains({part.other, edge});
     });
-    for (const Joint& joint : result[k]) {
-      if (joint.other != none) met.insert({edge, joint.other});
+    for (const EdgeMeeting& part : result[k]) {
+      if (part.other != none) met.insert({edge, part.other});
     }
   }
   return result;
