@@ -23,19 +23,6 @@ struct CheckArguments {
   UnpackOption unpack;
 };
 
-std::vector<std::string> ids_in(const std::string& list) {
-  std::vector<std::string> ids;
-  std::string id;
-  for (const char c : list + ",") {
-    if (c != ',' && c != ' ') {
-      id += c;
-    } else if (!id.empty()) {
-      ids.push_back(std::exchange(id, {}));
-    }
-  }
-  return ids;
-}
-
 /// What is wrong with a threshold is wrong with the option of its name.
 Error of_options(Error error) {
   if (error.kind != ErrorKind::usage) return error;
@@ -58,7 +45,7 @@ Expected<int> run(const CheckArguments& options) {
     old = *std::move(opened);
   }
   EdgeCheckRequest check = options.check;
-  check.edges = ids_in(options.edges);
+  check.edges = items_of(options.edges, ", ");
   const auto report = check_edges(**source, check, old.get());
   if (!report) return std::unexpected(of_options(report.error()));
   if (!options.junit.empty()) {

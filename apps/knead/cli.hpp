@@ -61,6 +61,10 @@ inline constexpr std::string_view exit_codes =
 [[nodiscard]] Expected<std::vector<double>> parse_numbers(const std::string& text,
                                                           const std::string& option);
 
+/// The items of a list, without those that are empty and blanks before them.
+[[nodiscard]] std::vector<std::string> items_of(const std::string& list,
+                                                std::string_view separators = ",");
+
 /// The same value; an error of it, unless numerical, is that of the option which gave it: wrong
 /// usage, at `option`.
 template <class T>

@@ -23,19 +23,6 @@ struct MorphArguments {
   UnpackOption unpack;
 };
 
-std::vector<std::string> listed(const std::string& list) {
-  std::vector<std::string> items;
-  std::string item;
-  for (const char c : list + ",") {
-    if (c != ',' && (c != ' ' || !item.empty())) {
-      item += c;
-    } else if (!item.empty()) {
-      items.push_back(std::exchange(item, {}));
-    }
-  }
-  return items;
-}
-
 /// The settings' names on the command line.
 Error in_options(Error error) {
   static constexpr std::pair<std::string_view, std::string_view> options[] = {
@@ -158,10 +145,10 @@ Expected<void> run(MorphArguments& options) {
   settings.tolerance = options.tolerance;
   settings.reach = options.reach;
   settings.convert = !options.no_convert;
-  settings.faces = listed(options.faces);
-  settings.keep = listed(options.keep);
-  settings.places = listed(options.places);
-  settings.columns = listed(options.columns);
+  settings.faces = items_of(options.faces);
+  settings.keep = items_of(options.keep);
+  settings.places = items_of(options.places);
+  settings.columns = items_of(options.columns);
   settings.along_normal = options.along == "normal";
   std::vector<NamedFile> outputs = {{"--report", options.report}};
   for (const double scale : *scales)

@@ -8,6 +8,20 @@
 
 namespace knead::cli {
 
+std::vector<std::string> items_of(const std::string& list, std::string_view separators) {
+  std::vector<std::string> items;
+  std::string item;
+  for (const char c : list + ",") {
+    const bool ends = c == ',' || separators.find(c) != separators.npos;
+    if (!ends && (c != ' ' || !item.empty())) {
+      item += c;
+    } else if (!item.empty()) {
+      items.push_back(std::exchange(item, {}));
+    }
+  }
+  return items;
+}
+
 Expected<std::vector<double>> parse_numbers(const std::string& text, const std::string& option) {
   std::vector<double> numbers;
   const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };

@@ -66,21 +66,6 @@ std::array<std::vector<std::string>, 2> edges_ending_at(const Model& model, Inde
   return result;
 }
 
-/// ∂S by the fractions of both directions.
-using Tangents = Eigen::Matrix<double, 3, 2>;
-
-Expected<Tangents> tangents_at(const Surface& surface, const Vector2d& foot) {
-  const auto u = parameters_at_foot(surface, foot);
-  Parameters<2> here(1, 2);
-  here << u[0], u[1];
-  const auto jet = evaluate<2>(surface, here, 1);
-  if (!jet) return std::unexpected(jet.error());
-  Tangents result;
-  result.col(0) = surface.knots(0).domain().length() * jet->at({1, 0}).row(0);
-  result.col(1) = surface.knots(1).domain().length() * jet->at({0, 1}).row(0);
-  return result;
-}
-
 Point normal_of(const Tangents& tangents) {
   // Near a pole one tangent vanishes and its direction is rounding: no normal is better than a
   // wrong one.
@@ -89,31 +74,6 @@ Point normal_of(const Tangents& tangents) {
   if (!(std::min(u, v) > least_speed * std::max(u, v) && n.norm() > least_sine * u * v))
     return Point::Zero();
   return n.normalized();
-}
-
-/// What `Sample` says of the tangent planes, for a curve in the direction `along`.
-void look_across(std::span<const Surface> surfaces, const Point& along,
-                 SharedEdge::Sample& sample) {
-  std::vector<Tangents> tangents;
-  Point first = Point::Zero(), mean = Point::Zero();
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    const auto at = tangents_at(surfaces[k], sample.feet[k]);
-    const Point n = at ? normal_of(*at) : Point(Point::Zero());
-    if (n.isZero()) return;
-    if (k == 0) first = n;
-    sample.angle = std::max(sample.angle, angle_between_planes(first, n));
-    // Orientations of parametrisations differ; planes have none.
-    mean += first.dot(n) < 0 ? Point(-n) : n;
-    tangents.push_back(*at);
-  }
-  const Point across = mean.cross(along);
-  if (!(across.norm() > least_sine * mean.norm() * along.norm())) return;
-  for (const Tangents& t : tangents) {
-    // The least-squares solution of dS w = c by the metric of the surface. Regular: `normal_of` has
-    // found tangents that are neither parallel nor of very different length.
-    const Eigen::Matrix2d gramian = t.transpose() * t;
-    sample.across.push_back(gramian.inverse() * (t.transpose() * across.normalized()));
-  }
 }
 
 /// The closed direction along whose closing line all feet lie.
@@ -269,8 +229,44 @@ std::array<double, 2> parameters_at_foot(const Surface& surface, const Vector2d&
   return parameters_of(surface, at);
 }
 
+Expected<Tangents> tangents_at_foot(const Surface& surface, const Vector2d& foot) {
+  const auto u = parameters_at_foot(surface, foot);
+  Parameters<2> here(1, 2);
+  here << u[0], u[1];
+  const auto jet = evaluate<2>(surface, here, 1);
+  if (!jet) return std::unexpected(jet.error());
+  Tangents result;
+  result.col(0) = surface.knots(0).domain().length() * jet->at({1, 0}).row(0);
+  result.col(1) = surface.knots(1).domain().length() * jet->at({0, 1}).row(0);
+  return result;
+}
+
+void look_across(std::span<const Surface> surfaces, const Point& along,
+                 SharedEdge::Sample& sample) {
+  std::vector<Tangents> tangents;
+  Point first = Point::Zero(), mean = Point::Zero();
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    const auto at = tangents_at_foot(surfaces[k], sample.feet[k]);
+    const Point n = at ? normal_of(*at) : Point(Point::Zero());
+    if (n.isZero()) return;
+    if (k == 0) first = n;
+    sample.angle = std::max(sample.angle, angle_between_planes(first, n));
+    // Orientations of parametrisations differ; planes have none.
+    mean += first.dot(n) < 0 ? Point(-n) : n;
+    tangents.push_back(*at);
+  }
+  const Point across = mean.cross(along);
+  if (!(across.norm() > least_sine * mean.norm() * along.norm())) return;
+  for (const Tangents& t : tangents) {
+    // The least-squares solution of dS w = c by the metric of the surface. Regular: `normal_of` has
+    // found tangents that are neither parallel nor of very different length.
+    const Eigen::Matrix2d gramian = t.transpose() * t;
+    sample.across.push_back(gramian.inverse() * (t.transpose() * across.normalized()));
+  }
+}
+
 Expected<Point> normal_at_foot(const Surface& surface, const Vector2d& foot) {
-  const auto tangents = tangents_at(surface, foot);
+  const auto tangents = tangents_at_foot(surface, foot);
   if (!tangents) return std::unexpected(tangents.error());
   return normal_of(*tangents);
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,15 @@ class SharedEdge {
   explicit SharedEdge(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
 };
+
+/// ∂S by the fractions of both directions at a foot. Errors: those of evaluation.
+using Tangents = Eigen::Matrix<double, 3, 2>;
+[[nodiscard]] Expected<Tangents> tangents_at_foot(const Surface& surface,
+                                                  const Eigen::Vector2d& foot);
+
+/// What a sample says of the tangent planes at its feet, one for each surface: its angle, and the
+/// directions across a curve that runs along `along`. Nothing where one has no normal.
+void look_across(std::span<const Surface> surfaces, const Point& along, SharedEdge::Sample& sample);
 
 /// The unit normal S_u × S_v of a surface at a foot. Zero where it has none: beside a pole, where
 /// one derivative by fractions of the domain is less than 1e-5 of the other, or both are parallel.

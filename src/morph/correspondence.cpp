@@ -6,17 +6,15 @@
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::morph {
-namespace {
-
-Expected<Point> normal_at(const Surface& surface, const std::array<double, 2>& parameters) {
+Expected<Point> part_along_normal(const Point& displacement, const Surface& surface,
+                                  const std::array<double, 2>& parameters) {
   Parameters<2> place(1, 2);
   place << parameters[0], parameters[1];
   const auto normals = unit_normals(surface, place);
   if (!normals) return std::unexpected(normals.error());
-  return Point(normals->row(0).transpose());
+  const Point normal = normals->row(0).transpose();
+  return Point(displacement.dot(normal) * normal);
 }
-
-}  // namespace
 
 Expected<Correspondences> correspond(const VisibleSearch& search,
                                      std::span<const FitSurface> surfaces,
@@ -38,10 +36,11 @@ Expected<Correspondences> correspond(const VisibleSearch& search,
     }
     Datum datum{foot.surface, foot.parameters, displacements[k], 1};
     if (settings.along_normal) {
-      const auto normal =
-          normal_at(*surfaces[static_cast<std::size_t>(foot.surface)].surface, foot.parameters);
-      if (!normal) return std::unexpected(normal.error());
-      datum.displacement = datum.displacement.dot(*normal) * *normal;
+      const auto along = part_along_normal(
+          datum.displacement, *surfaces[static_cast<std::size_t>(foot.surface)].surface,
+          foot.parameters);
+      if (!along) return std::unexpected(along.error());
+      datum.displacement = *along;
     }
     result.data.push_back(datum);
     result.numbers.push_back(k);

@@ -25,9 +25,14 @@ struct Correspondences {
   double largest_distance = 0, rms_distance = 0;  ///< of the others, from the model
 };
 
+/// (d · n) n of a displacement d, n the unit normal of the surface there; 0 where it has none.
+/// Errors: those of evaluation.
+[[nodiscard]] Expected<Point> part_along_normal(const Point& displacement, const Surface& surface,
+                                                const std::array<double, 2>& parameters);
+
 struct CorrespondenceSettings {
   double reach = 0;           ///< farthest that a point may be from a face, > 0
-  bool along_normal = false;  ///< keep (d · n) n of a displacement d, n the normal of the surface
+  bool along_normal = false;  ///< only `part_along_normal` of displacements
 };
 
 /// The partner of every point, its nearest visible point, with the displacement given there.

@@ -17,7 +17,6 @@ using Sample = SharedEdge::Sample;
 constexpr int intervals = 256;        // feet between samples are taken on chords
 constexpr double near_enough = 1e-6;  // of the size of both surfaces
 constexpr std::size_t least_samples = 8;
-constexpr double least_speed = 1e-5;  // of a derivative as a share of the other one, and the sine
 
 /// The fractions of a point of a side.
 Vector2d on_side(SurfaceEdge side, double t) {
@@ -25,59 +24,19 @@ Vector2d on_side(SurfaceEdge side, double t) {
   return edge_across(side) == 0 ? Vector2d(end, t) : Vector2d(t, end);
 }
 
-/// A surface at fractions, with its derivatives by them.
-struct Jet {
-  Point point;
-  Eigen::Matrix<double, 3, 2> tangents;
-};
-Expected<Jet> jet_at(const Surface& s, const Vector2d& foot) {
-  const auto at = parameters_of(s, foot);
-  Parameters<2> here(1, 2);
-  here << at[0], at[1];
-  const auto jet = evaluate<2>(s, here, 1);
-  if (!jet) return std::unexpected(jet.error());
-  Jet result;
-  result.point = jet->points().row(0).transpose();
-  result.tangents.col(0) = s.knots(0).domain().length() * jet->at({1, 0}).row(0).transpose();
-  result.tangents.col(1) = s.knots(1).domain().length() * jet->at({0, 1}).row(0).transpose();
-  return result;
-}
-
-/// The angle between the tangent planes of both sides, and the directions across the edge, in which
-/// `along` points; nothing where one has no plane.
-void look_across(const std::array<Jet, 2>& jets, const Point& along, Sample& sample) {
-  std::array<Point, 2> normals;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto& t = jets[k].tangents;
-    normals[k] = t.col(0).cross(t.col(1));
-    const double u = t.col(0).norm(), v = t.col(1).norm();
-    // Beside a pole the direction of the shorter derivative is rounding.
-    if (!(std::min(u, v) > least_speed * std::max(u, v) && normals[k].norm() > least_speed * u * v))
-      return;
-    normals[k].normalize();
-  }
-  sample.angle = angle_between_planes(normals[0], normals[1]);
-  const Point mean = normals[0].dot(normals[1]) < 0 ? Point(normals[0] - normals[1])
-                                                    : Point(normals[0] + normals[1]);
-  const Point across = mean.cross(along).normalized();
-  for (const Jet& jet : jets) {
-    const Eigen::Matrix2d gramian = jet.tangents.transpose() * jet.tangents;
-    sample.across.emplace_back(gramian.inverse() * (jet.tangents.transpose() * across));
-  }
-}
-
 /// The sample of a seam at a share of the first side; none where the other is not there.
 class SeamCourse {
  public:
   SeamCourse(const Surface& a, const Surface& b, const Seam& seam,
              std::optional<brep::SurfaceFoot> search, double within)
-      : a_(a), b_(b), seam_(seam), search_(std::move(search)), within_(within) {}
+      : surfaces_{a, b}, seam_(seam), search_(std::move(search)), within_(within) {}
 
   [[nodiscard]] Expected<std::optional<Sample>> at(double t) {
     Sample sample{.parameter = t, .point = Point::Zero(), .feet = {on_side(seam_.a.edge, t)}};
-    const auto first = jet_at(a_, sample.feet[0]);
-    if (!first) return std::unexpected(first.error());
-    sample.point = first->point;
+    const Surface& a = surfaces_[0];
+    const auto point = evaluate_point<2>(a, parameters_of(a, sample.feet[0]));
+    if (!point) return std::unexpected(point.error());
+    sample.point = *point;
     if (search_) {
       const auto found = search_->nearest(sample.point, hint_, within_);
       hint_ = found.foot.parameters;
@@ -86,16 +45,14 @@ class SeamCourse {
     } else {
       sample.feet.push_back(on_side(seam_.b.edge, seam_.reversed ? 1 - t : t));
     }
-    const auto second = jet_at(b_, sample.feet[1]);
-    if (!second) return std::unexpected(second.error());
-    const Point along = first->tangents.col(1 - edge_across(seam_.a.edge));
-    look_across({*first, *second}, along, sample);
+    const auto tangents = tangents_at_foot(a, sample.feet[0]);
+    if (!tangents) return std::unexpected(tangents.error());
+    knead::look_across(surfaces_, tangents->col(1 - edge_across(seam_.a.edge)), sample);
     return sample;
   }
 
  private:
-  const Surface& a_;
-  const Surface& b_;
+  std::array<Surface, 2> surfaces_;
   const Seam& seam_;
   std::optional<brep::SurfaceFoot> search_;
   std::optional<Vector2d> hint_;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/parallel_for.hpp"
+#include "brep/shared_edge.hpp"
 #include "brep/visible_mask.hpp"
 #include "knead/spline/closest_point.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -36,14 +37,6 @@ std::vector<double> cell_lines(const KnotVector& knots) {
   }
   lines.push_back(1);
   return lines;
-}
-
-/// Fractions of a closed direction a turn outside are brought back.
-Vector2d within_domain(Vector2d at_fractions) {
-  for (double& x : at_fractions) {
-    if (x < 0 || x > 1) x -= std::floor(x);
-  }
-  return at_fractions;
 }
 
 struct Chord {
@@ -181,7 +174,7 @@ std::pair<VisibleFoot, bool> Shown::on_edge(const Point& x, const Vector2d& foot
   if (!best) return {result, false};
   const Chord& chord = chords[*best];
   const Vector2d place = chord.from + along * (chord.to - chord.from);
-  result.parameters = parameters_of(*surface, within_domain(place));
+  result.parameters = parameters_at_foot(*surface, place);
   const auto point = evaluate_point<2>(*surface, result.parameters);
   if (!point) return {VisibleFoot{}, false};
   result.point = *point;

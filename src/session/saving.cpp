@@ -76,6 +76,12 @@ Expected<std::string> Session::save_as(const Format& format, const SaveOptions& 
   return document().save_as(format, present_surfaces(*this), present_bodies(state()), how);
 }
 
+Expected<std::shared_ptr<const Source>> saved_source(const Session& session) {
+  auto saved = session.save();
+  if (!saved) return std::unexpected(std::move(saved.error()));
+  return open_source(*std::move(saved), session.document().name());
+}
+
 namespace {
 
 Expected<WrittenFile> without_loss(Expected<std::string> bytes) {
@@ -101,9 +107,7 @@ Expected<WrittenFile> triangles_of(const Session& session, const Format& format,
     }
     return without_loss(save_surfaces(surfaces, format, options));
   }
-  auto saved = session.save();
-  if (!saved) return std::unexpected(std::move(saved.error()));
-  const auto file = open_source(*std::move(saved), session.document().name());
+  const auto file = saved_source(session);
   if (!file) return std::unexpected(file.error());
   auto model = save_model(**file, format, how.tolerance);
   if (!model) return std::unexpected(std::move(model.error()));
@@ -115,9 +119,7 @@ Expected<WrittenFile> triangles_of(const Session& session, const Format& format,
 
 Expected<FacesFile> save_faces(const Session& session, const Format& format,
                                const SaveOptions& options, bool convert) {
-  auto saved = session.save();
-  if (!saved) return std::unexpected(std::move(saved.error()));
-  const auto source = open_source(*std::move(saved), session.document().name());
+  const auto source = saved_source(session);
   if (!source) return std::unexpected(source.error());
   return save_faces(**source, format, options, convert);
 }

@@ -29,4 +29,7 @@ struct SessionState : Scene, SessionRecord {
   std::shared_ptr<const Document> document = {};
 };
 
+/// What `Session::save` writes, read again. Errors: those of saving, and of opening that.
+[[nodiscard]] Expected<std::shared_ptr<const Source>> saved_source(const Session& session);
+
 }  // namespace knead

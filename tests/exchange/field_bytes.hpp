@@ -13,6 +13,10 @@
 
 namespace knead::testing {
 
+// Two points and their displacements, whose coordinates single precision holds too.
+inline const std::vector<Point> places = {{0.5, -1.25, 3}, {4, 5.75, -6.5}};
+inline const std::vector<Point> vectors = {{0.125, 0, -0.25}, {1, -2, 0.0625}};
+
 /// The bytes of a number, in one of both orders.
 template <class T>
 void append_number(std::string& bytes, T value, bool big_endian) {

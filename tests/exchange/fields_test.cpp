@@ -18,10 +18,6 @@ namespace {
 using namespace fields;
 using namespace testing;
 
-// Two points and their displacements, whose coordinates single precision holds too.
-const std::vector<Point> places = {{0.5, -1.25, 3}, {4, 5.75, -6.5}};
-const std::vector<Point> vectors = {{0.125, 0, -0.25}, {1, -2, 0.0625}};
-
 void expect_known(const Expected<Displacements>& read) {
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_EQ(read->points, places);

@@ -11,10 +11,6 @@ namespace {
 using namespace fields;
 using namespace testing;
 
-// Points and vectors whose coordinates single precision holds too.
-const std::vector<Point> places = {{0.5, -1.25, 3}, {4, 5.75, -6.5}};
-const std::vector<Point> vectors = {{0.125, 0, -0.25}, {1, -2, 0.0625}};
-
 std::vector<Point> raised(std::vector<Point> points) {
   for (Point& p : points) p += Point(0.5 * p.y(), 0.25, p.x() * p.y());
   return points;

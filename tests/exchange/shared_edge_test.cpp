@@ -35,6 +35,16 @@ TEST(SharedEdge, ItsPointsHaveFeetOnAllOfItsSurfaces) {
   }
 }
 
+TEST(SharedEdge, AFootATurnOutsideComesBackAndOneBesideAnEndStaysThere) {
+  const KnotVector u = *KnotVector::create(1, {2, 2, 6, 6});
+  const Surface surface = *Surface::create({u, u}, Points::Random(4, 3));
+  const auto at = [&](double foot) { return parameters_at_foot(surface, {foot, 0.5})[0]; };
+  EXPECT_EQ(at(1.25), 3);
+  EXPECT_EQ(at(-0.25), 5);
+  EXPECT_EQ(at(1 + 1e-12), 6) << "by rounding, not by a turn";
+  EXPECT_EQ(at(-1e-12), 2);
+}
+
 TEST(SharedEdge, AFaceOnAnotherSurfaceThanABSplineIsNamed) {
   const TwoSheets sheets = two_sheets(false, true);
   const auto edge =

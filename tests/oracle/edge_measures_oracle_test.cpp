@@ -29,48 +29,59 @@ double apart(const brep::EdgeMeasures& edge, const OcctMeeting& other, double un
   return std::max(ends, (unit * point_of(edge.middle) - other.middle).norm());
 }
 
-class EdgesBeside : public testing::FileTest {};
+/// The edges of a file as Knead measures them, and its faces as Open CASCADE reads them.
+class EdgesBeside : public testing::FileTest {
+ protected:
+  void SetUp() override {
+    testing::FileTest::SetUp();
+    if (IsSkipped()) return;
+    const auto bytes = *read_file(path_);
+    if (bytes.find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE may abort on it";
+    model_ = testing::open_or_die(bytes, path_.string())->model();
+    occt_ = OcctFaces::read(path_);
+    if (!model_ || !occt_) GTEST_SKIP() << "one of both reads no faces of it";
+    const auto measured = brep::measure_edges(*model_);
+    ASSERT_TRUE(measured) << measured.error().message();
+    measured_ = *measured;
+    unit_ = millimetres_of(model_->length_unit()).value_or(1);
+  }
+  std::shared_ptr<const brep::Model> model_;
+  std::optional<OcctFaces> occt_;
+  brep::ModelMeasures measured_;
+  double unit_ = 1;  ///< mm
+};
 
 TEST_P(EdgesBeside, OpenCascadeHaveTheSameGapsAnglesAndCurvatures) {
-  const auto bytes = *read_file(path_);
-  if (bytes.find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE may abort on it";
-  const auto source = testing::open_or_die(bytes, path_.string());
-  const auto model = source->model();
-  const auto occt = OcctFaces::read(path_);
-  if (!model || !occt) GTEST_SKIP() << "one of both reads no faces of it";
-  const auto measured = brep::measure_edges(*model);
-  ASSERT_TRUE(measured) << measured.error().message();
-  const auto others = occt->meetings();
-  const double unit = millimetres_of(model->length_unit()).value_or(1);
-  const double size = unit * measured->size;
+  const auto others = occt_->meetings();
+  const double size = unit_ * measured_.size;
   int compared = 0, two = 0, bent = 0;
   double gaps = 0, angles = 0, bends = 0;
-  for (const brep::EdgeMeasures& edge : measured->edges) {
+  for (const brep::EdgeMeasures& edge : measured_.edges) {
     const bool joint = edge.id.find('+') != std::string::npos;  // of two edges of the file
     if (edge.faces.size() != 2 || !edge.angle || others.empty() || joint) continue;
     ++two;
     const auto same = std::ranges::min_element(
-        others, {}, [&](const OcctMeeting& o) { return apart(edge, o, unit); });
+        others, {}, [&](const OcctMeeting& o) { return apart(edge, o, unit_); });
     // Where it makes other edges of these, as when it splits them, there is nothing to compare.
-    if (apart(edge, *same, unit) > same_place * size) continue;
+    if (apart(edge, *same, unit_) > same_place * size) continue;
     ++compared;
     // A largest value may be between its 201 points: there it must be the same.
     const auto compare = [&](const std::optional<brep::EdgeFigure>& figure, double in,
                              double OcctFigures::*which, double share, double floor) {
-      const double there = same->at(unit * point_of(figure->at.point)).*which;
+      const double there = same->at(unit_ * point_of(figure->at.point)).*which;
       const double other = std::max(same->largest.*which, there), value = in * figure->value;
       EXPECT_NEAR(value, other, std::max(share * other, floor)) << edge.id;
       return std::abs(value - other);
     };
     const double floor = negligible_gap * size;
-    gaps = std::max({gaps, compare(edge.gap, unit, &OcctFigures::gap, same_gap, floor),
-                     compare(edge.off_curve, unit, &OcctFigures::off_curve, same_gap, floor)});
-    if (same->at(unit * point_of(edge.angle->at.point)).angle < 0) continue;  // beside a pole
+    gaps = std::max({gaps, compare(edge.gap, unit_, &OcctFigures::gap, same_gap, floor),
+                     compare(edge.off_curve, unit_, &OcctFigures::off_curve, same_gap, floor)});
+    if (same->at(unit_ * point_of(edge.angle->at.point)).angle < 0) continue;  // beside a pole
     angles = std::max(angles, compare(edge.angle, 1, &OcctFigures::angle, 0, same_angle));
-    if (!edge.curvature || edge.curvature->value < counted_bend / measured->size) continue;
-    const auto [a, b] = same->at(unit * point_of(edge.curvature->at.point)).curvatures;
+    if (!edge.curvature || edge.curvature->value < counted_bend / measured_.size) continue;
+    const auto [a, b] = same->at(unit_ * point_of(edge.curvature->at.point)).curvatures;
     if (!(std::isfinite(a) && std::isfinite(b))) continue;
-    const double value = edge.curvature->value / unit, other = std::abs(a - b);
+    const double value = edge.curvature->value / unit_, other = std::abs(a - b);
     EXPECT_NEAR(value, other, same_bend * std::max(std::abs(a), std::abs(b))) << edge.id;
     bends = std::max(bends, std::abs(value - other) / std::max(std::abs(a), std::abs(b)));
     ++bent;
@@ -84,31 +95,22 @@ TEST_P(EdgesBeside, OpenCascadeHaveTheSameGapsAnglesAndCurvatures) {
 
 /// Whatever edges Open CASCADE makes of the file: at the places where Knead finds the gaps.
 TEST_P(EdgesBeside, OpenCascadeHaveTheSameGapsAtTheirPlaces) {
-  const auto bytes = *read_file(path_);
-  if (bytes.find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE may abort on it";
-  const auto source = testing::open_or_die(bytes, path_.string());
-  const auto model = source->model();
-  const auto occt = OcctFaces::read(path_);
-  if (!model || !occt) GTEST_SKIP() << "one of both reads no faces of it";
-  const auto measured = brep::measure_edges(*model);
-  ASSERT_TRUE(measured) << measured.error().message();
-  const double unit = millimetres_of(model->length_unit()).value_or(1);
-  const double floor = negligible_gap * unit * measured->size;
+  const double floor = negligible_gap * unit_ * measured_.size;
   std::map<std::string, std::string> surface_of;
-  for (const brep::Face& face : model->faces) {
-    if (const brep::SplineSurface* surface = model->spline_under(face))
+  for (const brep::Face& face : model_->faces) {
+    if (const brep::SplineSurface* surface = model_->spline_under(face))
       surface_of[face.id] = surface->id;
   }
   int compared = 0;
   double largest = 0, worst = 0;
-  for (const brep::EdgeMeasures& edge : measured->edges) {
-    if (edge.faces.size() != 2 || !edge.gap || unit * edge.gap->value < floor) continue;
+  for (const brep::EdgeMeasures& edge : measured_.edges) {
+    if (edge.faces.size() != 2 || !edge.gap || unit_ * edge.gap->value < floor) continue;
     const auto a = surface_of.find(edge.faces[0]), b = surface_of.find(edge.faces[1]);
     if (a == surface_of.end() || b == surface_of.end()) continue;
-    const auto other = occt->gap_at(unit * point_of(edge.gap->at.point), a->second, b->second);
+    const auto other = occt_->gap_at(unit_ * point_of(edge.gap->at.point), a->second, b->second);
     if (!other) continue;
     ++compared;
-    const double value = unit * edge.gap->value;
+    const double value = unit_ * edge.gap->value;
     EXPECT_NEAR(value, *other, std::max(same_gap * *other, floor)) << edge.id;
     largest = std::max(largest, value);
     worst = std::max(worst, std::abs(value - *other));

@@ -55,12 +55,8 @@ void hold_edges(const MovingModel& model, std::vector<morph::Datum>& data) {
   constexpr double weight = 1e3;  // beside data: residuals there are a thousandth of theirs
   for (const auto& [surface, edge] : model.held) {
     const morph::FitSurface& on = model.placed[static_cast<std::size_t>(surface)];
-    for (Eigen::Vector2d at : on.region.edges[edge].course) {
-      for (double& x : at) {
-        if (x < 0 || x > 1) x -= std::floor(x);
-      }
-      data.push_back({surface, parameters_of(*on.surface, at), Point::Zero(), weight});
-    }
+    for (const Eigen::Vector2d& foot : on.region.edges[edge].course)
+      data.push_back({surface, parameters_at_foot(*on.surface, foot), Point::Zero(), weight});
   }
 }
 
@@ -228,11 +224,7 @@ void describe_fit(const MovingModel& model, const morph::FitResult& fit, MorphRe
 /// A surface of the model in the coordinates of its part.
 Expected<Surface> in_its_part(Surface surface, const Eigen::Affine3d& to_model) {
   if (to_model.matrix().isIdentity(0)) return surface;
-  const Eigen::Affine3d back = to_model.inverse();
-  Points net = surface.control_points();
-  for (Eigen::Index row = 0; row < net.rows(); ++row)
-    net.row(row) = (back * Point(net.row(row).transpose())).transpose();
-  return surface.with_control_points(net);
+  return detail::image_of(surface, to_model.inverse());
 }
 
 /// The bytes with the surfaces that have moved, and every edge between them anew. An edge at a
@@ -293,7 +285,7 @@ Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, co
   report.bytes_before = static_cast<double>(opened->size());
   auto model = detail::moving_model(source, settings);
   if (!model) return std::unexpected(model.error());
-  report.unit = model->model->assembly ? model->model->assembly->unit : model->model->length_unit();
+  report.unit = model->unit();
   report.time_model = watch.lap();
 
   auto points = detail::points_of(*model, data, settings);

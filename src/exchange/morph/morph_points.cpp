@@ -41,12 +41,11 @@ Expected<double> unit_factor(const MovingModel& model, const MorphSettings& sett
   if (!data)
     return input_error("there is no unit \"" + settings.unit + "\"", "unit",
                        "use " + list_of_length_units());
-  const auto own = millimetres_of(model.model->assembly ? model.model->assembly->unit
-                                                        : model.model->length_unit());
+  const auto own = millimetres_of(model.unit());
   return own ? *data / *own : 1.0;
 }
 
-/// A grid over what is visible of a surface, fractions, and its edges between faces that move.
+/// A grid over what is visible of a surface, and its edges between faces that move: feet.
 std::vector<Vector2d> places_on(const FitSurface& surface, const std::set<std::string>& moving) {
   constexpr int least = 24;  // lines per direction
   constexpr std::size_t along_edges = 33;
@@ -73,24 +72,9 @@ std::vector<Vector2d> places_on(const FitSurface& surface, const std::set<std::s
         edge.neighbours, [&](const std::string& face) { return moving.contains(face); });
     if (!moves) continue;
     const std::size_t step = std::max<std::size_t>(1, edge.course.size() / along_edges);
-    for (std::size_t k = 0; k < edge.course.size(); k += step) {
-      Vector2d at = edge.course[k];
-      for (double& x : at) {
-        if (x < 0 || x > 1) x -= std::floor(x);
-      }
-      result.push_back(at);
-    }
+    for (std::size_t k = 0; k < edge.course.size(); k += step) result.push_back(edge.course[k]);
   }
   return result;
-}
-
-/// The unit normal of a surface; zero where it has none.
-Expected<Point> unit_normal(const Surface& surface, const std::array<double, 2>& at) {
-  Parameters<2> place(1, 2);
-  place << at[0], at[1];
-  const auto normals = unit_normals(surface, place);
-  if (!normals) return std::unexpected(normals.error());
-  return Point(normals->row(0).transpose());
 }
 
 // A map is known everywhere: each surface has points of its own, which need no partner. Those of
@@ -107,15 +91,14 @@ Expected<morph::Correspondences> mapped_points(const MovingModel& model,
     const FitSurface& surface = model.placed[k];
     if (!model.shown[k] || surface.fixed) continue;
     for (const Vector2d& at : places_on(surface, moving)) {
-      const auto parameters = parameters_of(*surface.surface, at);
+      const auto parameters = parameters_at_foot(*surface.surface, at);
       const auto point = evaluate_point<2>(*surface.surface, parameters);
       if (!point) return std::unexpected(point.error());
       auto wanted = map.at(*point);
       if (!wanted) return std::unexpected(wanted.error());
       if (settings.along_normal) {
-        const auto normal = unit_normal(*surface.surface, parameters);
-        if (!normal) return std::unexpected(normal.error());
-        *wanted = wanted->dot(*normal) * *normal;
+        wanted = morph::part_along_normal(*wanted, *surface.surface, parameters);
+        if (!wanted) return std::unexpected(wanted.error());
       }
       result.numbers.push_back(result.data.size());
       result.data.push_back({static_cast<int>(k), parameters, settings.scale * *wanted, 1});
@@ -184,9 +167,7 @@ Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
     if (!factor) return std::unexpected(factor.error());
     for (Point& p : given->points) p *= *factor;
     for (Point& d : given->vectors) d *= settings.scale * *factor;
-    const std::string unit =
-        model.model->assembly ? model.model->assembly->unit : model.model->length_unit();
-    if (auto right = check_size(given->points, box, settings, unit); !right)
+    if (auto right = check_size(given->points, box, settings, model.unit()); !right)
       return std::unexpected(right.error());
     auto found = morph::correspond(*search, model.placed, given->points, given->vectors,
                                    {result.reach, settings.along_normal});

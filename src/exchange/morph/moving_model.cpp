@@ -268,10 +268,7 @@ SurfacePlace place_of(const brep::Part& part, const std::vector<std::string>& as
 
 /// A surface with its edges as they stand in the model.
 Expected<morph::FitSurface> moved_by(const Eigen::Affine3d& move, morph::FitSurface surface) {
-  Points net = surface.surface->control_points();
-  for (Eigen::Index row = 0; row < net.rows(); ++row)
-    net.row(row) = (move * Point(net.row(row).transpose())).transpose();
-  auto moved = surface.surface->with_control_points(net);
+  auto moved = image_of(*surface.surface, move);
   if (!moved) return std::unexpected(moved.error());
   surface.surface = std::make_shared<const Surface>(*std::move(moved));
   for (TrimEdge& edge : surface.region.edges) {
@@ -309,6 +306,17 @@ Expected<void> add_places(const MorphSettings& settings, MovingModel& result) {
 }
 
 }  // namespace
+
+std::string MovingModel::unit() const {
+  return model->assembly ? model->assembly->unit : model->length_unit();
+}
+
+Expected<Surface> image_of(const Surface& surface, const Eigen::Affine3d& map) {
+  Points net = surface.control_points();
+  for (Eigen::Index row = 0; row < net.rows(); ++row)
+    net.row(row) = (map * Point(net.row(row).transpose())).transpose();
+  return surface.with_control_points(net);
+}
 
 Expected<MovingModel> moving_model(const std::shared_ptr<const Source>& source,
                                    const MorphSettings& settings) {

@@ -32,7 +32,13 @@ struct MovingModel {
   /// Edges between a surface that moves and one that cannot, by position in `surfaces` and in the
   /// edges of its region.
   std::vector<std::pair<int, std::size_t>> held;
+
+  /// Of lengths of the model.
+  [[nodiscard]] std::string unit() const;
 };
+
+/// The surface moved by an affine map. Errors: coordinates that are not finite then.
+[[nodiscard]] Expected<Surface> image_of(const Surface& surface, const Eigen::Affine3d& map);
 
 /// Converts what is to move, follows the visible parts of all surfaces and all edges, by threads.
 /// Errors: those of `morph_file`.

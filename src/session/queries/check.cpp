@@ -1,6 +1,7 @@
 #include "check.hpp"
 
 #include "knead/exchange/format.hpp"
+#include "session/session_state.hpp"
 
 namespace knead {
 
@@ -34,9 +35,7 @@ void describe(CheckQuery& q, Fields& fields) {
 }
 
 Expected<brep::EdgeCheckReport> ask(const Session& session, const CheckQuery& q) {
-  auto saved = session.save();
-  if (!saved) return std::unexpected(std::move(saved.error()));
-  const auto now = open_source(*std::move(saved), session.document().name());
+  const auto now = saved_source(session);
   if (!now) return std::unexpected(now.error());
   if (q.against.data.empty()) return check_edges(**now, q.check);
   const auto before = open_source(q.against.data, "against");
