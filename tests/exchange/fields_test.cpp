@@ -269,6 +269,23 @@ TEST(FieldReaders, DamagedFilesAreReadOrRefused) {
   }
 }
 
+TEST(FieldReaders, BytesWithoutANameAreKnown) {
+  const std::vector<Point> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},
+                                     {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const std::pair<std::string, std::string_view> files[] = {
+      {binary_stl(square, "part"), "STL"},
+      {text_stl(square), "STL"},
+      {binary_stl(square, "solid part"), "STL"},
+      {"# made\n\no part\nv 1 2 3\nv 4 5 6\n", "OBJ"},
+      {"v\t1 2 3\n", "OBJ"},
+      {"1 2 3\n4 5 6\n", "XYZ"}};
+  for (const auto& [bytes, format] : files) {
+    const auto read = read_mesh_points(bytes, "from");
+    ASSERT_TRUE(read) << read.error().message();
+    EXPECT_EQ(read->format, format);
+  }
+}
+
 TEST(FieldReaders, CountsAreComparedWithTheBytesThere) {
   const std::string many = "999999999999";
   const std::pair<std::string, std::string> files[] = {

@@ -129,8 +129,8 @@ class Document(Commands, Queries, Display):
         given = {field: value for field, value in fields.items() if value is not None}
         contents = {field: _content(file, field)[0] for field, file in files.items() if file is not None}
         given |= {field: len(content) for field, content in contents.items()}
-        answer: dict[str, Any] = json.loads(self._session.ask(name, encode(name, given), b"".join(contents.values())))
-        return answer
+        answer, files = self._session.ask(name, encode(name, given), b"".join(contents.values()))
+        return {**files, **json.loads(answer)}
 
     def run(self: _Self, script: Any, *, progress: Progress = None) -> _Self:
         """Carries out a script: the name of a file, the text or the dict of a script {"knead": 2, "commands": […]}, a list of

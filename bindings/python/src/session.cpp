@@ -192,10 +192,14 @@ std::string PySession::report() {
   }));
 }
 
-std::string PySession::ask(const std::string& query, const std::string& request,
-                           const py::bytes& bytes) {
-  const std::string_view files = bytes;
-  return value_of(alone([&] { return ask_document(session_, query, request, files); }));
+py::tuple PySession::ask(const std::string& query, const std::string& request,
+                         const py::bytes& bytes) {
+  const std::string_view given = bytes;
+  const DocumentAnswer answer =
+      value_of(alone([&] { return ask_document(session_, query, request, given); }));
+  py::dict files;
+  for (const auto& [name, content] : answer.files) files[py::str(name)] = py::bytes(content);
+  return py::make_tuple(answer.json, files);
 }
 
 std::string PySession::selected() {

@@ -45,8 +45,8 @@ class PySession {
   [[nodiscard]] std::string report();
   /// The answer of a query of the document (session/queries) as JSON; the files of its request lie
   /// one after the other in `bytes`.
-  [[nodiscard]] std::string ask(const std::string& query, const std::string& request,
-                                const py::bytes& bytes);
+  [[nodiscard]] py::tuple ask(const std::string& query, const std::string& request,
+                              const py::bytes& bytes);
   /// (bytes, what they leave out) of a file of that name; without a name the document's own file.
   /// Triangles, which lose the surfaces, only if they may be too.
   [[nodiscard]] py::tuple file(const std::string& name, double tolerance, int detail,

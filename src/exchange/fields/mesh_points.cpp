@@ -69,6 +69,30 @@ Expected<MeshPoints> read_vtk(std::string_view bytes, std::string_view file) {
   return MeshPoints{.format = "VTK", .points = std::move(read->points), .normals = {}};
 }
 
+/// Whether the first line with a word begins as those of OBJ do; lines of numbers do not.
+bool begins_as_obj(std::string_view bytes) {
+  static constexpr std::string_view words[] = {"v", "vn", "vt", "o", "g", "s", "mtllib", "usemtl"};
+  while (!bytes.empty()) {
+    const std::string_view line = bytes.substr(0, bytes.find_first_of("\r\n"));
+    bytes.remove_prefix(std::min(line.size() + 1, bytes.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+    if (!word.empty() && word.front() != '#')
+      return word.size() < line.size() && std::ranges::find(words, word) != std::end(words);
+  }
+  return false;
+}
+
+/// Whether it is STL: ASCII by its first word, binary by its size, 84 bytes and 50 per triangle.
+bool is_stl(std::string_view bytes) {
+  if (bytes.starts_with("solid") && bytes.find("facet") != bytes.npos) return true;
+  if (bytes.size() < 84) return false;
+  std::uint32_t triangles = 0;
+  for (int k = 3; k >= 0; --k)
+    triangles =
+        triangles << 8 | static_cast<unsigned char>(bytes[80 + static_cast<std::size_t>(k)]);
+  return bytes.size() == 84 + 50 * std::size_t{triangles};
+}
+
 }  // namespace
 
 Expected<MeshPoints> read_mesh_points(std::string_view bytes, std::string_view file) {
@@ -78,6 +102,8 @@ Expected<MeshPoints> read_mesh_points(std::string_view bytes, std::string_view f
   if (name.ends_with(".obj")) return read_obj(bytes, file);
   if (name.ends_with(".stl")) return read_stl(bytes, file);
   if (name.ends_with(".ply")) return read_ply(bytes, file);
+  if (begins_as_obj(bytes)) return read_obj(bytes, file);
+  if (is_stl(bytes)) return read_stl(bytes, file);
   return read_xyz(bytes, file);
 }
 

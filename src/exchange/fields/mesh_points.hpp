@@ -17,8 +17,8 @@ struct MeshPoints {
 };
 
 /// The points of a file of STL (ASCII or binary), OBJ, PLY (ASCII or binary, both byte orders), VTK
-/// (legacy, VTU, VTP), or of lines of 3 or 6 numbers (XYZ). Formats are told by their first bytes;
-/// OBJ, and STL that begins like nothing else, by the ending of `file`. Normals are those of PLY
+/// (legacy, VTU, VTP), or of lines of 3 or 6 numbers (XYZ). Formats are told by their first bytes,
+/// binary STL by its size, where the ending of `file` does not say it. Normals are those of PLY
 /// (nx, ny, nz) and of six columns. Errors (input): it violates its format, is cut off, or a
 /// coordinate is not finite, with the line, or in binary files the number of the item. Cost: linear
 /// in the bytes, whatever counts they announce.

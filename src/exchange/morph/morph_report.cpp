@@ -1,7 +1,7 @@
 // The report on a morph as JSON, and the schema of that.
+#include "morph_report.hpp"
 #include "describe/record_json.hpp"
 #include "describe/text.hpp"
-#include "knead/exchange/morph.hpp"
 
 namespace knead {
 
@@ -63,7 +63,7 @@ static void describe(MorphExcess& e, Fields& fields) {
   fields.add("wanted", e.wanted);
 }
 
-static void describe(MorphReport& r, Fields& fields) {
+void describe(MorphReport& r, Fields& fields) {
   fields.name("morph report", "How the surfaces of a CAD file have followed data.");
   fields.add_all("file", r.file, "format", r.format);
   fields.add("unit", r.unit, {.help = "of lengths, as the file names it"});

@@ -7,6 +7,7 @@
 
 #include "check.hpp"
 #include "describe/text.hpp"
+#include "morph.hpp"
 
 namespace knead {
 namespace {
@@ -42,12 +43,13 @@ Expected<void> read_files(Json& request, std::string_view bytes, const Type& typ
 }  // namespace
 
 std::span<const DocumentQuery> document_queries() {
-  static const std::vector<DocumentQuery> all = {document_query<CheckQuery>()};
+  static const std::vector<DocumentQuery> all = {document_query<CheckQuery>(),
+                                                 document_query<MorphQuery>()};
   return all;
 }
 
-Expected<std::string> ask_document(const Session& session, std::string_view name,
-                                   std::string_view request, std::string_view bytes) {
+Expected<DocumentAnswer> ask_document(const Session& session, std::string_view name,
+                                      std::string_view request, std::string_view bytes) {
   const auto query = std::ranges::find(document_queries(), name,
                                        [](const DocumentQuery& q) { return q.request->name; });
   if (query == document_queries().end())
@@ -59,7 +61,13 @@ Expected<std::string> ask_document(const Session& session, std::string_view name
     return read_record(*json, without_files(*query->request), value);
   });
   if (!answer) return std::unexpected(answer.error());
-  return to_json(*query->answer, answer->get(), Absent::null);
+  DocumentAnswer written{to_json(*query->answer, answer->get(), Absent::null), {}};
+  for (const Field& field : query->answer->fields) {
+    if (is_file(field))
+      written.files.emplace_back(field.name,
+                                 static_cast<const Bytes*>(field.of(answer->get()))->data);
+  }
+  return written;
 }
 
 std::string document_queries_json() {

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "describe/bytes.hpp"
 #include "knead/session/session.hpp"
@@ -47,11 +48,18 @@ DocumentQuery document_query() {
 /// All of them.
 [[nodiscard]] std::span<const DocumentQuery> document_queries();
 
+/// What a query answers: JSON, and the content of each file by the name of its field.
+struct DocumentAnswer {
+  std::string json;
+  std::vector<std::pair<std::string, std::string>> files;
+};
+
 /// Asks by name. The request is JSON, in which a field of `Bytes` is the number of its bytes; these
-/// are the next of `bytes`. The answer is JSON. Errors: no such query (usage); those of
+/// are the next of `bytes`. Errors: no such query (usage); those of
 /// `read_record`; fewer bytes than the request says (usage); those of the query.
-[[nodiscard]] Expected<std::string> ask_document(const Session& session, std::string_view name,
-                                                 std::string_view request, std::string_view bytes);
+[[nodiscard]] Expected<DocumentAnswer> ask_document(const Session& session, std::string_view name,
+                                                    std::string_view request,
+                                                    std::string_view bytes);
 
 /// [{"name", "help", "answer": help of the answer, "request": schema, "files": [{"name", "help",
 /// "required"}]}, …]
