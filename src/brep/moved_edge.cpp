@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "base/parallel_for.hpp"
 #include "boundary_curve.hpp"
 #include "brep/surfaces/surface_foot.hpp"
 #include "fitted_curve.hpp"
@@ -160,51 +161,75 @@ Expected<Curve> moved_curve(const SharedEdge& edge, std::span<const Surface* con
   return recorded(edge, *curve);
 }
 
-// Edges along which surfaces have parted stay where they were, as there is no one place for them.
+namespace {
+
+/// One edge that has moved, or not, and where its vertices go then.
+struct OneMoved {
+  std::optional<MovedEdge> edge;
+  std::vector<std::pair<std::string, Point>> ends;
+};
+
+// An edge along which surfaces have parted stays where it was, as there is no one place for it.
+Expected<OneMoved> one_moved(const Model& model, std::span<const Replacement> replacements,
+                             const std::string& id, double whole) {
+  OneMoved result;
+  const auto edge = SharedEdge::create(model, id);
+  if (!edge) return std::unexpected(edge.error());
+  std::vector<const Surface*> before, after;
+  for (const std::string& surface : edge->surfaces()) {
+    before.push_back(&model.find_surface(surface)->surface);
+    const auto found = std::ranges::find(replacements, surface, &Replacement::id);
+    after.push_back(found == replacements.end() ? before.back() : &found->surface);
+  }
+  const double size = size_of(before);
+  const double tolerance = std::max(edge->uncertainty(), least_tolerance * size);
+  const Path path(*edge, before, after);
+  const auto parted = path.parted();
+  if (!parted) return std::unexpected(parted.error());
+  if (*parted > std::max(edge->uncertainty(), open_above * std::max(size, whole))) return result;
+  double largest = 0;
+  for (const auto& sample : edge->samples()) {
+    const auto way = path.displacement(sample);
+    if (!way) return std::unexpected(way.error());
+    largest = std::max(largest, way->norm());
+    const bool first = &sample == &edge->samples().front(),
+               last = &sample == &edge->samples().back();
+    for (std::size_t v = 0; v < 2; ++v) {
+      if (!(v == 0 ? first : last) || way->norm() <= rounding * size) continue;
+      result.ends.emplace_back(edge->vertices()[v], edge->vertex_points()[v] + *way);
+    }
+  }
+  if (largest <= rounding * size) return result;
+  // A file that allows for more does not make the curve coarser: its distance adds to the gap.
+  const double fit = std::min(share_of_tolerance * tolerance, least_tolerance * size);
+  auto curve = moved_curve(*edge, before, after, fit);
+  if (!curve) return std::unexpected(curve.error());
+  result.edge = MovedEdge{id, *std::move(curve)};
+  return result;
+}
+
+}  // namespace
+
 // The first edge that ends in a vertex decides where it goes: others agree to the tolerance at
 // which they are closed.
 Expected<MovedEdges> moved_edges(const Model& model, std::span<const Replacement> replacements,
                                  std::span<const std::string> ids) {
-  MovedEdges result;
-  std::map<std::string, Point> vertices;
   Eigen::AlignedBox3d box;
   for (const Vertex& vertex : model.vertices) {
     if (!vertex.wrong) box.extend(vertex.place);
   }
   const double whole = box.isEmpty() ? 0 : box.diagonal().norm();
-  for (const std::string& id : ids) {
-    const auto edge = SharedEdge::create(model, id);
-    if (!edge) return std::unexpected(edge.error());
-    std::vector<const Surface*> before, after;
-    for (const std::string& surface : edge->surfaces()) {
-      before.push_back(&model.find_surface(surface)->surface);
-      const auto found = std::ranges::find(replacements, surface, &Replacement::id);
-      after.push_back(found == replacements.end() ? before.back() : &found->surface);
-    }
-    const double size = size_of(before);
-    const double tolerance = std::max(edge->uncertainty(), least_tolerance * size);
-    const Path path(*edge, before, after);
-    const auto parted = path.parted();
-    if (!parted) return std::unexpected(parted.error());
-    if (*parted > std::max(edge->uncertainty(), open_above * std::max(size, whole))) continue;
-    double largest = 0;
-    for (const auto& sample : edge->samples()) {
-      const auto way = path.displacement(sample);
-      if (!way) return std::unexpected(way.error());
-      largest = std::max(largest, way->norm());
-      const bool first = &sample == &edge->samples().front(),
-                 last = &sample == &edge->samples().back();
-      for (std::size_t v = 0; v < 2; ++v) {
-        if (!(v == 0 ? first : last) || way->norm() <= rounding * size) continue;
-        vertices.try_emplace(edge->vertices()[v], edge->vertex_points()[v] + *way);
-      }
-    }
-    if (largest <= rounding * size) continue;
-    // A file that allows for more does not make the curve coarser: its distance adds to the gap.
-    const double fit = std::min(share_of_tolerance * tolerance, least_tolerance * size);
-    auto curve = moved_curve(*edge, before, after, fit);
-    if (!curve) return std::unexpected(curve.error());
-    result.edges.push_back({id, *std::move(curve)});
+  std::vector<std::optional<Expected<OneMoved>>> each(ids.size());
+  detail::parallel_for(std::ssize(ids), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+      each[k].emplace(one_moved(model, replacements, ids[k], whole));
+  });
+  MovedEdges result;
+  std::map<std::string, Point> vertices;
+  for (auto& one : each) {
+    if (!*one) return std::unexpected(one->error());
+    for (const auto& [id, place] : (*one)->ends) vertices.try_emplace(id, place);
+    if ((*one)->edge) result.edges.push_back(*std::move((*one)->edge));
   }
   if (auto moved = move_loop_vertices(model, replacements, vertices); !moved)
     return std::unexpected(moved.error());

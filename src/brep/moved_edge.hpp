@@ -52,8 +52,8 @@ struct MovedEdges {
 /// Edges and vertices that moved by less than rounding (1e-11 of the surfaces' size) are left out,
 /// as are edges whose surfaces have parted by more than the file's uncertainty and 1e-5 of the
 /// size of the model (the box of its vertices) or of the surfaces. The vertex that is all of a loop
-/// goes along with the surface of its face. Errors: those of `SharedEdge::create` and
-/// `moved_curve`.
+/// goes along with the surface of its face. Results do not depend on the number of threads. Errors:
+/// those of `SharedEdge::create` and `moved_curve`.
 [[nodiscard]] Expected<MovedEdges> moved_edges(const Model& model,
                                                std::span<const Replacement> replacements,
                                                std::span<const std::string> ids);
