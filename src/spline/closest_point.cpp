@@ -8,6 +8,7 @@
 #include "bezier_patch.hpp"
 #include "foot_search.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "point_evaluator.hpp"
 
 namespace knead {
 namespace {
@@ -35,19 +36,16 @@ struct LocalModel {
 };
 
 template <int D>
-std::optional<LocalModel<D>> model_at(const Spline<D>& spline, const Point& x,
-                                      const std::array<double, D>& u) {
-  Parameters<D> parameters(1, D);
-  for (int d = 0; d < D; ++d) parameters(0, d) = u[at(d)];
-  const auto value = evaluate<D>(spline, parameters, 2);
-  if (!value) return std::nullopt;
+std::optional<LocalModel<D>> model_at(const Spline<D>& spline, detail::PointEvaluator<D>& value,
+                                      const Point& x, const std::array<double, D>& u) {
+  if (!value.at(u)) return std::nullopt;
   const auto derivative = [&](MultiIndex<D> a) {
-    Point result = value->at(a).row(0).transpose();
+    Point result = value.derivative(a);
     for (int d = 0; d < D; ++d) result *= std::pow(spline.knots(d).domain().length(), a[at(d)]);
     return result;
   };
   LocalModel<D> model;
-  model.point = value->points().row(0).transpose();
+  model.point = value.derivative(0);
   const Point off = model.point - x;
   model.distance = off.norm();
   Eigen::Matrix<double, 3, D> tangents;
@@ -89,11 +87,12 @@ ClosestPoint<D> descend(const Spline<D>& spline, const Point& x, const std::arra
   }
   best_at = here;
   LocalModel<D> best;
+  detail::PointEvaluator<D> value(spline, 2);
   double damping = 1e-6;
   for (int k = 0; k < iterations; ++k) {
     std::array<double, D> u;
     for (int d = 0; d < D; ++d) u[at(d)] = parameter(d, here[d]);
-    const auto model = model_at<D>(spline, x, u);
+    const auto model = model_at<D>(spline, value, x, u);
     if (!model) break;
     // Where rounding hides the decrease of the distance, that of the gradient decides.
     const bool level = model->distance <= best.distance * (1 + 1e-14);

@@ -7,6 +7,8 @@
 
 #include "base/parallel_for.hpp"
 #include "homogeneous.hpp"
+#include "local_contraction.hpp"
+#include "point_evaluator.hpp"
 
 namespace knead {
 namespace {
@@ -24,97 +26,6 @@ void append_indices(MultiIndex<D>& a, std::size_t direction, int left,
     append_indices<D>(a, direction + 1, left - k, out);
   }
 }
-
-/// Σ_r values[r] from[r · stride + c], r < terms, for c < size: `Fixed` terms if known at compile
-/// time, else 0.
-template <std::size_t Fixed>
-void sum_terms(const double* values, const double* from, std::size_t stride, std::size_t terms,
-               std::size_t size, double* to) {
-  if constexpr (Fixed > 0) terms = Fixed;
-  for (std::size_t c = 0; c < size; ++c) {
-    double sum = values[0] * from[c];
-    for (std::size_t r = 1; r < terms; ++r) sum += values[r] * from[r * stride + c];
-    to[c] = sum;
-  }
-}
-
-/// Contracts the (p + 1)^D control points that affect one parameter point, first direction first.
-/// Sums are formed in the same order as on grids, so that both give the same bits.
-template <int D>
-class LocalContraction {
- public:
-  LocalContraction(const detail::HomogeneousNet<D>& net,
-                   const std::array<const BasisTable*, D>& tables, int order)
-      : net_(net), tables_(tables), order_(order) {
-    std::size_t block = net.width();
-    for (std::size_t d = D; d-- > 0;) {
-      reduced_[d].resize(block);
-      block *= static_cast<std::size_t>(tables[d]->degree + 1);
-    }
-    if (gathers()) local_.resize(block);
-  }
-
-  /// out[k · width + c] for multi-index k at point `row` of every table.
-  void point(int row, double* out) {
-    MultiIndex<D> a{};
-    if (gathers()) {
-      double* end = local_.data();
-      gather(0, row, 0, end);
-      contract(0, row, local_.data(), reduced_[0].size(), order_, a, out);
-    } else {  // the control points of one line of the last direction are neighbours in the net, too
-      const double* from = net_.data();
-      for (std::size_t d = 0; d < D; ++d) {
-        from += static_cast<std::size_t>(tables_[d]->first[static_cast<std::size_t>(row)]) *
-                net_.stride(d);
-      }
-      contract(0, row, from, net_.stride(0), order_, a, out);
-    }
-  }
-
- private:
-  [[nodiscard]] bool gathers() const { return D > 2 || !net_.whole(); }
-
-  void gather(std::size_t d, int row, std::size_t from, double*& to) const {
-    const BasisTable& table = *tables_[d];
-    from += static_cast<std::size_t>(table.first[static_cast<std::size_t>(row)]) * net_.stride(d);
-    if (d + 1 == D) {
-      to = net_.copy(from / net_.width(), static_cast<std::size_t>(table.degree + 1), to);
-      return;
-    }
-    for (int r = 0; r <= table.degree; ++r, from += net_.stride(d)) gather(d + 1, row, from, to);
-  }
-
-  void contract(std::size_t d, int row, const double* from, std::size_t stride, int left,
-                MultiIndex<D>& a, double* out) {
-    const BasisTable& table = *tables_[d];
-    const std::size_t size = reduced_[d].size(), terms = static_cast<std::size_t>(table.degree + 1);
-    for (int m = 0; m <= left; ++m) {
-      a[d] = m;
-      double* to = d + 1 == D ? out + static_cast<std::size_t>(multi_index_position<D>(a)) * size
-                              : reduced_[d].data();
-      const double* values = table.row(row, m);
-      switch (terms) {
-        case 3:
-          sum_terms<3>(values, from, stride, terms, size, to);
-          break;
-        case 4:
-          sum_terms<4>(values, from, stride, terms, size, to);
-          break;
-        default:
-          sum_terms<0>(values, from, stride, terms, size, to);
-      }
-      if (d + 1 < D) contract(d + 1, row, to, reduced_[d + 1].size(), left - m, a, out);
-    }
-    a[d] = 0;
-  }
-
-  const detail::HomogeneousNet<D>& net_;
-  const std::array<const BasisTable*, D>& tables_;
-  int order_;
-  std::vector<double>
-      local_;  ///< of volumes, whose lines are not in one place, and of nets left apart
-  std::array<std::vector<double>, D> reduced_;  ///< the remainder after direction d
-};
 
 }  // namespace
 
@@ -159,7 +70,7 @@ Expected<void> write_points(const Spline<D>& spline, const std::array<const Basi
   const std::ptrdiff_t size = detail::block_size(rows, work);
   std::vector<std::ptrdiff_t> failed(static_cast<std::size_t>((rows + size - 1) / size), -1);
   detail::parallel_for(rows, size, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    LocalContraction<D> contraction(net, tables, order);
+    detail::LocalContraction<D> contraction(net, tables, order);
     std::vector<double> homogeneous(indices.size() * net.width());
     for (std::ptrdiff_t row = begin; row < end; ++row) {
       contraction.point(static_cast<int>(row), homogeneous.data());
@@ -241,11 +152,9 @@ Expected<Evaluation<D>> evaluate(const Spline<D>& spline, const Parameters<D>& p
 
 template <int D>
 Expected<Point> evaluate_point(const Spline<D>& spline, std::array<double, D> u) {
-  Parameters<D> parameters(1, D);
-  for (int d = 0; d < D; ++d) parameters(0, d) = u[static_cast<std::size_t>(d)];
-  auto result = evaluate<D>(spline, parameters);
-  if (!result) return std::unexpected(result.error());
-  return Point(result->points().row(0).transpose());
+  detail::PointEvaluator<D> point(spline, 0);
+  if (auto status = point.at(u); !status) return std::unexpected(std::move(status.error()));
+  return point.derivative(0);
 }
 
 #define KNEAD_INSTANTIATE(D)                                                                       \
