@@ -18,7 +18,7 @@ struct MeshPoints {
 
 /// The points of a file of STL (ASCII or binary), OBJ, PLY (ASCII or binary, both byte orders), VTK
 /// (legacy, VTU, VTP), or of lines of 3 or 6 numbers (XYZ). Formats are told by their first bytes,
-/// binary STL by its size, where the ending of `file` does not say it. Normals are those of PLY
+/// binary STL by its size, unless the ending of `file` says it. Normals are those of PLY
 /// (nx, ny, nz) and of six columns. Errors (input): it violates its format, is cut off, or a
 /// coordinate is not finite, with the line, or in binary files the number of the item. Cost: linear
 /// in the bytes, whatever counts they announce.

@@ -55,8 +55,8 @@ struct DocumentAnswer {
 };
 
 /// Asks by name. The request is JSON, in which a field of `Bytes` is the number of its bytes; these
-/// are the next of `bytes`. Errors: no such query (usage); those of
-/// `read_record`; fewer bytes than the request says (usage); those of the query.
+/// are the next of `bytes`. Errors: no such query (usage); those of `read_record`; fewer bytes than
+/// the request says (usage); those of the query.
 [[nodiscard]] Expected<DocumentAnswer> ask_document(const Session& session, std::string_view name,
                                                     std::string_view request,
                                                     std::string_view bytes);
