@@ -270,8 +270,6 @@ TEST(FieldReaders, DamagedFilesAreReadOrRefused) {
 }
 
 TEST(FieldReaders, BytesWithoutANameAreKnown) {
-  const std::vector<Point> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},
-                                     {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   const std::pair<std::string, std::string_view> files[] = {
       {binary_stl(square, "part"), "STL"},
       {text_stl(square), "STL"},
