@@ -15,9 +15,9 @@ namespace knead::cli {
 namespace {
 
 struct MorphArguments {
-  std::string file, output, vectors, from, to, space, report;
+  std::string file, output, vectors, from, to, space, scan, report;
   std::string scales = "1", faces, keep, places, columns, along;
-  std::optional<double> tolerance, reach;
+  std::optional<double> tolerance, reach, noise;
   bool no_convert = false, strict = false;
   MorphSettings settings;
   UnpackOption unpack;
@@ -28,7 +28,8 @@ Error in_options(Error error) {
   static constexpr std::pair<std::string_view, std::string_view> options[] = {
       {"scale", "--scale"},       {"tolerance", "--tolerance"}, {"reach", "--reach"},
       {"refinement", "--refine"}, {"unit", "--unit"},           {"columns", "--columns"},
-      {"faces", "--faces"},       {"place", "--place"},         {"keep", "--keep"}};
+      {"faces", "--faces"},       {"place", "--place"},         {"keep", "--keep"},
+      {"noise", "--noise"},       {"align", "--align"}};
   for (const auto& [setting, option] : options) {
     if (error.where != setting) continue;
     error.where = option;
@@ -55,11 +56,12 @@ std::string output_of(const MorphArguments& options, double scale, std::size_t c
 
 Expected<MorphData> data_of(const MorphArguments& options) {
   const int kinds = (options.vectors.empty() ? 0 : 1) + (options.space.empty() ? 0 : 1) +
-                    (options.from.empty() && options.to.empty() ? 0 : 1);
+                    (options.from.empty() && options.to.empty() ? 0 : 1) +
+                    (options.scan.empty() ? 0 : 1);
   if (kinds != 1)
     return usage_error(kinds == 0 ? "nothing says where the surfaces should go"
                                   : "several data say where the surfaces should go",
-                       "--vectors", "give one of --vectors, --from with --to, and --space");
+                       "--vectors", "give one of --vectors, --from with --to, --scan, and --space");
   if (options.from.empty() != options.to.empty())
     return usage_error("a pair of meshes is --from and --to",
                        options.from.empty() ? "--from" : "--to", "give the other one too");
@@ -68,7 +70,10 @@ Expected<MorphData> data_of(const MorphArguments& options) {
                        options.columns.empty() ? "--field" : "--columns", "leave it out");
   MorphData data{.space = options.space};
   const std::pair<const std::string*, std::optional<MorphFile>*> files[] = {
-      {&options.vectors, &data.vectors}, {&options.from, &data.from}, {&options.to, &data.to}};
+      {&options.vectors, &data.vectors},
+      {&options.from, &data.from},
+      {&options.to, &data.to},
+      {&options.scan, &data.scan}};
   for (const auto& [name, file] : files) {
     if (name->empty()) continue;
     auto bytes = read_file(*name);
@@ -85,6 +90,20 @@ std::string line_of(const MorphExcess& excess) {
                      excess.place[0], excess.place[1], excess.place[2]);
 }
 
+void tell_scan(const MorphScan& scan, const std::string& unit) {
+  if (const auto& laid = scan.alignment) {
+    say("  aligned: turned by {:.4g} degrees, shifted by ({:.6g}, {:.6g}, {:.6g}){}, rms distance "
+        "{:.4g} -> {:.4g}\n",
+        laid->angle, laid->shift[0], laid->shift[1], laid->shift[2], unit, laid->rms_before,
+        laid->rms_after);
+  }
+  say("  scan: noise {:.3g}{}{}; rms distance {:.4g} -> {:.4g} in {}\n", scan.noise, unit,
+      scan.noise_estimated ? " (estimated)" : "", scan.rms_before, scan.rms_after,
+      counted(static_cast<std::size_t>(scan.turns), "turn", "turns"));
+  say("  without partner: {} beside the model, {} turned away, {} outliers\n", scan.beyond_border,
+      scan.turned_away, scan.outliers);
+}
+
 void tell(const MorphReport& report) {
   constexpr std::size_t most = 5;
   const std::string unit = report.unit == "unknown" ? "" : " " + report.unit;
@@ -96,6 +115,7 @@ void tell(const MorphReport& report) {
         point.place[1], point.place[2],
         point.distance ? fmt::format("{:.4g} away", *point.distance) : "far away");
   }
+  if (report.scan) tell_scan(*report.scan, unit);
   say("  displacements wanted: mean {:.4g}, rms {:.4g}, largest {:.4g}{}\n", report.before.mean,
       report.before.rms, report.before.largest, unit);
   say("  missing of them: mean {:.3g}, rms {:.3g}, 95 % {:.3g}, 99 % {:.3g}, largest {:.3g}{}\n",
@@ -144,6 +164,7 @@ Expected<void> run(MorphArguments& options) {
   MorphSettings& settings = options.settings;
   settings.tolerance = options.tolerance;
   settings.reach = options.reach;
+  settings.noise = options.noise;
   settings.convert = !options.no_convert;
   settings.faces = items_of(options.faces);
   settings.keep = items_of(options.keep);
@@ -156,7 +177,8 @@ Expected<void> run(MorphArguments& options) {
   if (auto right = check_outputs(outputs, {{"FILE", options.file},
                                            {"--vectors", options.vectors},
                                            {"--from", options.from},
-                                           {"--to", options.to}});
+                                           {"--to", options.to},
+                                           {"--scan", options.scan}});
       !right)
     return right;
   const auto data = data_of(options);
@@ -182,6 +204,14 @@ void add_options(CLI::App& command, MorphArguments& options) {
   command.add_option("--from", options.from,
                      "a mesh (STL, OBJ, PLY, VTK, XYZ) where the file is ...");
   command.add_option("--to", options.to, "... and the same mesh where it should go");
+  command.add_option(
+      "--scan", options.scan,
+      "a scan: points or a mesh (STL, OBJ, PLY, VTK, XYZ) in which faces should lie");
+  command.add_flag("--align", settings.align,
+                   "the scan is laid onto the model before, by a rigid motion");
+  command.add_option("--noise", options.noise,
+                     "standard deviation of each coordinate of the data, in the file's unit; of a "
+                     "scan it is estimated, other data are exact");
   command.add_option("--space", options.space,
                      "the displacement as three formulas of x, y, z: \"0; 0; 0.01*x^2\"");
   command
@@ -222,7 +252,8 @@ void add_options(CLI::App& command, MorphArguments& options) {
 Action add_morph(CLI::App& app) {
   auto options = std::make_shared<MorphArguments>();
   CLI::App* command = app.add_subcommand(
-      "morph", "move all faces so that they follow displacements, a mesh or a map of space");
+      "morph",
+      "move all faces so that they follow displacements, a mesh, a scan or a map of space");
   add_options(*command, *options);
   command->footer(
       "Every face follows, faces stay together at their edges, smooth where they were, and every "

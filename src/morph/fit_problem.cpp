@@ -129,7 +129,7 @@ Expected<void> place_data(std::span<const Datum> data, FitProblem& problem) {
 
 /// Takes the affine part from the data. With fixed surfaces there is none: it would move them.
 Expected<void> take_affine_part(FitProblem& problem) {
-  if (std::ranges::any_of(problem.given, &FitSurface::fixed)) return {};
+  if (!problem.settings.affine || std::ranges::any_of(problem.given, &FitSurface::fixed)) return {};
   const auto n = static_cast<Eigen::Index>(problem.points.size());
   Points places(n, 3), displacements(n, 3);
   std::vector<double> weights;

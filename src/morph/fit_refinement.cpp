@@ -74,9 +74,60 @@ CellError error_in(const Surface& s, const Cell& cell, std::span<const FitPoint>
   return result;
 }
 
-void ask(SurfaceRefinement& surface, int direction, int span, int parts) {
-  int& now = surface.parts[static_cast<std::size_t>(direction)][span];
-  now = std::max(now, parts);
+void ask(SurfaceRefinement& surface, std::size_t direction, int span, int parts, double urgency) {
+  SpanRefinement& now = surface.spans[direction][span];
+  now = {std::max(now.parts, parts), std::max(now.urgency, urgency)};
+  surface.urgency = std::max(surface.urgency, urgency);
+}
+
+/// A span that is to be divided.
+struct AskedSpan {
+  std::size_t direction = 0;
+  int span = 0;
+  SpanRefinement how = {};
+};
+
+/// The most urgent first; of equal ones in the order of directions and spans.
+std::vector<AskedSpan> by_urgency(const SurfaceRefinement& surface) {
+  std::vector<AskedSpan> result;
+  for (std::size_t d = 0; d < 2; ++d) {
+    for (const auto& [span, how] : surface.spans[d]) result.push_back({d, span, how});
+  }
+  std::ranges::stable_sort(result, std::greater{},
+                           [](const AskedSpan& asked) { return asked.how.urgency; });
+  return result;
+}
+
+/// New knots in each direction, at most so many control points with them.
+using NewKnots = std::array<std::vector<double>, 2>;
+int size_with(const Surface& s, const NewKnots& inserted) {
+  const auto net = s.net();
+  return (net[0] + static_cast<int>(inserted[0].size())) *
+         (net[1] + static_cast<int>(inserted[1].size()));
+}
+
+NewKnots knots_in(const Surface& s, std::span<const AskedSpan> asked, int most_parts_now,
+                  int most) {
+  NewKnots inserted;
+  for (const auto& [d, span, how] : asked) {
+    const KnotVector& knots = s.knots(static_cast<int>(d));
+    const double a = knots[span], b = knots[span + 1];
+    const double fits = (b - a) / (least_span * knots.domain().length());
+    const int parts = std::min(how.parts, most_parts_now);
+    const std::size_t before = inserted[d].size();
+    for (int j = 1; j < std::min<double>(parts, fits); ++j)
+      inserted[d].push_back(std::lerp(a, b, double(j) / parts));
+    if (size_with(s, inserted) > most) inserted[d].resize(before);
+  }
+  for (auto& knots : inserted) std::ranges::sort(knots);
+  return inserted;
+}
+
+/// All that is asked for if that is no more than `most` control points, else what is possible.
+NewKnots knots_for(const Surface& s, const SurfaceRefinement& surface, int most) {
+  const auto asked = by_urgency(surface);
+  const NewKnots all = knots_in(s, asked, most_parts, std::numeric_limits<int>::max());
+  return size_with(s, all) <= most ? all : knots_in(s, asked, 2, most);
 }
 
 }  // namespace
@@ -113,9 +164,8 @@ void plan_for_residuals(const FitNets& nets, std::span<const FitPoint> points,
       if (found <= std::max(least, 3 * noise * error.deviation[d])) continue;
       const int degree = s.knots(static_cast<int>(d)).degree();
       const double parts = std::floor(std::pow(found / wanted, 1.0 / (degree + 1)));
-      ask(plan[surface], static_cast<int>(d), cell.spans[d],
-          std::clamp(static_cast<int>(parts), 2, most_parts));
-      plan[surface].urgency = std::max(plan[surface].urgency, found / wanted);
+      ask(plan[surface], d, cell.spans[d], std::clamp(static_cast<int>(parts), 2, most_parts),
+          found / wanted);
     }
   }
 }
@@ -138,9 +188,8 @@ void plan_for_joint(const FitNets& nets, const Joint& joint, std::size_t point, 
           std::abs(joint.points[next][side].at[d] - u) / (knots[spans[d] + 1] - knots[spans[d]]);
     }
     for (std::size_t d = 0; d < 2; ++d) {
-      if (change[d] >= along * change[1 - d]) ask(plan[surface], static_cast<int>(d), spans[d], 2);
+      if (change[d] >= along * change[1 - d]) ask(plan[surface], d, spans[d], 2, urgency);
     }
-    plan[surface].urgency = std::max(plan[surface].urgency, urgency);
   }
 }
 
@@ -152,20 +201,9 @@ Expected<int> refine(const RefinementPlan& plan, int most, FitNets& nets) {
   for (const Surface& s : nets.surfaces) total += s.size();
   for (const std::size_t k : order) {
     const Surface& s = nets.surfaces[k];
-    std::array<std::vector<double>, 2> inserted;
-    for (int d = 0; d < 2; ++d) {
-      const KnotVector& knots = s.knots(d);
-      for (const auto& [span, parts] : plan[k].parts[static_cast<std::size_t>(d)]) {
-        const double a = knots[span], b = knots[span + 1];
-        const double fits = (b - a) / (least_span * knots.domain().length());
-        for (int j = 1; j < std::min<double>(parts, fits); ++j)
-          inserted[static_cast<std::size_t>(d)].push_back(std::lerp(a, b, double(j) / parts));
-      }
-    }
-    const auto net = s.net();
-    const int finer = (net[0] + static_cast<int>(inserted[0].size())) *
-                      (net[1] + static_cast<int>(inserted[1].size()));
-    if (finer == s.size() || total + finer - s.size() > most) continue;
+    const NewKnots inserted = knots_for(s, plan[k], most - total + s.size());
+    const int finer = size_with(s, inserted);
+    if (finer == s.size()) continue;
     auto made = insert_knots<2>(s, inserted);
     if (!made) return std::unexpected(made.error());
     total += finer - s.size();

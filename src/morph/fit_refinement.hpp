@@ -7,10 +7,17 @@
 
 namespace knead::morph {
 
-/// Which spans of a surface are to be divided, into how many parts, and how urgently.
+/// Into how many parts a span is to be divided, and how urgently.
+struct SpanRefinement {
+  int parts = 1;
+  double urgency = 0;  ///< the largest found / wanted
+};
+
+/// Which spans of a surface are to be divided.
 struct SurfaceRefinement {
-  std::array<std::map<int, int>, 2> parts = {};  ///< by direction: of a span, at its left knot
-  double urgency = 0;                            ///< the largest found / wanted
+  /// By direction: of a span, at its left knot.
+  std::array<std::map<int, SpanRefinement>, 2> spans = {};
+  double urgency = 0;  ///< of the most urgent one
 };
 using RefinementPlan = std::vector<SurfaceRefinement>;
 
@@ -37,8 +44,9 @@ void plan_for_joint(const FitNets& nets, const Joint& joint, std::size_t point, 
                     RefinementPlan& plan);
 
 /// Inserts the knots, the most urgent surfaces first, as long as all nets together have no more
-/// control points than `most`. Returns how many surfaces have got knots. Spans below a thousandth
-/// of the domain are not divided. Errors: those of `insert_knots`.
+/// control points than `most`. Of a surface for which that is not enough spans are halved at most,
+/// the most urgent ones as far as it goes. Returns how many surfaces have got knots. Spans below a
+/// thousandth of the domain are not divided. Errors: those of `insert_knots`.
 [[nodiscard]] Expected<int> refine(const RefinementPlan& plan, int most, FitNets& nets);
 
 }  // namespace knead::morph

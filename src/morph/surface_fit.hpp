@@ -45,6 +45,9 @@ struct FitSettings {
   std::optional<double> noise = {};
   std::optional<double> energy = {};   ///< λ > 0; none: chosen
   std::optional<double> parting = {};  ///< largest at edges, file units; none: 1e-6 of the size
+  /// Whether the affine map that fits the data best is taken from them before. It goes on beyond
+  /// the data, where displacements run out flat without it.
+  bool affine = true;
   double angle = 0.02;  ///< largest by which tangent planes at smooth edges turn apart, degrees
   /// At most so many times the control points that all surfaces have after raising to degree 3.
   double refinement = 8;

@@ -50,7 +50,12 @@ TEST(MeshPair, ObjAndPlyAndPoints) {
     ply += line + "\n";
     xyz += line + " 0 0 1\n";
   }
-  obj += "f 1 2 3\n";
+  obj += "f 1 2 3\nf -4 -3/1 -2//1 4\n";
+  using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+  EXPECT_EQ(read_mesh_points(obj, "a.obj")->triangles,
+            (Triangles{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}}));
+  EXPECT_FALSE(read_mesh_points(obj + "f 1 2 5\n", "a.obj"));
+  EXPECT_FALSE(read_mesh_points(obj + "f 0 1 2\n", "a.obj"));
   EXPECT_EQ(read_mesh_points(xyz, "a.xyz")->normals.size(), 4U);
   const auto to = text_stl(raised(square));
   expect_pair(mesh_pair(obj, "a.obj", to, "b.stl"), 4);

@@ -8,8 +8,8 @@
 
 #include "knead/exchange/source.hpp"
 
-// The surfaces of a CAD file follow data: displacements at points, a pair of meshes, or a map of
-// space (docs/morph.md).
+// The surfaces of a CAD file follow data: displacements at points, a pair of meshes, a scan, or a
+// map of space (docs/morph.md).
 
 namespace knead {
 
@@ -19,11 +19,12 @@ struct MorphFile {
   std::string bytes, name;
 };
 
-/// Where the points of a model should go: one of the three.
+/// Where the points of a model should go: one of the four.
 struct MorphData {
   std::optional<MorphFile> vectors = {};        ///< points with displacements
   std::optional<MorphFile> from = {}, to = {};  ///< the same mesh before and after
   std::string space = {};  ///< the displacement, three formulas of x, y and z separated by ";"
+  std::optional<MorphFile> scan = {};  ///< points or a mesh of where the visible faces should lie
 };
 
 /// How a model follows data. Lengths are in units of the model.
@@ -42,6 +43,9 @@ struct MorphSettings {
   std::string unit = {};             ///< of the data; empty: that of the model
   std::vector<std::string> columns = {};  ///< of CSV: the six of point and displacement
   std::string field = {};                 ///< of VTK: the vector field at points
+  bool align = false;                ///< a scan is laid onto the model before, by a rigid motion
+  std::optional<double> noise = {};  ///< standard deviation of each coordinate of the data; none:
+                                     ///< of a scan it is estimated, other data are exact
 };
 
 /// Lengths over all points of a set: their mean, root mean square, the values that 95 and 99 % of
@@ -79,6 +83,26 @@ struct MorphedEdge {
   std::optional<double> curvature_before = {}, curvature_after = {};  ///< percent
 };
 
+/// The rigid motion x → rotation · x + shift that has laid a scan onto the model.
+struct MorphAlignment {
+  std::array<std::array<double, 3>, 3> rotation = {};  ///< rows
+  std::array<double, 3> shift = {};
+  double angle = 0;                      ///< of the rotation, degrees
+  double rms_before = 0, rms_after = 0;  ///< distances of the scan from the model
+};
+
+/// How a scan was followed. Points that are neither used nor left out are counted here.
+struct MorphScan {
+  std::optional<MorphAlignment> alignment = {};
+  double noise = 0;  ///< of each coordinate, given or estimated; 0: taken as exact
+  bool noise_estimated = false;
+  int turns = 0;          ///< times that partners were sought and followed
+  int beyond_border = 0;  ///< points beside the model
+  int turned_away = 0;    ///< points whose normals are more than 45° from those of the model
+  int outliers = 0;       ///< points more than six deviations from the moved model
+  double rms_before = 0, rms_after = 0;  ///< distances of partners from the model
+};
+
 /// What is above what was wanted after the fit.
 struct MorphExcess {
   std::string measure = {};  ///< "residual", "parting", "angle", "contradiction"
@@ -99,6 +123,7 @@ struct MorphReport {
   std::vector<std::string> converted = {};
   std::vector<MorphException> fixed = {};          ///< surfaces that stay, but for those asked for
   std::vector<MorphException> unknown_edges = {};  ///< that could not be followed
+  std::optional<MorphScan> scan = {};              ///< if the data are one
   std::vector<MorphedEdge> edges = {};
   std::vector<MorphExcess> above = {};
   int control_points_before = 0, control_points_after = 0;

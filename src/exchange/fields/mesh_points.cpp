@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <cmath>
+#include <numeric>
 
 #include "line_reader.hpp"
 #include "point_fields.hpp"
@@ -22,10 +23,26 @@ Expected<Point> point_of(std::span<const std::string_view> words, std::string_vi
   return result;
 }
 
+Expected<void> read_obj_face(std::string_view line, std::string_view file, int number,
+                             MeshPoints& mesh) {
+  std::vector<double> corners;
+  const auto words = words_of(line);
+  for (const auto word : std::span(words).subspan(1)) {
+    const auto corner = finite_number(word.substr(0, word.find('/')), file, number);
+    if (!corner) return std::unexpected(corner.error());
+    corners.push_back(*corner);
+  }
+  return add_face(corners, 1, file, number, mesh);
+}
+
 Expected<MeshPoints> read_obj(std::string_view bytes, std::string_view file) {
   MeshPoints mesh{.format = "OBJ"};
   for (LineReader lines(bytes); lines.next();) {
     const auto line = trimmed(lines.line());
+    if (line.starts_with("f ") || line.starts_with("f\t")) {
+      if (auto face = read_obj_face(line, file, lines.number(), mesh); !face)
+        return std::unexpected(face.error());
+    }
     if (!line.starts_with("v ") && !line.starts_with("v\t")) continue;
     const auto words = words_of(line);
     if (words.size() < 4) return data_error(file, lines.number(), "a vertex has three coordinates");
@@ -95,6 +112,22 @@ bool is_stl(std::string_view bytes) {
 
 }  // namespace
 
+Expected<void> add_face(const std::vector<double>& numbers, double first, std::string_view file,
+                        int line, MeshPoints& mesh) {
+  std::vector<std::uint32_t> corners;
+  const auto count = static_cast<double>(mesh.points.size());
+  for (const double number : numbers) {
+    const double k = first == 1 && number < 0 ? count + number : number - first;
+    if (!(k >= 0 && k < count && k == std::floor(k)))
+      return data_error(file, line,
+                        fmt::format("a face has the point {}, of {}", number, mesh.points.size()));
+    corners.push_back(static_cast<std::uint32_t>(k));
+  }
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+  return {};
+}
+
 Expected<MeshPoints> read_mesh_points(std::string_view bytes, std::string_view file) {
   if (is_vtk_legacy(bytes) || is_vtk_xml(bytes)) return read_vtk(bytes, file);
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return read_ply(bytes, file);
@@ -109,17 +142,32 @@ Expected<MeshPoints> read_mesh_points(std::string_view bytes, std::string_view f
 
 MeshPoints joined(MeshPoints mesh) {
   const auto less = [&](std::size_t a, std::size_t b) {
-    return std::ranges::lexicographical_compare(mesh.points[a], mesh.points[b]);
+    const Point &p = mesh.points[a], &q = mesh.points[b];
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      if (p[c] != q[c]) return p[c] < q[c];
+    }
+    return a < b;
   };
-  std::set<std::size_t, decltype(less)> known(less);
-  std::vector<std::size_t> kept;
-  for (std::size_t k = 0; k < mesh.points.size(); ++k) {
-    if (known.insert(k).second) kept.push_back(k);
+  std::vector<std::size_t> order(mesh.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, less);
+  std::vector<std::size_t> first(mesh.points.size());  // the first point with the same coordinates
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool same = k > 0 && mesh.points[order[k]] == mesh.points[order[k - 1]];
+    first[order[k]] = same ? first[order[k - 1]] : order[k];
   }
   MeshPoints result{.format = mesh.format};
-  for (const auto k : kept) {
+  std::vector<std::uint32_t> number(mesh.points.size());
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    if (first[k] != k) continue;
+    number[k] = static_cast<std::uint32_t>(result.points.size());
     result.points.push_back(mesh.points[k]);
     if (!mesh.normals.empty()) result.normals.push_back(mesh.normals[k]);
+  }
+  for (const auto& corners : mesh.triangles) {
+    const std::uint32_t a = number[first[corners[0]]], b = number[first[corners[1]]],
+                        c = number[first[corners[2]]];
+    if (a != b && b != c && c != a) result.triangles.push_back({a, b, c});
   }
   return result;
 }

@@ -24,6 +24,10 @@ struct Element {
   std::vector<Property> properties;
 };
 
+bool is_corners(const Property& property) {
+  return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
 class PlyReader {
  public:
   PlyReader(std::string_view bytes, std::string_view file)
@@ -39,7 +43,7 @@ class PlyReader {
   Expected<void> text_row(const Element& element, std::vector<double>& row);
   Expected<void> binary_row(const Element& element, std::size_t number, std::vector<double>& row);
   Expected<void> vertices(const Element& element);
-  Expected<void> skip(const Element& element);
+  Expected<void> faces(const Element& element);
   Expected<void> row(const Element& element, std::size_t number, std::vector<double>& row) {
     return text_ ? text_row(element, row) : binary_row(element, number, row);
   }
@@ -49,6 +53,7 @@ class PlyReader {
   std::size_t at_ = 0;
   bool text_ = true, big_endian_ = false;
   std::vector<Element> elements_;
+  std::vector<double> corners_;  // of the last row's list of the points of a face
   MeshPoints result_{.format = "PLY"};
 };
 
@@ -110,7 +115,13 @@ Expected<void> PlyReader::text_row(const Element& element, std::vector<double>& 
     if (!property.count) continue;
     if (!(value >= 0 && value <= static_cast<double>(words.size() - k)))
       return error("a list is longer than its line");
-    k += static_cast<std::size_t>(value);
+    const bool corners = is_corners(property);
+    for (const std::size_t end = k + static_cast<std::size_t>(value); k < end; ++k) {
+      double corner = 0;
+      if (corners && !is_number(words[k], corner))
+        return error(fmt::format("\"{}\" is no number", printable(words[k], 40)));
+      if (corners) corners_.push_back(corner);
+    }
   }
   return {};
 }
@@ -131,16 +142,23 @@ Expected<void> PlyReader::binary_row(const Element& element, std::size_t number,
     if (!property.count) continue;
     const auto most = (bytes_.size() - at_) / property.type.bytes;
     if (!(value >= 0 && value <= static_cast<double>(most))) return cut();
-    at_ += static_cast<std::size_t>(value) * property.type.bytes;
+    const bool corners = is_corners(property);
+    for (auto left = static_cast<std::size_t>(value); left > 0; --left) {
+      if (corners) corners_.push_back(read_raw(bytes_.data() + at_, property.type, big_endian_));
+      at_ += property.type.bytes;
+    }
   }
   return {};
 }
 
-Expected<void> PlyReader::skip(const Element& element) {
+Expected<void> PlyReader::faces(const Element& element) {
   if (element.properties.empty()) return {};
   std::vector<double> values;
   for (std::size_t k = 0; k < element.count; ++k) {
+    corners_.clear();
     if (auto read = row(element, k, values); !read) return read;
+    if (element.name != "face" || result_.points.empty()) continue;
+    if (auto added = add_face(corners_, 0, file_, lines_.number(), result_); !added) return added;
   }
   return {};
 }
@@ -173,9 +191,10 @@ Expected<MeshPoints> PlyReader::read() {
   if (auto right = header(); !right) return std::unexpected(right.error());
   for (const Element& element : elements_) {
     const bool wanted = element.name == "vertex";
-    if (auto right = wanted ? vertices(element) : skip(element); !right)
+    // What comes before the points is passed over; so are faces then, and what follows them.
+    if (auto right = wanted ? vertices(element) : faces(element); !right)
       return std::unexpected(right.error());
-    if (wanted) break;
+    if (element.name == "face" && !result_.points.empty()) break;
   }
   if (result_.points.empty()) return error("there are no vertices");
   return std::move(result_);

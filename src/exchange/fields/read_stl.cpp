@@ -10,6 +10,12 @@ namespace {
 
 constexpr std::size_t header = 84, facet = 50;
 
+/// Every three points are a triangle.
+void add_triangles(MeshPoints& mesh) {
+  for (std::uint32_t k = 0; k + 2 < mesh.points.size(); k += 3)
+    mesh.triangles.push_back({k, k + 1, k + 2});
+}
+
 Expected<MeshPoints> read_text(std::string_view bytes, std::string_view file) {
   MeshPoints mesh{.format = "STL"};
   for (LineReader lines(bytes); lines.next();) {
@@ -27,6 +33,7 @@ Expected<MeshPoints> read_text(std::string_view bytes, std::string_view file) {
   }
   if (mesh.points.empty() || mesh.points.size() % 3 != 0)
     return data_error(file, 0, fmt::format("{} vertices make no triangles", mesh.points.size()));
+  add_triangles(mesh);
   return mesh;
 }
 
@@ -57,6 +64,7 @@ Expected<MeshPoints> read_binary(std::string_view bytes, std::string_view file) 
       mesh.points.push_back(point);
     }
   }
+  add_triangles(mesh);
   return mesh;
 }
 

@@ -255,10 +255,18 @@ Expected<void> check_settings(const MorphSettings& settings) {
     return input_error("it is no length above 0", "tolerance", "use one of the file's unit");
   if (!positive(settings.reach))
     return input_error("it is no length above 0", "reach", "use one of the file's unit");
+  if (!positive(settings.noise))
+    return input_error("it is no length above 0", "noise", "use one of the file's unit");
   if (!(settings.refinement >= 1 && settings.refinement <= 1000))
     return input_error("it is not from 1 to 1000", "refinement",
                        "it is a multiple of the control points");
   return {};
+}
+
+/// Of the data as they are followed: it is scaled with them.
+std::optional<double> noise_of(const MorphSettings& settings) {
+  if (!settings.noise) return std::nullopt;
+  return std::abs(settings.scale) * *settings.noise;
 }
 
 Expected<brep::ModelMeasures> measures_after(const std::string& bytes, const Source& source) {
@@ -301,10 +309,13 @@ Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, co
   std::vector<morph::Datum> all = points->found.data;
   hold_edges(*model, all);
   report.tolerance = settings.tolerance.value_or(1e-5 * points->size);
-  auto fit =
-      morph::fit_surfaces(model->placed, model->edges, all,
-                          {.tolerance = report.tolerance, .refinement = settings.refinement});
+  auto fit = points->scan ? detail::follow_scan(*model, all, settings, *points, report)
+                          : morph::fit_surfaces(model->placed, model->edges, all,
+                                                {.tolerance = report.tolerance,
+                                                 .noise = noise_of(settings),
+                                                 .refinement = settings.refinement});
   if (!fit) return std::unexpected(fit.error());
+  if (points->scan) describe_points(*points, report);
   describe_fit(*model, *fit, report);
   if (auto added = add_deviations(*model, *points, fit->surfaces, report); !added)
     return std::unexpected(added.error());

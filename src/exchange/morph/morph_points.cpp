@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "exchange/fields/mesh_points.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -140,19 +141,123 @@ Expected<fields::Displacements> given_displacements(const MorphData& data,
   return fields::mesh_pair(data.from->bytes, data.from->name, data.to->bytes, data.to->name);
 }
 
+namespace {
+
+/// Errors: no point has a partner, or on a part that stands in several places.
+Expected<void> check_partners(const MovingModel& model, const MorphPoints& points,
+                              const morph::ScanPartners& first) {
+  if (!first.found.data.empty()) return check_places(model, first.found.data);
+  return input_error(
+      fmt::format("none of {} points of the scan is within {:.4g} of a face: {} are farther, {} "
+                  "beside the model, {} face another way",
+                  points.count, points.reach, first.found.left_out, first.beyond_border,
+                  first.turned_away),
+      "data", "is it in the coordinates and the unit of the model? --unit, --align, --reach");
+}
+
+/// Reads a scan into the coordinates of the model.
+Expected<void> read_scan(const MovingModel& model, const MorphFile& file,
+                         const MorphSettings& settings, const morph::VisibleSearch& search,
+                         MorphPoints& result) {
+  auto mesh = fields::read_mesh_points(file.bytes, file.name);
+  if (!mesh) return std::unexpected(std::move(mesh.error()));
+  if (mesh->format == "STL") *mesh = fields::joined(*std::move(mesh));
+  const auto factor = unit_factor(model, settings);
+  if (!factor) return std::unexpected(factor.error());
+  for (Point& p : mesh->points) p *= *factor;
+  if (auto right = check_size(mesh->points, search.box(), settings, model.unit()); !right)
+    return right;
+  result.count = mesh->points.size();
+  result.scan = morph::scan_of(std::move(mesh->points), std::move(mesh->normals), mesh->triangles);
+  if (!settings.align) return {};
+  auto alignment = morph::align(*result.scan, search, model.placed, model.shown);
+  if (!alignment) return std::unexpected(alignment.error());
+  for (Point& p : result.scan->points) p = alignment->motion.at(p);
+  for (Point& n : result.scan->normals) n = alignment->motion.rotation * n;
+  result.alignment = *alignment;
+  return {};
+}
+
+morph::ScanSettings scan_settings(const MorphSettings& settings, const MorphPoints& points) {
+  return {.reach = points.reach,
+          .noise = settings.noise,
+          .tolerance = settings.tolerance,
+          .refinement = settings.refinement,
+          .scale = settings.scale,
+          .along_normal = settings.along_normal};
+}
+
+MorphAlignment as_reported(const morph::Alignment& alignment) {
+  MorphAlignment result{.angle = alignment.motion.angle(),
+                        .rms_before = alignment.rms_before,
+                        .rms_after = alignment.rms_after};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    for (std::size_t c = 0; c < 3; ++c)
+      result.rotation[k][c] = alignment.motion.rotation(row, static_cast<Eigen::Index>(c));
+    result.shift[k] = alignment.motion.shift[row];
+  }
+  return result;
+}
+
+}  // namespace
+
+Expected<morph::FitResult> follow_scan(const MovingModel& model,
+                                       std::span<const morph::Datum> extra,
+                                       const MorphSettings& settings, MorphPoints& points,
+                                       MorphReport& report) {
+  auto with = scan_settings(settings, points);
+  with.check = [&](const morph::ScanPartners& first) {
+    return check_partners(model, points, first);
+  };
+  auto fit = morph::fit_scan(*points.scan, model.placed, model.edges, model.shown, extra, with);
+  if (!fit) return std::unexpected(fit.error());
+  points.found = std::move(fit->last.found);
+  for (morph::Datum& datum : points.found.data) datum.displacement *= settings.scale;
+  MorphScan said{.noise = fit->noise,
+                 .noise_estimated = !settings.noise && fit->noise > 0,
+                 .turns = fit->turns,
+                 .beyond_border = static_cast<int>(fit->last.beyond_border),
+                 .turned_away = static_cast<int>(fit->last.turned_away),
+                 .outliers = static_cast<int>(fit->last.outliers),
+                 .rms_before = fit->first.rms,
+                 .rms_after = fit->last.rms};
+  if (points.alignment) said.alignment = as_reported(*points.alignment);
+  report.scan = said;
+  if (!settings.tolerance) report.tolerance = fit->noise;
+  return std::move(fit->fit);
+}
+
 Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
                                 const MorphSettings& settings) {
-  const int kinds =
-      (data.vectors ? 1 : 0) + (data.from && data.to ? 1 : 0) + (data.space.empty() ? 0 : 1);
+  const int kinds = (data.vectors ? 1 : 0) + (data.from && data.to ? 1 : 0) +
+                    (data.space.empty() ? 0 : 1) + (data.scan ? 1 : 0);
   if (kinds != 1 || data.from.has_value() != data.to.has_value())
-    return input_error("data are displacements, or a mesh before and after, or a map of space",
-                       "data", "give one of them");
+    return input_error(
+        "data are displacements, or a mesh before and after, or a scan, or a map of space", "data",
+        "give one of them");
+  if (settings.align && !data.scan)
+    return input_error("only a scan can be aligned", "align", "leave it out");
+  if (settings.noise && !data.space.empty())
+    return input_error("a map of space has no noise", "noise", "leave it out");
   const auto search = morph::VisibleSearch::create(model.placed, model.shown);
   if (!search) return std::unexpected(search.error());
   const AlignedBox3d box = search->box();
   MorphPoints result;
   result.size = box.isEmpty() ? 0 : box.diagonal().norm();
   result.reach = settings.reach.value_or(0.01 * result.size);
+  if (data.scan) {
+    if (auto read = read_scan(model, *data.scan, settings, *search, result); !read)
+      return std::unexpected(read.error());
+    if (settings.scale != 0) return result;
+    auto partners =
+        morph::scan_partners(*result.scan, *search, model.placed, scan_settings(settings, result));
+    if (!partners) return std::unexpected(partners.error());
+    if (auto right = check_partners(model, result, *partners); !right)
+      return std::unexpected(right.error());
+    result.found = std::move(partners->found);
+    return result;
+  }
   if (!data.space.empty()) {
     const auto map = fields::SpaceMap::parse(data.space);
     if (!map) return std::unexpected(map.error().within("space"));

@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "exchange/fields/displacements.hpp"
-#include "morph/correspondence.hpp"
+#include "morph/align.hpp"
+#include "morph/scan_fit.hpp"
 #include "moving_model.hpp"
 
 namespace knead::detail {
@@ -13,13 +14,23 @@ struct MorphPoints {
   morph::Correspondences found;  ///< displacements in the coordinates of the model
   std::size_t count = 0;         ///< of points in the data
   double reach = 0;
-  double size = 0;  ///< diagonal of the box of what is visible, in the model
+  double size = 0;                       ///< diagonal of the box of what is visible, in the model
+  std::optional<morph::Scan> scan = {};  ///< in the model, aligned; `found` is empty then at first
+  std::optional<morph::Alignment> alignment = {};
 };
 
 /// The displacements of the data, unscaled, in their own unit. Errors: those of the readers; not
 /// one kind of data is given (input).
 [[nodiscard]] Expected<fields::Displacements> given_displacements(const MorphData& data,
                                                                   const MorphSettings& settings);
+
+/// Fits a model to `points.scan`, and makes `points.found` the data that were followed at last, and
+/// the report on the scan. \param extra data beside it. Errors: no point has a partner; a part in
+/// several places that has data (input); those of `fit_scan`.
+[[nodiscard]] Expected<morph::FitResult> follow_scan(const MovingModel& model,
+                                                     std::span<const morph::Datum> extra,
+                                                     const MorphSettings& settings,
+                                                     MorphPoints& points, MorphReport& report);
 
 /// The points that they are about. Errors: those of `morph_file`.
 [[nodiscard]] Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,

@@ -52,6 +52,32 @@ static void describe(MorphedEdge& e, Fields& fields) {
   fields.add("curvature_after", e.curvature_after, {.help = "percent"});
 }
 
+static void describe(MorphAlignment& a, Fields& fields) {
+  fields.name("morph alignment", "The motion x -> rotation x + shift of a scan onto the model.");
+  fields.add("rotation", a.rotation, {.help = "rows"});
+  fields.add("shift", a.shift, {.unit = Unit::length});
+  fields.add("angle", a.angle, {.help = "degrees"});
+  fields.add("rms_before", a.rms_before, {.help = "of its distances", .unit = Unit::length});
+  fields.add("rms_after", a.rms_after, {.unit = Unit::length});
+}
+
+static void describe(MorphScan& s, Fields& fields) {
+  fields.name("morph scan", "How a scan was followed.");
+  fields.add("alignment", s.alignment, {.help = "null: not asked for"});
+  fields.add("noise", s.noise,
+             {.help = "of each coordinate; 0: taken as exact", .unit = Unit::length});
+  fields.add("noise_estimated", s.noise_estimated, {.help = "else it was given"});
+  fields.add("turns", s.turns, {.help = "times that partners were sought and followed"});
+  fields.add("beyond_border", s.beyond_border, {.help = "points beside the model"});
+  fields.add("turned_away", s.turned_away,
+             {.help = "points whose normals are more than 45 degrees from those of the model"});
+  fields.add("outliers", s.outliers,
+             {.help = "points more than six deviations from the moved model"});
+  fields.add("rms_before", s.rms_before,
+             {.help = "distances of partners from the model", .unit = Unit::length});
+  fields.add("rms_after", s.rms_after, {.unit = Unit::length});
+}
+
 static void describe(MorphExcess& e, Fields& fields) {
   fields.name("morph excess", "What is above what was wanted.");
   fields.add("measure", e.measure,
@@ -84,6 +110,7 @@ void describe(MorphReport& r, Fields& fields) {
   fields.add("converted", r.converted, {.help = "surfaces that became B-splines"});
   fields.add("fixed", r.fixed, {.help = "surfaces that could not move"});
   fields.add("unknown_edges", r.unknown_edges, {.help = "that could not be followed"});
+  fields.add("scan", r.scan, {.help = "if the data are one"});
   fields.add("edges", r.edges, {.help = "with other figures than before"});
   fields.add("above", r.above, {.help = "what is above what was wanted"});
   fields.add("control_points_before", r.control_points_before);

@@ -19,7 +19,7 @@ void describe(MorphQuery& q, Fields& fields) {
   fields.name(
       "morph",
       "The document as it would be saved with all its faces moved so that they follow data: "
-      "displacements, a mesh before and after, or a map of space (docs/morph.md). The "
+      "displacements, a mesh before and after, a scan, or a map of space (docs/morph.md). The "
       "document itself stays.");
   MorphSettings& s = q.settings;
   fields.add("space", q.space,
@@ -29,6 +29,11 @@ void describe(MorphQuery& q, Fields& fields) {
              {.help = "displacements: lines of x y z dx dy dz, CSV, VTK, VTU or VTP"});
   fields.add("from", q.from, {.help = "a mesh (STL, OBJ, PLY, VTK, XYZ) where the file is"});
   fields.add("to", q.to, {.help = "the same mesh where it should go"});
+  fields.add("scan", q.scan, {.help = "points or a mesh in which faces should lie"});
+  fields.add("align", s.align, {.help = "the scan is laid onto the model before, rigidly"});
+  fields.add("noise", s.noise,
+             {.help = "standard deviation of each coordinate of the data",
+              .fallback = "none; of a scan it is estimated"});
   fields.add("scale", s.scale, {.help = "factor of the displacements: -1 compensates"});
   fields.add(
       "tolerance", s.tolerance,
@@ -65,8 +70,8 @@ Error of_fields(Error error) {
 Expected<MorphData> data_of(const MorphQuery& q) {
   MorphData data{.space = q.space};
   const std::pair<const Bytes*, std::optional<MorphFile>*> files[] = {
-      {&q.vectors, &data.vectors}, {&q.from, &data.from}, {&q.to, &data.to}};
-  static constexpr const char* names[] = {"vectors", "from", "to"};
+      {&q.vectors, &data.vectors}, {&q.from, &data.from}, {&q.to, &data.to}, {&q.scan, &data.scan}};
+  static constexpr const char* names[] = {"vectors", "from", "to", "scan"};
   for (std::size_t k = 0; k < std::size(files); ++k) {
     if (const Bytes& bytes = *files[k].first; !bytes.data.empty())
       *files[k].second = MorphFile{bytes.data, names[k]};
@@ -74,11 +79,12 @@ Expected<MorphData> data_of(const MorphQuery& q) {
   if (data.from.has_value() != data.to.has_value())
     return usage_error("a pair of meshes is \"from\" and \"to\"", data.from ? "to" : "from",
                        "give both");
-  const int kinds = (data.vectors ? 1 : 0) + (data.from ? 1 : 0) + (q.space.empty() ? 0 : 1);
+  const int kinds = (data.vectors ? 1 : 0) + (data.from ? 1 : 0) + (data.scan ? 1 : 0) +
+                    (q.space.empty() ? 0 : 1);
   if (kinds != 1)
     return usage_error(kinds == 0 ? "nothing says where the surfaces should go"
                                   : "several data say where the surfaces should go",
-                       "vectors", "give one of vectors, from with to, and space");
+                       "vectors", "give one of vectors, from with to, scan, and space");
   return data;
 }
 

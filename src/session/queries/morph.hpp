@@ -17,7 +17,7 @@ void describe(MorphAnswer& a, Fields& fields);
 struct MorphQuery {
   using Answer = MorphAnswer;
   std::string space;
-  Bytes vectors, from, to;  ///< files; empty: none
+  Bytes vectors, from, to, scan;  ///< files; empty: none
   MorphSettings settings;
   std::optional<std::string> along;  ///< "normal"
   bool strict = false;               ///< what is above what was wanted is an error
