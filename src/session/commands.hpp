@@ -25,6 +25,7 @@
 #include "commands/material.hpp"
 #include "commands/measure.hpp"
 #include "commands/modes.hpp"
+#include "commands/morph.hpp"
 #include "commands/move.hpp"
 #include "commands/new.hpp"
 #include "commands/pin.hpp"
@@ -51,14 +52,16 @@ namespace knead {
 
 /// All commands, in the order of the help. Lengths are in file units unless a command says
 /// `relative`; (s, t) are fractions 0 to 1 of the parameter domain.
-using CommandVariant = std::variant<
-    NewCommand, SelectCommand, LockCommand, ConvertCommand, MaterialCommand, RestCommand,
-    ScalingCommand, HoldCommand, PinCommand, EdgeCommand, FreezeCommand, KeepCommand,
-    SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand, ToolCommand, EditToolCommand,
-    RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand, LoadCommand, LimitCommand,
-    EvolveCommand, StepCommand, StrokeCommand, BrushCommand, MaskCommand, DragCommand, RelaxCommand,
-    LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand, RefineCommand, ElevateCommand,
-    CoarsenCommand, MeasureCommand, ModesCommand, BucklingCommand, UndoCommand, RedoCommand>;
+using CommandVariant =
+    std::variant<NewCommand, SelectCommand, LockCommand, ConvertCommand, MaterialCommand,
+                 RestCommand, ScalingCommand, HoldCommand, PinCommand, EdgeCommand, FreezeCommand,
+                 KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand,
+                 ToolCommand, EditToolCommand, RemoveCommand, MoveCommand, TurnCommand,
+                 ScaleCommand, ForceCommand, LoadCommand, LimitCommand, EvolveCommand, StepCommand,
+                 StrokeCommand, BrushCommand, MaskCommand, DragCommand, RelaxCommand,
+                 LatticeCommand, MorphCommand, PointsCommand, WeightsCommand, KnotsCommand,
+                 RefineCommand, ElevateCommand, CoarsenCommand, MeasureCommand, ModesCommand,
+                 BucklingCommand, UndoCommand, RedoCommand>;
 
 template <>
 const Type& type_of<CommandVariant>();

@@ -34,15 +34,14 @@ bool only_rounded(const SceneSurface& s, const Surface& file) {
          roundings * largest;
 }
 
-std::vector<DocumentSurface> present_surfaces(const Session& session) {
+std::vector<DocumentSurface> present_surfaces(const Document& document, const Scene& state) {
   std::vector<DocumentSurface> surfaces;
-  const auto& scene = session.state().surfaces;
+  const auto& scene = state.surfaces;
   const auto append = [&](const SceneSurface& s) {
     surfaces.push_back({s.id, s.name, s.unit, s.current});
   };
-  if (session.document().is_fresh()) std::ranges::for_each(scene, append);
-  for (const DocumentSurface& s :
-       session.document().surfaces()) {  // converted ones come last in the scene
+  if (document.is_fresh()) std::ranges::for_each(scene, append);
+  for (const DocumentSurface& s : document.surfaces()) {  // converted ones come last in the scene
     append(*std::ranges::find(scene, s.id, &SceneSurface::id));
     if (surfaces.back().surface != s.surface &&
         only_rounded(*std::ranges::find(scene, s.id, &SceneSurface::id), *s.surface)) {
@@ -63,23 +62,31 @@ std::vector<DocumentBody> present_bodies(const Scene& scene) {
 
 }  // namespace
 
-Expected<std::string> Session::save() const {
-  const auto parted = parted_edges();
+Expected<std::string> saved(const Document& document, const SessionState& state) {
+  const auto parted = parted_edges(document, state);
   if (!parted) return std::unexpected(parted.error());
   if (auto none = check_parted(*parted); !none) return std::unexpected(none.error());
   std::vector<std::string> followed;
-  for (const FollowedEdge& edge : state().followed) followed.push_back(edge.id);
-  return document().save(present_surfaces(*this), followed, present_bodies(state()));
+  for (const FollowedEdge& edge : state.followed) followed.push_back(edge.id);
+  return document.save(present_surfaces(document, state), followed, present_bodies(state));
 }
 
+Expected<std::string> Session::save() const { return saved(document(), state()); }
+
 Expected<std::string> Session::save_as(const Format& format, const SaveOptions& how) const {
-  return document().save_as(format, present_surfaces(*this), present_bodies(state()), how);
+  return document().save_as(format, present_surfaces(document(), state()), present_bodies(state()),
+                            how);
+}
+
+Expected<std::shared_ptr<const Source>> saved_source(const Document& document,
+                                                     const SessionState& state) {
+  auto bytes = saved(document, state);
+  if (!bytes) return std::unexpected(std::move(bytes.error()));
+  return open_source(*std::move(bytes), document.name());
 }
 
 Expected<std::shared_ptr<const Source>> saved_source(const Session& session) {
-  auto saved = session.save();
-  if (!saved) return std::unexpected(std::move(saved.error()));
-  return open_source(*std::move(saved), session.document().name());
+  return saved_source(session.document(), session.state());
 }
 
 namespace {

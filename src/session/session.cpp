@@ -121,7 +121,9 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   if (auto status = std::visit(applied, meant.any().fields); !status) return status;
   if (auto kept = keep_law(act); !kept) return kept;
   if (auto met = act.meeting.at_end(act, state()); !met) return met;
-  if (auto closed = check_followed(*next, state()); !closed) return closed;
+  if (!act.edges_measured) {
+    if (auto closed = check_followed(*next, state()); !closed) return closed;
+  }
   if (!moves_a_model(meant)) {
     if (auto held = check_placed(act, state(), meant.name()); !held) return held;
   }
@@ -251,8 +253,7 @@ double Session::largest_displacement(int surface) const {
   return largest_distance(*s.current, *s.opened);
 }
 
-int Session::moved_control_points(int surface) const {
-  const SceneSurface& s = state().surfaces[static_cast<std::size_t>(surface)];
+int moved_control_points(const SceneSurface& s) {
   const Points &opened = s.opened->control_points(), &current = s.current->control_points();
   if (s.opened->knots() != s.current->knots()) return static_cast<int>(current.rows());
   const auto weight = [](const Surface& shape, Eigen::Index i) {
@@ -264,6 +265,10 @@ int Session::moved_control_points(int surface) const {
              weight(*s.opened, i) != weight(*s.current, i);
   }
   return moved;
+}
+
+int Session::moved_control_points(int surface) const {
+  return knead::moved_control_points(state().surfaces[static_cast<std::size_t>(surface)]);
 }
 
 // What a session shows of its state

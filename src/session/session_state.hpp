@@ -29,6 +29,17 @@ struct SessionState : Scene, SessionRecord {
   std::shared_ptr<const Document> document = {};
 };
 
+/// Number of control points that are not where they were opened, bit for bit.
+[[nodiscard]] int moved_control_points(const SceneSurface& surface);
+/// `parted_edges` of the faces of a document on surfaces that have moved.
+[[nodiscard]] Expected<std::vector<PartedEdge>> parted_edges(const Document& document,
+                                                             const SessionState& state);
+/// What `Session::save` writes of such a state. Errors: an edge that is parted and was not freed
+/// (numerical); those of `Document::save`.
+[[nodiscard]] Expected<std::string> saved(const Document& document, const SessionState& state);
+/// The same, read again. Errors: those of saving, and of opening that.
+[[nodiscard]] Expected<std::shared_ptr<const Source>> saved_source(const Document& document,
+                                                                   const SessionState& state);
 /// What `Session::save` writes, read again. Errors: those of saving, and of opening that.
 [[nodiscard]] Expected<std::shared_ptr<const Source>> saved_source(const Session& session);
 

@@ -47,6 +47,11 @@ namespace knead::fuzz {
     at_most(less.degree, 2);
     return make_command(std::move(less));
   }
+  if (const auto* c = fields_of<MorphCommand>(command)) {
+    MorphCommand less = *c;
+    less.request.settings.refinement = 1;
+    return make_command(std::move(less));
+  }
   if (const auto* c = fields_of<ElevateCommand>(command)) {
     ElevateCommand less = *c;
     at_most(less.by, 1);

@@ -75,7 +75,8 @@ const std::vector<std::vector<std::string>> edits = {
      R"({"do": "drag", "at": [0.5, 0.5], "by": [0, 0, 0.1]})"},
     {R"({"do": "material", "alpha": [1, 0, 1]})", R"({"do": "load", "pressure": 0.1})",
      R"({"do": "evolve", "mode": "dynamic"})", R"({"do": "step"})"},
-    {R"({"do": "lattice", "net": [3, 3, 3], "degree": [2, 2, 2], "steps": 1})"}};
+    {R"({"do": "lattice", "net": [3, 3, 3], "degree": [2, 2, 2], "steps": 1})"},
+    {R"({"do": "morph", "space": "0; 0; 0.1 * x * y"})"}};
 
 void readers(Corpus& corpus) {
   using namespace testing;

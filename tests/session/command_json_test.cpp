@@ -161,6 +161,10 @@ const std::vector<std::string> all_commands = {
     R"("lambda":3,"hold":["u0","w1"],"which":[],"again":false})",
     R"({"do":"lattice","net":[4,5,6],"degree":[2,3,1],"margin":0.5,"steps":2,)"
     R"("lambda":3,"hold":[],"which":[7],"by":[0,1,2],"again":false})",
+    R"({"do":"morph","space":"x; y; 0","vectors":"1 2 3 0 0 1","from":"a","to":"b","scan":"c",)"
+    R"("align":true,"noise":0.5,"scale":-1,"tolerance":0.25,"faces":["#1"],"keep":["#2"],)"
+    R"("place":["a/b"],"convert":false,"refine":2,"reach":3,"along":"normal","unit":"mm",)"
+    R"("columns":["a"],"field":"d","strict":true})",
     R"({"do":"points","which":[3,4],"rows_u":[1],"rows_v":[0,2],"by":[1,2,3],)"
     R"("to":[[1,2,3],[-0.0,5,6]],"relative":true})",
     R"({"do":"weights","which":[3,4],"rows_u":[1],"rows_v":[0,2],"weight":2,"by":0.5})",

@@ -137,6 +137,7 @@ struct MorphReport {
 struct MorphedFile {
   std::string bytes;
   MorphReport report;
+  std::vector<std::string> edges = {};  ///< ids of those that were written anew
 };
 
 /// Moves the faces of a file so that they follow data, with every edge and vertex written anew, and

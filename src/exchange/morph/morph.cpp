@@ -227,9 +227,20 @@ Expected<Surface> in_its_part(Surface surface, const Eigen::Affine3d& to_model) 
   return detail::image_of(surface, to_model.inverse());
 }
 
-/// The bytes with the surfaces that have moved, and every edge between them anew. An edge at a
-/// surface that stays is where it was.
-Expected<std::string> saved(const MovingModel& model, std::vector<Surface> moved) {
+/// The edges between surfaces that move. An edge at a surface that stays is where it was.
+std::vector<std::string> moving_edges(const MovingModel& model) {
+  std::vector<std::string> result;
+  for (const morph::FitEdge& edge : model.edges) {
+    const bool stays = std::ranges::any_of(
+        edge.surfaces, [&](int k) { return model.surfaces[static_cast<std::size_t>(k)].fixed; });
+    if (!stays && edge.course) result.push_back(edge.course->id());
+  }
+  return result;
+}
+
+/// The bytes with the surfaces that have moved, and these edges anew.
+Expected<std::string> saved(const MovingModel& model, std::vector<Surface> moved,
+                            const std::vector<std::string>& edges) {
   std::vector<std::shared_ptr<const Surface>> surfaces;
   for (const SourceSurface& surface : model.written->surfaces()) {
     surfaces.push_back(surface.surface);
@@ -238,12 +249,6 @@ Expected<std::string> saved(const MovingModel& model, std::vector<Surface> moved
     auto own = in_its_part(std::move(moved[k]), model.places[k].to_model);
     if (!own) return std::unexpected(own.error());
     surfaces.back() = std::make_shared<const Surface>(*std::move(own));
-  }
-  std::vector<std::string> edges;
-  for (const morph::FitEdge& edge : model.edges) {
-    const bool stays = std::ranges::any_of(
-        edge.surfaces, [&](int k) { return model.surfaces[static_cast<std::size_t>(k)].fixed; });
-    if (!stays && edge.course) edges.push_back(edge.course->id());
   }
   return model.written->save(surfaces, edges);
 }
@@ -321,7 +326,8 @@ Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, co
     return std::unexpected(added.error());
   report.time_fit = watch.lap();
 
-  auto bytes = saved(*model, std::move(fit->surfaces));
+  result.edges = moving_edges(*model);
+  auto bytes = saved(*model, std::move(fit->surfaces), result.edges);
   if (!bytes) return std::unexpected(bytes.error());
   result.bytes = *std::move(bytes);
   report.bytes_after = static_cast<double>(result.bytes.size());

@@ -33,7 +33,9 @@ struct Act {
   DocumentRegions regions = DocumentRegions(document);
   MotionLaw law = {};                   ///< what the command has asked for so far
   FaceMeeting meeting = FaceMeeting();  ///< with other faces
-  std::optional<int> steps_kept = {};   ///< it was stopped after so many steps, which stay
+  /// It has measured itself at which edges faces meet, and as smoothly as before.
+  bool edges_measured = false;
+  std::optional<int> steps_kept = {};  ///< it was stopped after so many steps, which stay
 };
 
 }  // namespace knead

@@ -173,18 +173,22 @@ Expected<void> check_held_edges(Act& act, const Scene& before) {
   return std::unexpected(opened_edge(worst, surface, ids));
 }
 
-Expected<std::vector<PartedEdge>> Session::parted_edges() const {
-  const brep::Model* const model = document().model();
+Expected<std::vector<PartedEdge>> parted_edges(const Document& document,
+                                               const SessionState& state) {
+  const brep::Model* const model = document.model();
   std::vector<std::string> moved;
-  for (std::size_t k = 0; model != nullptr && k < state().surfaces.size(); ++k) {
-    const std::string& id = state().surfaces[k].id;
-    if (model->find_surface(id) != nullptr && moved_control_points(static_cast<int>(k)) > 0)
-      moved.push_back(id);
+  for (std::size_t k = 0; model != nullptr && k < state.surfaces.size(); ++k) {
+    const SceneSurface& s = state.surfaces[k];
+    if (model->find_surface(s.id) != nullptr && moved_control_points(s) > 0) moved.push_back(s.id);
   }
   if (moved.empty()) return std::vector<PartedEdge>();
   const auto contacts = edge_contacts(*model, moved);
   if (!contacts) return std::unexpected(contacts.error());
-  return knead::parted_edges(state(), *contacts);
+  return parted_edges(state, *contacts);
+}
+
+Expected<std::vector<PartedEdge>> Session::parted_edges() const {
+  return knead::parted_edges(document(), state());
 }
 
 bool holds_edges(const Scene& scene) {

@@ -7,15 +7,12 @@
 #include <utility>
 
 #include "knead/brep/face_conversion.hpp"
+#include "session/acts/converting.hpp"
 #include "session/acts/selection.hpp"
 #include "session/acts/trimming.hpp"
-#include "session/document_regions.hpp"
 
 namespace knead {
 namespace {
-
-/// The id of the surface in "#12 PLANE".
-std::string id_of(const std::string& support) { return support.substr(0, support.find(' ')); }
 
 /// The surfaces of other forms that meet the selected ones; those that cannot be converted are
 /// noted.
@@ -30,7 +27,7 @@ Expected<std::vector<std::string>> neighbours(Act& act) {
     if (!region) return std::unexpected(region.error());
     for (const TrimEdge& edge : (*region)->edges) {
       for (const std::string& support : edge.supports) {
-        const std::string id = id_of(support);
+        const std::string id = id_of_support(support);
         if (std::ranges::find(others, id, &brep::OtherSurface::id) == others.end()) continue;
         if (std::ranges::find(result, id) == result.end()) result.push_back(id);
       }
@@ -48,27 +45,6 @@ Expected<std::vector<std::string>> neighbours(Act& act) {
         "their faces meet B-spline surfaces only, or what the notes of `knead info --faces` say");
   }
   return result;
-}
-
-/// Neighbours are named with the surfaces on which they lie: regions beside the converted ones are
-/// found again.
-Expected<void> refresh_neighbours(SessionState& state, const std::vector<std::string>& ids) {
-  DocumentRegions regions(*state.document);
-  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
-    const auto& visible = std::as_const(state.surfaces)[k].visible;
-    const bool beside =
-        visible && std::ranges::any_of(visible->edges, [&](const TrimEdge& edge) {
-          return std::ranges::any_of(edge.supports, [&](const std::string& support) {
-            return std::ranges::find(ids, id_of(support)) != ids.end();
-          });
-        });
-    if (!beside) continue;
-    SceneSurface& s = state.surfaces[k];
-    auto region = regions.of(s.id);
-    if (!region) return std::unexpected(region.error());
-    s.visible = std::make_shared<const VisibleRegion>(std::move(*region));
-  }
-  return {};
 }
 
 /// The order at which the edges of the first selected surface are held; 0 where it holds none.
@@ -107,21 +83,7 @@ Expected<void> execute(const ConvertCommand& c, Act& act) {
     return input_error("the field is missing", "surface",
                        R"(give "surface", "surfaces" or "neighbours":true)");
   }
-  auto converted = act.document.with_splines(ids);
-  if (!converted) return std::unexpected(converted.error());
-  act.state.document = std::make_shared<const Document>(*std::move(converted));
-  const int order = order_of_holds(act.state);
-  std::vector<std::string> made;
-  for (const DocumentSurface& s : act.state.document->surfaces()) {
-    if (std::ranges::find(act.state.surfaces, s.id, &SceneSurface::id) != act.state.surfaces.end())
-      continue;
-    SceneSurface surface = untouched<2>(s.id, s.name, s.unit, s.surface);
-    surface.constraints.push_back({TrimHolds{order}, s.surface});
-    act.state.surfaces.push_back(std::move(surface));
-    made.push_back(s.id);
-  }
-  if (act.state.surfaces.size() == 1) act.state.selected = 0;
-  return refresh_neighbours(act.state, made);
+  return convert_surfaces(act, ids, order_of_holds(act.state));
 }
 
 }  // namespace knead

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "describe/bytes.hpp"
-#include "knead/exchange/morph.hpp"
 #include "knead/session/session.hpp"
+#include "session/morph_fields.hpp"
 
 namespace knead {
 
@@ -16,11 +16,8 @@ void describe(MorphAnswer& a, Fields& fields);
 /// `morph_file` of a document as it would be saved. The document stays as it is.
 struct MorphQuery {
   using Answer = MorphAnswer;
-  std::string space;
   Bytes vectors, from, to, scan;  ///< files; empty: none
-  MorphSettings settings;
-  std::optional<std::string> along;  ///< "normal"
-  bool strict = false;               ///< what is above what was wanted is an error
+  MorphRequest request;
 };
 void describe(MorphQuery& q, Fields& fields);
 

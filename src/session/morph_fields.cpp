@@ -1,0 +1,73 @@
+#include "morph_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace knead {
+
+static constexpr Choice directions[] = {{"normal", "along the normals of the faces"}};
+
+void describe_following(MorphRequest& request, Fields& fields) {
+  MorphSettings& s = request.settings;
+  fields.add("align", s.align, {.help = "the scan is laid onto the model before, rigidly"});
+  fields.add("noise", s.noise,
+             {.help = "standard deviation of each coordinate of the data",
+              .fallback = "none; of a scan it is estimated"});
+  fields.add("scale", s.scale, {.help = "factor of the displacements: -1 compensates"});
+  fields.add(
+      "tolerance", s.tolerance,
+      {.help = "largest residual wanted, in the file's unit", .fallback = "1e-5 of the size"});
+  fields.add("faces", s.faces, {.help = "only these move, by id of face or surface"});
+  fields.add("keep", s.keep, {.help = "these stay"});
+  fields.add("place", s.places,
+             {.help = "of parts in several places: those that the data are about"});
+  fields.add("convert", s.convert, {.help = "planes and the like become B-splines, to move"});
+  fields.add("refine", s.refinement,
+             {.help = "at most so many times the control points, after raising to degree 3",
+              .range = between(1, 1000)});
+  fields.add(
+      "reach", s.reach,
+      {.help = "farthest that a point may be from a face", .fallback = "1 % of the model's box"});
+  fields.add("along", request.along,
+             {.help = "only this part of displacements", .choices = directions});
+  fields.add("unit", s.unit,
+             {.help = "of the data", .fallback = "that of the file", .omit_empty = true});
+  fields.add("columns", s.columns,
+             {.help = "of CSV: the names of point and displacement", .fallback = "x,y,z,dx,dy,dz"});
+  fields.add("field", s.field,
+             {.help = "of VTK: the name of the vector field at points", .omit_empty = true});
+  fields.add("strict", request.strict, {.help = "fails where something is above what was wanted"});
+}
+
+Expected<MorphedFile> follow_data(const std::shared_ptr<const Source>& source, MorphData data,
+                                  const MorphRequest& request) {
+  data.space = request.space;
+  if (data.from.has_value() != data.to.has_value())
+    return usage_error("a pair of meshes is \"from\" and \"to\"", data.from ? "to" : "from",
+                       "give both");
+  const int kinds = (data.vectors ? 1 : 0) + (data.from ? 1 : 0) + (data.scan ? 1 : 0) +
+                    (data.space.empty() ? 0 : 1);
+  if (kinds != 1)
+    return usage_error(kinds == 0 ? "nothing says where the surfaces should go"
+                                  : "several data say where the surfaces should go",
+                       "vectors", "give one of vectors, from with to, scan, and space");
+  MorphSettings settings = request.settings;
+  settings.along_normal = request.along.has_value();
+  auto morphed = morph_file(source, data, settings);
+  if (!morphed) {
+    Error error = std::move(morphed.error());
+    if (error.where == "refinement") error.where = "refine";
+    return std::unexpected(std::move(error));
+  }
+  if (request.strict && !morphed->report.above.empty()) {
+    const MorphExcess& worst = morphed->report.above.front();
+    return numerical_error(fmt::format("{} {:.4g} is above the {:.4g} that was wanted",
+                                       worst.measure, worst.found, worst.wanted),
+                           worst.edge.empty() ? worst.surface : worst.edge,
+                           "allow more control points with \"refine\", or a larger tolerance");
+  }
+  return morphed;
+}
+
+}  // namespace knead
