@@ -127,11 +127,26 @@ void tell(const MorphReport& report) {
       counted(report.edges.size(), "edge", "edges"));
   for (const MorphException& fixed : report.fixed)
     say(stderr, "knead: warning: surface {} stays: {}\n", fixed.id, fixed.reason);
-  if (report.above.empty()) return;
+  std::vector<MorphExcess> others;
+  std::size_t contradicting = 0;
+  const MorphExcess* worst = nullptr;
+  for (const MorphExcess& excess : report.above) {
+    if (excess.measure != "contradiction") {
+      others.push_back(excess);
+      continue;
+    }
+    contradicting += static_cast<std::size_t>(excess.count);
+    if (worst == nullptr || excess.found > worst->found) worst = &excess;
+  }
+  if (worst != nullptr) {
+    say(stderr, "knead: warning: {} what stays, and fade out beside it; the worst: {}\n",
+        counted(contradicting, "point contradicts", "points contradict"), line_of(*worst));
+  }
+  if (others.empty()) return;
   say(stderr,
       "knead: warning: {} above what was wanted; the first: {}; a larger --refine or "
       "--tolerance may help\n",
-      counted(report.above.size(), "measure is", "measures are"), line_of(report.above.front()));
+      counted(others.size(), "measure is", "measures are"), line_of(others.front()));
 }
 
 Expected<void> write_one(const MorphArguments& options, const std::shared_ptr<const Source>& source,

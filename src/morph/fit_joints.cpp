@@ -60,24 +60,26 @@ Vector2d in_parameters(const Surface& s, const Vector2d& across) {
   return {s.knots(0).domain().length() * across.x(), s.knots(1).domain().length() * across.y()};
 }
 
-/// The joints of the first surface at an edge with each of the others.
+/// The joints of the first surface at an edge with each of the others; of a held one, of each with
+/// its place.
 std::vector<Joint> joints_of(const FitEdge& edge, const FitNets& nets) {
   std::vector<Joint> result;
-  if (edge.surfaces.size() < 2) return result;
+  if (edge.surfaces.size() < 2 && !edge.held) return result;
   const std::vector<Sample> samples = samples_for(edge, nets);
   double length = 0;
   for (std::size_t k = 1; k < samples.size(); ++k)
     length += (samples[k].point - samples[k - 1].point).norm();
-  for (std::size_t other = 1; other < edge.surfaces.size(); ++other) {
+  for (std::size_t other = edge.held ? 0 : 1; other < edge.surfaces.size(); ++other) {
+    const std::size_t first = edge.held ? other : 0;
     Joint joint{.edge = edge.course ? edge.course->id() : edge.name,
-                .surfaces = {edge.surfaces[0], edge.surfaces[other]},
+                .surfaces = {edge.surfaces[first], edge.held ? -1 : edge.surfaces[other]},
                 .points = {},
-                .smooth = is_smooth(edge),
+                .smooth = !edge.held && is_smooth(edge),
                 .length = length};
     for (const Sample& sample : samples) {
       std::array<Joint::Foot, 2> feet;
-      for (std::size_t side = 0; side < 2; ++side) {
-        const std::size_t k = side == 0 ? 0 : other;
+      for (std::size_t side = 0; side < (edge.held ? 1 : 2); ++side) {
+        const std::size_t k = side == 0 ? first : other;
         const Surface& s = nets.surfaces[static_cast<std::size_t>(joint.surfaces[side])];
         feet[side].at = parameters_at_foot(s, sample.feet[k]);
         if (k < sample.across.size()) feet[side].across = in_parameters(s, sample.across[k]);

@@ -12,8 +12,8 @@ struct Joint {
     std::array<double, 2> at = {};                     ///< parameters
     Eigen::Vector2d across = Eigen::Vector2d::Zero();  ///< in parameters: a unit vector in space
   };
-  std::string edge;  ///< its name; empty: a line of the surface
-  std::array<int, 2> surfaces = {};
+  std::string edge;                  ///< its name; empty: a line of the surface
+  std::array<int, 2> surfaces = {};  ///< the second is −1 where the first keeps its place
   std::array<Side, 2> sides = {Side::right, Side::right};  ///< of which limits are taken at knots
   std::vector<std::array<Foot, 2>> points;
   bool smooth = false;   ///< tangent planes are common, where `across` is not zero

@@ -94,8 +94,8 @@ void FitNets::number(std::span<const FitSurface> given) {
 
 Expected<void> FitNets::add_row(int surface, const std::array<double, 2>& at, Side side, int along,
                                 double factor, Terms& to) const {
+  if (stays(surface) || factor == 0) return {};
   const auto s = static_cast<std::size_t>(surface);
-  if (fixed[s] || factor == 0) return {};
   const Surface& shape = surfaces[s];
   const auto row = detail::rational_row(shape, at[0], at[1], shape.knots(0).find_span(at[0], side),
                                         shape.knots(1).find_span(at[1], side), along);

@@ -18,6 +18,11 @@ struct FitNets {
   std::vector<int> unknown;  ///< of each control point; −1: it is fixed
   int unknowns = 0;
 
+  /// Whether a side of a joint stays: −1, or a fixed surface.
+  [[nodiscard]] bool stays(int surface) const {
+    return surface < 0 || fixed[static_cast<std::size_t>(surface)];
+  }
+
   /// Makes `first`, `unknown` and `unknowns` for the surfaces as they are. Control points of a pole
   /// have one unknown, and so have both ends of a closed surface whose weights there agree: poles
   /// stay points, and closed surfaces closed, exactly.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hold_fading.hpp"
 #include "knead/energy/domain_scaling.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
@@ -55,8 +56,8 @@ Expected<void> check(std::span<const FitSurface> surfaces, std::span<const FitEd
     return !x || (std::isfinite(*x) && *x > 0);
   };
   if (!positive(settings.tolerance) || !positive(settings.noise) || !positive(settings.energy) ||
-      !positive(settings.parting) || !(settings.angle > 0) || !(settings.refinement >= 1) ||
-      (settings.rounds && *settings.rounds < 1)) {
+      !positive(settings.parting) || !positive(settings.allowed_parting) || !(settings.angle > 0) ||
+      !(settings.refinement >= 1) || (settings.rounds && *settings.rounds < 1)) {
     return input_error("a setting of the fit is out of range", "settings",
                        "lengths, angle and λ are above 0, refinement and rounds at least 1");
   }
@@ -103,33 +104,41 @@ Expected<void> place_data(std::span<const Datum> data, FitProblem& problem) {
       total += d.weight;
     }
     const auto places = evaluate<2>(*problem.given[s].surface, at);
+    FitExcess worst{.measure = FitExcess::Measure::contradiction, .count = 0};
     if (!places) return std::unexpected(places.error().within(fmt::format("surface {}", s)));
     for (std::size_t k = 0; k < on[s].size(); ++k) {
       const Datum& d = data[on[s][k]];
       const Point place = places->points().row(static_cast<Eigen::Index>(k)).transpose();
       if (problem.given[s].fixed) {
         const double found = d.displacement.norm();
-        if (found > problem.tolerance) {
-          problem.contradicted.push_back({FitExcess::Measure::contradiction,
-                                          d.surface,
-                                          d.parameters,
-                                          place,
-                                          {},
-                                          found,
-                                          problem.tolerance});
+        if (found <= problem.tolerance) continue;
+        const int count = worst.count + 1;
+        if (found > worst.found) {
+          worst = {FitExcess::Measure::contradiction,
+                   d.surface,
+                   d.parameters,
+                   place,
+                   {},
+                   found,
+                   problem.tolerance};
         }
+        worst.count = count;
         continue;
       }
       const double weight = total > 0 ? problem.units[s].share * d.weight / total : 0;
       problem.points.push_back({d.surface, d.parameters, place, d.displacement, weight});
     }
+    if (worst.count > 0) problem.contradicted.push_back(std::move(worst));
   }
   return {};
 }
 
-/// Takes the affine part from the data. With fixed surfaces there is none: it would move them.
+/// Takes the affine part from the data. With fixed surfaces or held edges there is none: it would
+/// move them.
 Expected<void> take_affine_part(FitProblem& problem) {
-  if (!problem.settings.affine || std::ranges::any_of(problem.given, &FitSurface::fixed)) return {};
+  if (!problem.settings.affine || std::ranges::any_of(problem.given, &FitSurface::fixed) ||
+      std::ranges::any_of(problem.edges, &FitEdge::held))
+    return {};
   const auto n = static_cast<Eigen::Index>(problem.points.size());
   Points places(n, 3), displacements(n, 3);
   std::vector<double> weights;
@@ -186,6 +195,7 @@ Expected<FitProblem> pose_problem(std::span<const FitSurface> surfaces,
     return input_error("no datum lies on a surface that is free to move", "data",
                        "give data on such surfaces, or let more of them move");
   }
+  if (auto done = fade_at_holds(problem); !done) return std::unexpected(done.error());
   if (auto taken = take_affine_part(problem); !taken) return std::unexpected(taken.error());
   return problem;
 }

@@ -16,7 +16,7 @@ struct FitProblem {
   double size = 0, tolerance = 0, parting = 0;
   std::vector<FitUnits> units = {};
   std::vector<FitPoint> points = {};  ///< on free surfaces; wanted: what the affine part leaves
-  std::vector<FitExcess> contradicted = {};  ///< data on fixed surfaces
+  std::vector<FitExcess> contradicted = {};  ///< the worst data that contradict what stays
   AffinePart affine = {};
   FitNets nets = {};
   std::vector<std::array<double, 2>> shares = {};  ///< of the weights of each joint

@@ -10,8 +10,9 @@ namespace knead::morph {
 namespace {
 constexpr double least_span = 1e-3;  // of the domain
 constexpr int most_parts = 4;
-constexpr double second_part = 0.8;      // of what is wanted, of the direction with the lesser part
-constexpr std::size_t least_points = 8;  // of a cell: fewer say nothing of its halves
+constexpr double second_part = 0.8;  // of what is wanted, of the direction with the lesser part
+constexpr std::size_t least_points =
+    8;  // of a cell: fewer say nothing of its halves, faded ones do
 
 struct Cell {
   int surface = 0;
@@ -150,9 +151,11 @@ void plan_for_residuals(const FitNets& nets, std::span<const FitPoint> points,
     const Cell cell = cell_of(nets, points[begin]);
     while (end < points.size() && cell_of(nets, points[end]) == cell) ++end;
     const auto surface = static_cast<std::size_t>(cell.surface);
-    if (nets.fixed[surface] || end - begin < least_points) continue;
+    const std::span<const FitPoint> within = points.subspan(begin, end - begin);
+    const bool faded = std::ranges::any_of(within, &FitPoint::faded);
+    if (nets.fixed[surface] || (within.size() < least_points && !faded)) continue;
     const Surface& s = nets.surfaces[surface];
-    const CellError error = error_in(s, cell, points.subspan(begin, end - begin), residual, begin);
+    const CellError error = error_in(s, cell, within, residual, begin);
     // Of exact data the largest residual counts, shared out by the parts; of others the parts.
     const double sum = error.part[0] + error.part[1];
     const double scale = noise > 0 || sum == 0 ? 1 : error.largest / sum;
@@ -174,9 +177,10 @@ void plan_for_joint(const FitNets& nets, const Joint& joint, std::size_t point, 
                     RefinementPlan& plan) {
   const std::size_t next = point + 1 < joint.points.size() ? point + 1 : point - 1;
   constexpr double along = 0.1;  // of the larger change of a parameter, in spans
+  const bool held = nets.stays(joint.surfaces[0]) || nets.stays(joint.surfaces[1]);
   for (std::size_t side = 0; side < 2; ++side) {
+    if (nets.stays(joint.surfaces[side])) continue;
     const auto surface = static_cast<std::size_t>(joint.surfaces[side]);
-    if (nets.fixed[surface]) continue;
     const Surface& s = nets.surfaces[surface];
     std::array<double, 2> change = {};
     std::array<int, 2> spans = {};
@@ -188,7 +192,7 @@ void plan_for_joint(const FitNets& nets, const Joint& joint, std::size_t point, 
           std::abs(joint.points[next][side].at[d] - u) / (knots[spans[d] + 1] - knots[spans[d]]);
     }
     for (std::size_t d = 0; d < 2; ++d) {
-      if (change[d] >= along * change[1 - d]) ask(plan[surface], d, spans[d], 2, urgency);
+      if (held || change[d] >= along * change[1 - d]) ask(plan[surface], d, spans[d], 2, urgency);
     }
   }
 }

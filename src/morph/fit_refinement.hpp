@@ -39,7 +39,7 @@ void plan_for_residuals(const FitNets& nets, std::span<const FitPoint> points,
                         double noise, RefinementPlan& plan);
 
 /// Halves the spans in which a joint has a point, in the directions in which it runs, on both
-/// sides.
+/// sides; beside what stays in both directions, since displacements rise from zero there.
 void plan_for_joint(const FitNets& nets, const Joint& joint, std::size_t point, double urgency,
                     RefinementPlan& plan);
 

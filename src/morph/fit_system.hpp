@@ -17,7 +17,8 @@ struct FitPoint {
   Point place = Point::Zero();   ///< before the displacement
   Point wanted = Point::Zero();  ///< displacement
   double weight = 0;
-  double share = 1;  ///< of that weight, from 1 on: more where residuals are too large
+  double share = 1;    ///< of that weight, from 1 on: more where residuals are too large
+  bool faded = false;  ///< towards what stays: the displacement changes faster than the data do
 };
 
 /// The units in which a surface is fitted.

@@ -174,9 +174,9 @@ Expected<ScanPartners> as_data(const Scan& scan, const std::vector<Partner>& par
   return result;
 }
 
-/// What is fitted: the data on surfaces that are free, every second, third, … of many, and `extra`.
+/// What is fitted: the data on surfaces that are free, every second, third, … of many.
 std::vector<Datum> fitted(const std::vector<Datum>& data, std::span<const FitSurface> surfaces,
-                          std::span<const Datum> extra, double scale) {
+                          double scale) {
   std::vector<Datum> result;
   const std::size_t step = (data.size() + most_data - 1) / most_data;
   for (std::size_t k = 0; k < data.size(); k += step) {
@@ -184,7 +184,6 @@ std::vector<Datum> fitted(const std::vector<Datum>& data, std::span<const FitSur
     result.push_back(data[k]);
     result.back().displacement *= scale;
   }
-  result.insert(result.end(), extra.begin(), extra.end());
   return result;
 }
 
@@ -221,7 +220,7 @@ Expected<ScanPartners> scan_partners(const Scan& scan, const VisibleSearch& sear
 
 Expected<ScanFit> fit_scan(const Scan& scan, std::span<const FitSurface> surfaces,
                            std::span<const FitEdge> edges, const std::vector<bool>& shown,
-                           std::span<const Datum> extra, const ScanSettings& settings) {
+                           const ScanSettings& settings) {
   ScanFit result;
   auto search = VisibleSearch::create(surfaces, shown);
   if (!search) return std::unexpected(search.error());
@@ -240,7 +239,7 @@ Expected<ScanFit> fit_scan(const Scan& scan, std::span<const FitSurface> surface
   if (auto right = settings.check ? settings.check(*data) : Expected<void>(); !right)
     return std::unexpected(right.error());
   for (;;) {
-    auto fit = fit_surfaces(surfaces, edges, fitted(data->found.data, surfaces, extra, 1),
+    auto fit = fit_surfaces(surfaces, edges, fitted(data->found.data, surfaces, 1),
                             fit_settings(settings, result.noise, 1));
     if (!fit) return std::unexpected(fit.error());
     auto model = moved_model(surfaces, fit->surfaces, shown);
@@ -263,7 +262,7 @@ Expected<ScanFit> fit_scan(const Scan& scan, std::span<const FitSurface> surface
   }
   if (settings.scale == 1) return result;
   auto scaled =
-      fit_surfaces(surfaces, edges, fitted(result.last.found.data, surfaces, extra, settings.scale),
+      fit_surfaces(surfaces, edges, fitted(result.last.found.data, surfaces, settings.scale),
                    fit_settings(settings, result.noise, settings.scale));
   if (!scaled) return std::unexpected(scaled.error());
   result.fit = *std::move(scaled);

@@ -63,13 +63,12 @@ struct ScanFit {
 /// 45° from that of the model, senses apart. From the second turn on data have Tukey's weights,
 /// 0 from six deviations on. More than 2e5 partners are fitted as every second, third, …
 ///
-/// `extra` are data beside the scan, as of edges that are held. Results do not depend on the number
-/// of threads. Errors (input): no point has a partner on a surface that is free; those of
-/// `fit_surfaces`. Cost: that of a search per point and of a fit, for each turn.
+/// Results do not depend on the number of threads. Errors (input): no point has a partner on a
+/// surface that is free; those of `fit_surfaces`. Cost: that of a search per point and of a fit,
+/// for each turn.
 [[nodiscard]] Expected<ScanFit> fit_scan(const Scan& scan, std::span<const FitSurface> surfaces,
                                          std::span<const FitEdge> edges,
                                          const std::vector<bool>& shown,
-                                         std::span<const Datum> extra,
                                          const ScanSettings& settings);
 
 }  // namespace knead::morph

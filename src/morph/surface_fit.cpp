@@ -6,16 +6,21 @@
 
 #include "fit_problem.hpp"
 #include "fit_refinement.hpp"
+#include "hold_fading.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::morph {
 namespace {
 
 constexpr double exact_lambda = 1e-7, first_lambda = 1e-2, least_lambda = 1e-8;
-constexpr int most_rounds = 30, most_solves = 9;
+// From `late` on joints do not wait for residuals; after `most_solves` only their weights grow, and
+// those that data have gained fall.
+constexpr int most_rounds = 30, most_solves = 9, late = 5, solves_for_joints = 5;
 // Weights are raised for what is above this share of what is wanted, in one solve and altogether by
 // these factors; of joints once the residuals are within `settling` times what is wanted.
 constexpr double near_wanted = 0.7, most_raise = 16, most_share = 4096, settling = 2;
+// Of joints in the last fits: data that no net can follow have the most weight by then.
+constexpr double most_share_late = 64 * most_share;
 // Joints of usual weights ask for finer nets above this multiple of what is wanted, others above 1.
 constexpr double light_joint = 3;
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -29,8 +34,7 @@ Expected<std::vector<Joint>> joints_of(const FitProblem& problem) {
   if (!lines) return lines;
   for (Joint& line : *lines) joints.push_back(std::move(line));
   std::erase_if(joints, [&](const Joint& joint) {
-    return problem.nets.fixed[static_cast<std::size_t>(joint.surfaces[0])] &&
-           problem.nets.fixed[static_cast<std::size_t>(joint.surfaces[1])];
+    return problem.nets.stays(joint.surfaces[0]) && problem.nets.stays(joint.surfaces[1]);
   });
   return joints;
 }
@@ -144,27 +148,32 @@ RefinementPlan plan_for(FitProblem& problem, const Fit& fit) {
 /// Raises the weights of what is near what is wanted or above it, by the square of the ratio
 /// (C. Lawson, 1961: weighted least squares that tend to the least largest residual). Least squares
 /// alone leave the largest residuals several times the mean, at corners of trimmed regions. Returns
-/// whether something that is too large has got more weight.
-bool reweigh(FitProblem& problem, const Fit& fit) {
+/// whether something that is too large has got more weight. \param last nets stay as they are: the
+/// residuals will not become less, and what has to stay together does not wait for them
+bool reweigh(FitProblem& problem, const Fit& fit, bool last, bool joints_only) {
   bool result = false;
-  const auto raise = [&](double& share, double excess) {
+  const auto raise = [&](double& share, double excess, double most = most_share) {
     if (excess <= near_wanted) return;
     const double before = share;
     const double ratio = excess / near_wanted;
-    share = std::min(most_share, share * std::min(most_raise, ratio * ratio));
+    share = std::min(most, share * std::min(most_raise, ratio * ratio));
     result = result || (excess > 1 && share > before);
   };
-  for (std::size_t k = 0; k < problem.points.size() && !problem.settings.noise; ++k) {
+  for (std::size_t k = 0; k < problem.points.size() && !problem.settings.noise && !joints_only;
+       ++k) {
     raise(problem.points[k].share, fit.system.residual(k, fit.state.x).norm() / problem.tolerance);
   }
   // While nets are too coarse for the data, heavier joints would only stiffen them.
   const bool settled =
-      problem.settings.noise || fit.state.largest_residual <= settling * problem.tolerance;
-  for (std::size_t j = 0; j < fit.joints.size() && settled; ++j) {
+      last || problem.settings.noise || fit.state.largest_residual <= settling * problem.tolerance;
+  for (std::size_t j = 0; j < fit.joints.size(); ++j) {
+    const auto& sides = fit.joints[j].surfaces;
+    if (!settled && !problem.nets.stays(sides[0]) && !problem.nets.stays(sides[1])) continue;
     const double angle = fit.angles[j].degrees / problem.settings.angle;
+    const double most = last ? most_share_late : most_share;
     raise(problem.shares[j][0],
-          std::max(angle, fit.system.parting(j, fit.state.x).distance / problem.parting));
-    raise(problem.shares[j][1], angle);
+          std::max(angle, fit.system.parting(j, fit.state.x).distance / problem.parting), most);
+    raise(problem.shares[j][1], angle, most);
   }
   return result;
 }
@@ -223,14 +232,27 @@ int control_points(const FitNets& nets) {
 Expected<FitResult> fit_and_refine(FitProblem& problem) {
   if (auto made = raise_degrees(problem); !made) return std::unexpected(made.error());
   const double most = problem.settings.refinement * control_points(problem.nets);
+  const double allowed =
+      std::max(problem.parting, problem.settings.allowed_parting.value_or(problem.parting));
+  // Without holds residuals settle, and joints need not press before.
+  const bool holds = std::ranges::any_of(
+      problem.edges, [&](const FitEdge& edge) { return is_held(edge, problem.nets.fixed); });
+  const int late_from = holds ? late : most_solves;
   FitResult result{.size = problem.size};
   auto fit = fit_once(problem);
-  for (int solve = 1; fit && solve < most_solves; ++solve) {
+  for (int solve = 1; fit && solve < most_solves + solves_for_joints; ++solve) {
+    const bool joints_only = solve >= most_solves;
+    if (joints_only && fit->state.largest_parting <= allowed) break;
+    for (FitPoint& point : problem.points)
+      point.share = joints_only ? std::max(1.0, point.share / 4) : point.share;
     const RefinementPlan plan = plan_for(problem, *fit);
-    const auto refined = refine(plan, static_cast<int>(std::min(most, 1e9)), problem.nets);
+    const auto refined = joints_only
+                             ? Expected<int>(0)
+                             : refine(plan, static_cast<int>(std::min(most, 1e9)), problem.nets);
     if (!refined) return std::unexpected(refined.error());
     // With a number of rounds that is given the fit is linear in the data: weights stay.
-    const bool reweighed = !problem.settings.rounds && reweigh(problem, *fit);
+    const bool reweighed = !problem.settings.rounds &&
+                           reweigh(problem, *fit, *refined == 0 || solve >= late_from, joints_only);
     if (*refined == 0 && !reweighed) break;
     result.refinements += *refined > 0 ? 1 : 0;
     fit = fit_once(problem);

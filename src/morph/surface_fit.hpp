@@ -35,6 +35,8 @@ struct FitEdge {
   /// parameters.
   std::vector<SharedEdge::Sample> samples = {};
   std::string name = {};  ///< with `samples`: what the edge is called
+  /// Its surfaces keep their place along it, as beside a face that is none of the surfaces.
+  bool held = false;
 };
 
 struct FitSettings {
@@ -45,6 +47,9 @@ struct FitSettings {
   std::optional<double> noise = {};
   std::optional<double> energy = {};   ///< λ > 0; none: chosen
   std::optional<double> parting = {};  ///< largest at edges, file units; none: 1e-6 of the size
+  /// Largest at edges that can be borne, file units, if more than `parting`: edges above it are
+  /// closed at the cost of residuals; none: `parting`.
+  std::optional<double> allowed_parting = {};
   /// Whether the affine map that fits the data best is taken from them before. It goes on beyond
   /// the data, where displacements run out flat without it.
   bool affine = true;
@@ -52,7 +57,7 @@ struct FitSettings {
   /// At most so many times the control points that all surfaces have after raising to degree 3.
   double refinement = 8;
   /// Repeated solves on each factor, exactly; none: as needed. If given, weights are never changed,
-  /// and on nets that are not refined displacements are linear in the data.
+  /// and on nets that are not refined displacements are linear in data that contradict no hold.
   std::optional<int> rounds = {};
 };
 
@@ -62,7 +67,7 @@ struct FitExcess {
     residual,       ///< of a datum, file units
     parting,        ///< of the surfaces at an edge, file units
     angle,          ///< at a smooth edge or knot line, degrees
-    contradiction,  ///< a datum on a fixed surface, file units
+    contradiction,  ///< of a datum, what it wants where surfaces stay or are held, file units
   };
   Measure measure = Measure::residual;
   int surface = 0;
@@ -70,6 +75,7 @@ struct FitExcess {
   Point place = Point::Zero();            ///< before the displacement
   std::string edge = {};                  ///< its name; empty where the measure is not of an edge
   double found = 0, wanted = 0;
+  int count = 1;  ///< data of that surface that contradict; this is the worst
 };
 
 struct FitResult {
@@ -98,6 +104,9 @@ struct FitResult {
 /// 5.1): X ← X + (M + λK)⁻¹ (b − M X) on one factor, until tolerance or, of data with noise, the
 /// discrepancy principle; then knots are inserted where residual, parting or angle ask for it.
 /// Poles stay points and closed surfaces closed, exactly. docs/design/morph.md.
+///
+/// Data that contradict what is fixed or held are faded out towards it (`fade_at_holds`), and
+/// listed.
 ///
 /// Data that are zero give the surfaces as they are, bit for bit; an affine map gives its image on
 /// the nets as they are. Results do not depend on the number of threads.

@@ -338,6 +338,36 @@ TEST(Morph, WhatIsKeptStays) {
   EXPECT_EQ(said["surfaces"].size(), 5U) << "without data for the one that is kept";
 }
 
+/// A bend by 1 % of the size of all but one face, which has three edges with others.
+TEST(Morph, WhatContradictsAFaceThatStaysFadesOut) {
+  const Workshop workshop;
+  const std::string out = workshop / "out.step", report = workshop / "r.json";
+  const Outcome run = knead({"morph", bonnet(), "-o", out, "--space", "0; 0; 15*cos(x/400)",
+                             "--keep", "#595", "--tolerance", "0.1", "--report", report});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("contradict what stays"), std::string::npos) << run.err;
+  const Json said = Json::parse(content_of(report));
+  EXPECT_EQ(against(said, knead({"schema", "morph"}).json(), "report"), "");
+  int contradicting = 0;
+  for (const Json& above : said["above"]) {
+    if (above["measure"] == "contradiction") contradicting += above["count"].get<int>();
+  }
+  EXPECT_GT(contradicting, 0);
+  EXPECT_LT(contradicting, 0.05 * said["used"].get<int>());
+  EXPECT_LT(said["after"]["of_95"], said["tolerance"]);
+  // Every edge is as closed as the tolerance of the check asks.
+  const Json before = knead({"check", bonnet(), "--json"}).json();
+  const double tolerance = before["gap_tolerance"];
+  const Json old = before["edges"], now = knead({"check", out, "--json"}).json()["edges"];
+  ASSERT_EQ(old.size(), now.size());
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    if (now[k]["gap"].is_null()) continue;
+    EXPECT_LE(now[k]["gap"]["value"].get<double>(),
+              std::max(1.01 * old[k]["gap"]["value"].get<double>(), tolerance))
+        << now[k]["id"];
+  }
+}
+
 TEST(Morph, SaysWhatIsWrongAndWritesNothing) {
   const Workshop workshop;
   const std::string out = workshop / "out.step";

@@ -124,7 +124,7 @@ template <class Shown>
 Followed followed(const Scan& scan, const Shown& judged, morph::ScanSettings settings) {
   const std::vector<FitSurface> model = {{sheet(), {}}};
   settings.reach = 0.5;
-  auto fit = morph::fit_scan(scan, model, {}, {}, {}, settings);
+  auto fit = morph::fit_scan(scan, model, {}, {}, settings);
   EXPECT_TRUE(fit) << fit.error().message();
   if (!fit) return {};
   Followed result{*std::move(fit)};
@@ -200,7 +200,7 @@ TEST(FitScan, DoesNotDependOnThreads) {
   std::optional<Points> first;
   for (const int threads : testing::thread_counts) {
     const auto fit = testing::with_threads(
-        threads, [&] { return morph::fit_scan(scan, model, {}, {}, {}, {.reach = 0.5}); });
+        threads, [&] { return morph::fit_scan(scan, model, {}, {}, {.reach = 0.5}); });
     ASSERT_TRUE(fit) << fit.error().message();
     const Points& net = fit->fit.surfaces[0].control_points();
     if (!first) first = net;

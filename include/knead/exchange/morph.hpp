@@ -109,6 +109,7 @@ struct MorphExcess {
   std::string surface = {}, edge = {};
   std::array<double, 3> place = {};
   double found = 0, wanted = 0;
+  int count = 1;  ///< of data that contradict: how many on that surface; this is the worst
 };
 
 /// What `knead morph` says of its work. Lengths are in units of the model, times in seconds.

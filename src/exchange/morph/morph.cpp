@@ -49,17 +49,6 @@ Deviation deviation_of(std::vector<double> lengths) {
   return result;
 }
 
-// A region's polygon is off its edge by less than the data's own accuracy: points of it hold an
-// edge beside a face that cannot move.
-void hold_edges(const MovingModel& model, std::vector<morph::Datum>& data) {
-  constexpr double weight = 1e3;  // beside data: residuals there are a thousandth of theirs
-  for (const auto& [surface, edge] : model.held) {
-    const morph::FitSurface& on = model.placed[static_cast<std::size_t>(surface)];
-    for (const Eigen::Vector2d& foot : on.region.edges[edge].course)
-      data.push_back({surface, parameters_at_foot(*on.surface, foot), Point::Zero(), weight});
-  }
-}
-
 Expected<void> add_deviations(const MovingModel& model, const MorphPoints& points,
                               const std::vector<Surface>& moved, MorphReport& report) {
   const std::size_t count = model.surfaces.size();
@@ -152,6 +141,15 @@ Expected<void> check_pairs(const brep::ModelMeasures& before, const brep::ModelM
   return {};
 }
 
+/// The largest parting by the fit that the check takes, whatever was parted before; none: that
+/// which is wanted, where edges are parted by more than the tolerance, to which 1 % may be added.
+std::optional<double> allowed_parting(const brep::ModelMeasures& before) {
+  const bool open = std::ranges::any_of(before.edges, [&](const EdgeMeasures& edge) {
+    return parted(edge).value_or(0) > before.gap_tolerance / 2;
+  });
+  return open ? std::nullopt : std::optional(before.gap_tolerance / 2);
+}
+
 /// Compares the edges of the file that would be written with those of the one that was opened, and
 /// refuses what has come open.
 Expected<void> check_edges(const MovingModel& model, const brep::ModelMeasures& before,
@@ -217,7 +215,8 @@ void describe_fit(const MovingModel& model, const morph::FitResult& fit, MorphRe
                             excess.edge,
                             {excess.place.x(), excess.place.y(), excess.place.z()},
                             excess.found,
-                            excess.wanted});
+                            excess.wanted,
+                            excess.count});
   }
 }
 
@@ -311,13 +310,15 @@ Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, co
     return result;
   }
 
-  std::vector<morph::Datum> all = points->found.data;
-  hold_edges(*model, all);
+  const auto before = brep::measure_edges(*source->model());
+  if (!before) return std::unexpected(before.error());
+  report.time_check = watch.lap();
   report.tolerance = settings.tolerance.value_or(1e-5 * points->size);
-  auto fit = points->scan ? detail::follow_scan(*model, all, settings, *points, report)
-                          : morph::fit_surfaces(model->placed, model->edges, all,
+  auto fit = points->scan ? detail::follow_scan(*model, settings, *points, report)
+                          : morph::fit_surfaces(model->placed, model->edges, points->found.data,
                                                 {.tolerance = report.tolerance,
                                                  .noise = noise_of(settings),
+                                                 .allowed_parting = allowed_parting(*before),
                                                  .refinement = settings.refinement});
   if (!fit) return std::unexpected(fit.error());
   if (points->scan) describe_points(*points, report);
@@ -336,13 +337,11 @@ Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, co
   report.unknown_edges = std::move(model->unknown_edges);
   report.time_save = watch.lap();
 
-  const auto before = brep::measure_edges(*source->model());
-  if (!before) return std::unexpected(before.error());
   const auto after = measures_after(result.bytes, *source);
   if (!after) return std::unexpected(after.error());
   if (auto right = check_edges(*model, *before, *after, report); !right)
     return std::unexpected(right.error());
-  report.time_check = watch.lap();
+  report.time_check += watch.lap();
   return result;
 }
 

@@ -202,15 +202,13 @@ MorphAlignment as_reported(const morph::Alignment& alignment) {
 
 }  // namespace
 
-Expected<morph::FitResult> follow_scan(const MovingModel& model,
-                                       std::span<const morph::Datum> extra,
-                                       const MorphSettings& settings, MorphPoints& points,
-                                       MorphReport& report) {
+Expected<morph::FitResult> follow_scan(const MovingModel& model, const MorphSettings& settings,
+                                       MorphPoints& points, MorphReport& report) {
   auto with = scan_settings(settings, points);
   with.check = [&](const morph::ScanPartners& first) {
     return check_partners(model, points, first);
   };
-  auto fit = morph::fit_scan(*points.scan, model.placed, model.edges, model.shown, extra, with);
+  auto fit = morph::fit_scan(*points.scan, model.placed, model.edges, model.shown, with);
   if (!fit) return std::unexpected(fit.error());
   points.found = std::move(fit->last.found);
   for (morph::Datum& datum : points.found.data) datum.displacement *= settings.scale;

@@ -25,10 +25,9 @@ struct MorphPoints {
                                                                   const MorphSettings& settings);
 
 /// Fits a model to `points.scan`, and makes `points.found` the data that were followed at last, and
-/// the report on the scan. \param extra data beside it. Errors: no point has a partner; a part in
+/// the report on the scan. Errors: no point has a partner; a part in
 /// several places that has data (input); those of `fit_scan`.
 [[nodiscard]] Expected<morph::FitResult> follow_scan(const MovingModel& model,
-                                                     std::span<const morph::Datum> extra,
                                                      const MorphSettings& settings,
                                                      MorphPoints& points, MorphReport& report);
 

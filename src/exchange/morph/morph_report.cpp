@@ -80,13 +80,17 @@ static void describe(MorphScan& s, Fields& fields) {
 
 static void describe(MorphExcess& e, Fields& fields) {
   fields.name("morph excess", "What is above what was wanted.");
-  fields.add("measure", e.measure,
-             {.help = "residual, parting, angle (degrees), or contradiction: data on what stays"});
+  fields.add(
+      "measure", e.measure,
+      {.help =
+           "residual, parting, angle (degrees), or contradiction: the worst datum of the surface "
+           "against what stays"});
   fields.add("surface", e.surface);
   fields.add("edge", e.edge, {.omit_empty = true});
   fields.add("place", e.place, {.help = "before", .unit = Unit::length});
   fields.add("found", e.found);
   fields.add("wanted", e.wanted);
+  fields.add("count", e.count, {.help = "of data that contradict: on that surface"});
 }
 
 void describe(MorphReport& r, Fields& fields) {

@@ -180,6 +180,19 @@ void add_regions(MovingModel& result) {
   }
 }
 
+/// An edge of a surface that cannot be followed on all of its faces keeps its place on this one.
+void hold_edge(int surface, std::size_t number, MovingModel& result) {
+  const morph::FitSurface& on = result.surfaces[static_cast<std::size_t>(surface)];
+  const TrimEdge& edge = on.region.edges[number];
+  if (on.fixed || edge.course.size() < 2) return;
+  morph::FitEdge held{.course = nullptr, .surfaces = {surface}, .name = edge.id, .held = true};
+  for (std::size_t k = 0; k < edge.course.size(); ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(edge.course.size() - 1);
+    held.samples.push_back({share, edge.points[k], {edge.course[k]}});
+  }
+  result.edges.push_back(std::move(held));
+}
+
 // Each edge once, however many surfaces it is on. One that cannot be followed on all of them, as a
 // face at it is no B-spline surface, holds those that are.
 void add_edges(MovingModel& result) {
@@ -203,9 +216,7 @@ void add_edges(MovingModel& result) {
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (!*courses[k]) {
       result.unknown_edges.push_back({ids[k], courses[k]->error().message()});
-      for (const auto& use : uses[ids[k]]) {
-        if (!result.surfaces[static_cast<std::size_t>(use.first)].fixed) result.held.push_back(use);
-      }
+      for (const auto& [surface, e] : uses[ids[k]]) hold_edge(surface, e, result);
       continue;
     }
     morph::FitEdge edge;

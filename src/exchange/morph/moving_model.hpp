@@ -29,10 +29,6 @@ struct MovingModel {
   std::vector<morph::FitEdge> edges;
   std::vector<std::string> converted;  ///< those of `written`
   std::vector<MorphException> fixed, unknown_edges;
-  /// Edges between a surface that moves and one that cannot, by position in `surfaces` and in the
-  /// edges of its region.
-  std::vector<std::pair<int, std::size_t>> held;
-
   /// Of lengths of the model.
   [[nodiscard]] std::string unit() const;
 };
