@@ -20,7 +20,7 @@ using Eigen::Vector2d;
 
 /// Follows edges over the surfaces of the faces around them.
 /// Feet of an edge's points on all faces at it, in parameters where the surface may be sculpted
-/// (they are evaluated again later), else as points, normals and shape operators, which are final.
+/// (they are evaluated again later), else as points, which are final.
 /// Searches of B-spline surfaces are made once for each, as they tabulate the surface.
 class Follower {
  public:
@@ -30,7 +30,6 @@ class Follower {
   Expected<EdgeContactFace> follow(const Face& face, const std::vector<Point>& points) {
     EdgeContactFace result;
     result.id = face.id;
-    result.same_sense = face.same_sense;
     if (points.empty()) return result;
     const SplineSurface* const on = model_.spline_under(face);
     if (on == nullptr) {
@@ -66,12 +65,7 @@ class Follower {
     const auto surface = FaceSurface::under(model_, face, edges_);
     if (!surface) return std::unexpected(surface.error());
     for (const Point& p : points) {
-      const Vector2d at = surface->foot(p).parameters;
-      result.points.push_back(surface->at(at));
-      result.normals.push_back((face.same_sense ? 1 : -1) * surface->normal(at));
-      const auto bending = surface->shape_operator(at);
-      result.bending.emplace_back((face.same_sense ? 1 : -1) *
-                                  bending.value_or(Eigen::Matrix3d::Zero()));
+      result.points.push_back(surface->at(surface->foot(p).parameters));
     }
     return {};
   }

@@ -12,14 +12,10 @@ namespace knead {
 /// the points are known, so that it can be evaluated as it is now; the others are as the file has
 /// them.
 struct EdgeContactFace {
-  std::string id;          ///< of the face, "#12"
-  std::string surface;     ///< id of the B-spline surface on which it lies; empty: another surface
-  bool same_sense = true;  ///< its normal is that of its surface
-  std::vector<Eigen::Vector2d> feet;     ///< on the B-spline surface, fractions of its domain
-  std::vector<Point> points;             ///< on another surface: the nearest points of it
-  std::vector<Point> normals;            ///< there: unit normals of the face
-  std::vector<Eigen::Matrix3d> bending;  ///< there: shape operators of the face (`check_edges`); 0
-                                         ///< where there is no tangent plane
+  std::string id;       ///< of the face, "#12"
+  std::string surface;  ///< id of the B-spline surface on which it lies; empty: another surface
+  std::vector<Eigen::Vector2d> feet;  ///< on the B-spline surface, fractions of its domain
+  std::vector<Point> points;          ///< on another surface: the nearest points of it
 };
 
 /// An edge and the faces that meet there.

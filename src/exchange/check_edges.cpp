@@ -125,6 +125,9 @@ Expected<brep::EdgeCheckReport> check_edges(const Source& source, const EdgeChec
     report.faults = brep::faults_against(*measures, *before, *thresholds);
   }
   report.edges = std::move(measures->edges);
+  if (!check.courses) {
+    for (brep::EdgeMeasures& edge : report.edges) edge.course.clear();
+  }
   report.counts = brep::counts_of(report.edges);
   report.passed = report.faults.empty();
   return report;

@@ -1,9 +1,6 @@
-#include <numbers>
-
 #include "document_regions.hpp"
 #include "info_values.hpp"
 #include "knead/session/session_info.hpp"
-#include "scene/edge_check.hpp"
 #include "scene/trims.hpp"
 
 namespace knead {
@@ -24,24 +21,6 @@ void describe(EdgesInfo& e, Fields& fields) {
              {.help = "within which faces meet, according to the file", .unit = Unit::length});
   fields.add("edges", e.edges);
   fields.add("unknown", e.unknown, {.help = "why they cannot be followed"});
-}
-
-void describe(CheckedEdgeInfo& e, Fields& fields) {
-  fields.name("checked edge info", "How the faces at an edge meet; the largest values along it.");
-  fields.add("id", e.id);
-  fields.add("faces", e.faces, {.help = "that meet there"});
-  fields.add(
-      "gap", e.gap,
-      {.help = "between them; of one face alone from the edge's curve", .unit = Unit::length});
-  fields.add("opened_gap", e.opened_gap, {.help = "as it was opened", .unit = Unit::length});
-  fields.add("angle", e.angle,
-             {.help = "between their normals, degrees; null where there is one face"});
-  fields.add("opened_angle", e.opened_angle, {.help = "as it was opened"});
-  fields.add(
-      "curvature", e.curvature,
-      {.help = "by which they differ where they are tangent, per length; null where they are not"});
-  fields.add("opened_curvature", e.opened_curvature, {.help = "as it was opened"});
-  fields.add("unknown", e.unknown, {.help = "why nothing is known of it"});
 }
 
 std::vector<EdgesInfo> edges_info(const Session& session) {
@@ -85,26 +64,6 @@ std::string edge_distance_json(const Session& session, std::size_t surface) {
   if (!region || region->edges.empty()) return "null";
   const auto middle = visible_middle(*s.current, *region);
   return middle ? json_of(middle->distance) : "null";
-}
-
-Expected<std::string> checked_edges_json(const Session& session, std::size_t surface) {
-  std::vector<CheckedEdgeInfo> infos;
-  const SessionState& state = session.state();
-  const brep::Model* model = session.document().model();
-  const std::string& id = state.surfaces[surface].id;
-  if (model == nullptr || model->find_surface(id) == nullptr) return json_of(infos);
-  const auto contacts = edge_contacts(*model, id);
-  if (!contacts) return std::unexpected(contacts.error());
-  const auto checks = check_edges(state, *contacts);
-  if (!checks) return std::unexpected(checks.error());
-  const auto degrees = [](std::optional<double> angle) {
-    return angle ? std::optional(*angle * 180 / std::numbers::pi) : std::nullopt;
-  };
-  for (const EdgeCheck& e : *checks) {
-    infos.push_back({e.id, e.faces, e.gap, e.opened_gap, degrees(e.angle), degrees(e.opened_angle),
-                     e.curvature, e.opened_curvature, e.unknown});
-  }
-  return json_of(infos);
 }
 
 }  // namespace knead

@@ -39,15 +39,6 @@ void describe(EdgesInfo& e, Fields& fields);
 /// each from where it was, as by `trim_report`.
 [[nodiscard]] std::vector<EdgesInfo> edges_info(const Session& session);
 
-struct CheckedEdgeInfo {
-  std::string id;
-  std::vector<std::string> faces;
-  double gap = 0, opened_gap = 0;
-  std::optional<double> angle, opened_angle, curvature, opened_curvature;
-  std::string unknown;
-};
-void describe(CheckedEdgeInfo& e, Fields& fields);
-
 struct ReadingInfo {
   std::string name;
   int surface = 0;

@@ -240,6 +240,19 @@ TEST_F(QueriesOfThePage, AnswerEachInItsType) {
   }
 }
 
+TEST_F(QueriesOfThePage, CheckHasTheCourseOfEdgesWhereItIsAskedFor) {
+  sheet();
+  const JsonValue plain = answer("check"), drawn = answer("check", {{"courses", true}});
+  ASSERT_EQ(plain["edges"].size(), 4);
+  ASSERT_EQ(drawn["edges"].size(), 4);
+  for (const JsonValue& edge : plain["edges"]) EXPECT_FALSE(edge.contains("course"));
+  for (const JsonValue& edge : drawn["edges"]) {
+    EXPECT_EQ(edge["course"].front(), edge["start"]);
+    EXPECT_EQ(edge["course"].back(), edge["end"]);
+  }
+  EXPECT_EQ(ask("check", {{"courses", "x"}})["error"]["where"], "courses");
+}
+
 TEST_F(QueriesOfThePage, ThatAreWrongAreErrorsThatNameTheField) {
   EXPECT_EQ(ask("state")["error"]["what"], "nothing is open");
   EXPECT_EQ(ask("beauty")["error"]["what"], "the engine answers no query \"beauty\"");

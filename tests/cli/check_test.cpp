@@ -4,6 +4,9 @@
 #include <numbers>
 #include <regex>
 
+#include "knead/exchange/file_info.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "program.hpp"
@@ -173,6 +176,21 @@ TEST_F(Check, TheCreaseIsMeasuredToOnePercent) {
     EXPECT_NEAR(edge_of(report).at("angle").at("value").get<double>(), angle, 0.01 * angle);
     EXPECT_EQ(edge_of(report).at("kind"), "G0");
   }
+}
+
+TEST_F(Check, CoursesAreThereWhereTheyAreAskedFor) {
+  const auto source = open_source(*read_file(bonnet()), "bonnet.step");
+  ASSERT_TRUE(source);
+  const auto without = check_edges(**source, {}), with = check_edges(**source, {.courses = true});
+  ASSERT_TRUE(without && with);
+  EXPECT_EQ(brep::check_json(*without).find("\"course\""), std::string::npos);
+  const Json report = Json::parse(brep::check_json(*with));
+  for (const Json& edge : report.at("edges")) {
+    ASSERT_GE(edge.at("course").size(), 2U) << edge.at("id");
+    EXPECT_EQ(edge.at("course").front(), edge.at("start"));
+    EXPECT_EQ(edge.at("course").back(), edge.at("end"));
+  }
+  EXPECT_EQ(against(report, Json::parse(brep::check_schema()), "report"), "");
 }
 
 TEST_F(Check, JsonIsAsItsSchemaSays) {

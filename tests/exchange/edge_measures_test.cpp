@@ -55,6 +55,7 @@ TEST(EdgeMeasures, PlanesWithAGapAndAnAngle) {
         EXPECT_NEAR(m.length, 1, 1e-12);
         EXPECT_EQ(m.faces.size(), 2U);
         EXPECT_EQ(m.gap->at.parameters.size(), 2U);
+        EXPECT_EQ(m.course, (std::vector{m.start, m.end})) << "straight";
       }
     }
   }

@@ -52,6 +52,23 @@ TEST(EdgeMeasures, ASphereOnACylinderBendsAsItself) {
   EXPECT_EQ(m.kind, EdgeKind::g1);
 }
 
+TEST(EdgeMeasures, TheCourseOfACircleIsNearIt) {
+  const double radius = 4;
+  StepBuilder b;
+  const int sphere = upright(b, "SPHERICAL_SURFACE", 0, StepBuilder::real(radius));
+  const auto m = around(b, radius, sphere, b.plane({0, 0, 0}, {0, 0, -1}, {1, 0, 0}));
+  ASSERT_GT(m.course.size(), 3U);
+  EXPECT_EQ(m.course.front(), m.start);
+  double length = 0;
+  for (std::size_t k = 0; k + 1 < m.course.size(); ++k) {
+    const auto &p = m.course[k], &q = m.course[k + 1];
+    EXPECT_NEAR(std::hypot(p[0], p[1]), radius, 1e-12);
+    EXPECT_GE(std::hypot(p[0] + q[0], p[1] + q[1]) / 2, (1 - 1.001e-3) * radius);
+    length += std::hypot(p[0] - q[0], p[1] - q[1]);
+  }
+  EXPECT_NEAR(length, m.length, 1e-3 * m.length);
+}
+
 TEST(EdgeMeasures, AProfileThatTurnsIsATorus) {
   const double minor = 2;
   StepBuilder b;

@@ -1,4 +1,12 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { Engine } from '@knead/engine';
 import { Acts } from '@studio/engine/acts';
+import type { Command } from '@studio/engine/session_types';
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
 
 const execute = (name: string, join = false) => ({ kind: 'execute' as const, commands: [{ do: 'select' as const, surface: name }], join });
 const names = (acts: Acts) => acts.toRepeat.acts.map(({ commands }) => (commands[0] as { surface: string }).surface);
@@ -59,5 +67,47 @@ describe('what an engine has done since the last copy', () => {
     acts.lose();
     acts.lose();
     expect([names(acts), acts.toRepeat.all]).toEqual([[], false]);
+  });
+});
+
+describe('what may have changed a shape', () => {
+  const shapesAfter = (...commands: Command[]) => {
+    const acts = new Acts();
+    acts.settled({ kind: 'execute', commands, join: false }, true);
+    return acts.shapes;
+  };
+  const still: Command[] = [
+    { do: 'material', mass: 2 }, { do: 'pin', at: [0.5, 0.5] }, { do: 'freeze', region: [[0.4, 0.6], [0.4, 0.6]] }, { do: 'load', gravity: [0, 0, -1] }, { do: 'limit', distance: 50 },
+    { do: 'measure', name: 'm', at: [0.5, 0.5] }, { do: 'move', tool: 'ball', by: [1, 0, 0] }, { do: 'turn', tool: 'ball', axis: [1, 0, 0], angle: 10 },
+    { do: 'scale', tool: 'ball', by: [1, 2, 1] }, { do: 'edit_tool', name: 'ball', stiffness: 10 }, { do: 'lock', surfaces: ['#285'], locked: true }, { do: 'select', surface: '#285' },
+  ];
+
+  it('is nothing of what leaves the saved file as it is', async () => {
+    const engine = await Engine.load(readFileSync(join(root, 'web/src/engine/knead_studio.wasm')));
+    engine.query('open', { file: new Uint8Array(readFileSync(join(root, 'samples/bonnet.step'))), name: 'bonnet.step' });
+    engine.query('act', { commands: [{ do: 'select', surface: '#285' }, { do: 'hold', mode: 'open' }, { do: 'tool', name: 'ball', radius: 100, at: [0.5, 0.1] }, { do: 'step', count: 2 }] });
+    const before = engine.query('save').file;
+    for (const command of still) {
+      if (command.do === 'select') engine.query('act', { commands: [{ do: 'lock', surfaces: ['#285'], locked: false }] });
+      engine.query('act', { commands: [command] });
+      expect(Buffer.compare(engine.query('save').file, before), command.do).toBe(0);
+      expect(shapesAfter(command), command.do).toBe(0);
+    }
+    engine.query('act', { commands: [{ do: 'step', count: 1 }] });
+    expect(Buffer.compare(engine.query('save').file, before)).not.toBe(0);
+  });
+
+  it('is everything else, and steps that are played', () => {
+    for (const command of [{ do: 'step' }, { do: 'undo' }, { do: 'points', which: [0], by: [0, 0, 1] }, { do: 'hold', mode: 'open' }, { do: 'evolve', mode: 'static' }] as Command[])
+      expect(shapesAfter(command), command.do).toBe(1);
+    expect(shapesAfter({ do: 'select', surface: '#285' }, { do: 'step' } as Command)).toBe(1);
+    const acts = new Acts();
+    acts.gap();
+    expect(acts.shapes).toBe(1);
+    const counts: number[] = [];
+    acts.onShapes = () => counts.push(acts.shapes);
+    acts.settled(execute('#1'), true);
+    acts.settled({ kind: 'execute', commands: [{ do: 'undo' }], join: false }, true);
+    expect(counts).toEqual([2]);
   });
 });

@@ -65,3 +65,11 @@ it('hands arrays out as copies, and bytes over beside the JSON', async () => {
   expect(engine.query('state').surfaces).toEqual(state.surfaces);
   expect(engine.query('script_opening')).toMatchObject([{ do: 'hold', mode: 'position', all: true }]);
 });
+
+it('checks edges with points along them where they are asked for', async () => {
+  const engine = await Engine.load(wasm);
+  engine.query('fresh', { name: 'sheet' });
+  engine.query('act', { commands: sheet });
+  expect(engine.query('check').edges.map(({ course }) => course)).toEqual(Array(4).fill(undefined));
+  for (const { course, start, end } of engine.query('check', { courses: true }).edges) expect([course![0], course!.at(-1)]).toEqual([start, end]);
+});

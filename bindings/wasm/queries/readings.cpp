@@ -6,11 +6,6 @@
 namespace knead::studio {
 namespace {
 
-Expected<std::string> checked_edges(Session& session, int number) {
-  if (!has_surface(session, number)) return "[]";
-  return checked_edges_json(session, static_cast<std::size_t>(number));
-}
-
 Expected<std::string> edge_distance(Session& session, int number) {
   if (!has_surface(session, number)) return "null";
   return edge_distance_json(session, static_cast<std::size_t>(number));
@@ -55,9 +50,7 @@ Expected<std::string> ask(Session& session, const FaceReadingQuery& q) {
 }  // namespace
 
 std::vector<Query> reading_queries() {
-  return {query<std::vector<CheckedEdgeInfo>, checked_edges>(
-              "checked_edges", "How the faces on a surface meet their neighbours."),
-          query<std::optional<double>, edge_distance>(
+  return {query<std::optional<double>, edge_distance>(
               "edge_distance",
               "How far the visible middle of a surface is from the nearest edge of a face, in "
               "units of the file; null where no edges are known."),

@@ -70,6 +70,9 @@ struct EdgeMeasures {
   std::optional<EdgeFigure> curvature = {},
                             relative_curvature = {};  ///< none: its faces are nowhere tangent
   int samples = 0;                                    ///< points of the edge that were looked at
+  /// Points along it for drawing, from its start to its end: chords are within 1e-3 of the radius,
+  /// or of half the extent of a curve that is no conic.
+  std::vector<std::array<double, 3>> course = {};
 };
 
 /// Edges at which faces meet at less than this all along, degrees, are meant to be smooth: joints

@@ -156,6 +156,7 @@ struct EdgeCheckRequest {
   std::string grade = {};
   std::vector<std::string> edges = {};  ///< only these, by id; empty: all
   std::string unit = {};  ///< of the coordinates, for a class, where the file does not say it
+  bool courses = false;   ///< with points along the edges, for drawing
 };
 
 /// How the faces of a file meet at its edges, and what of that exceeds a threshold; with `against`,

@@ -22,11 +22,6 @@ class TypeScript;
 /// of `visible_middle`.
 [[nodiscard]] std::string edge_distance_json(const Session& session, std::size_t surface);
 
-/// How the faces on a surface meet their neighbours, [{id, faces, gap, opened_gap, angle,
-/// opened_angle, curvature, opened_curvature, unknown}, …], as measured by `check_edges`; angles in
-/// degrees. Without faces an empty list. Errors: those of `edge_contacts`.
-[[nodiscard]] Expected<std::string> checked_edges_json(const Session& session, std::size_t surface);
-
 /// What is measured at a point of a surface, in fractions of its domain: {name, surface, at, point,
 /// displacement, normal, curvature}, as by `read_probe`. Errors: a point outside the domain
 /// (input).

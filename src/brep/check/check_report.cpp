@@ -62,6 +62,8 @@ static void describe(EdgeMeasures& e, Fields& fields) {
   fields.add("relative_curvature", e.relative_curvature,
              {.help = "difference over the sum of their sizes, percent"});
   fields.add("samples", e.samples, {.help = "points that were looked at"});
+  fields.add("course", e.course,
+             {.help = "points along it, for drawing", .unit = Unit::length, .omit_empty = true});
 }
 
 static void describe(EdgeThresholds& t, Fields& fields) {

@@ -20,6 +20,7 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double least_tolerance = 1e-6;  // of gaps, of the size
 constexpr double least_share = 0.02;      // of its length that a partly smooth edge is smooth on
 constexpr int box_steps = 8;
+constexpr double course_chord = 1e-3;  // of the radius: how far chords of a course are from it
 constexpr double meeting = 5e-5;  // of the size: edges of one face each that come so near meet …
 constexpr double parted = 10;     // … as long as they are not so many times as far apart
 
@@ -248,10 +249,19 @@ class Measurer {
       result.length = 0;
       return result;
     }
+    result.course = course_of(piece);
     fill(result, walked, e, *sides);
     if (item.part && item.part->several && result.kind != EdgeKind::unknown)
       result.kind = EdgeKind::non_manifold;
     return result;
+  }
+
+  static std::vector<std::array<double, 3>> course_of(const EdgePiece& piece) {
+    std::vector<std::array<double, 3>> course;
+    for (const double t : piece.curve.subdivided(piece.from, piece.to, {course_chord}))
+      course.push_back(array_of(piece.curve.at(t)));
+    if (piece.backwards) std::ranges::reverse(course);
+    return course;
   }
 
   /// The face is to the left of its bound, seen from the tip of its normal; the edge may run

@@ -29,6 +29,7 @@ void describe(CheckQuery& q, Fields& fields) {
   fields.add("unit", check.unit,
              {.help = "of the coordinates, for a class, where the file does not say it",
               .omit_empty = true});
+  fields.add("courses", check.courses, {.help = "with points along the edges, for drawing"});
   fields.add("against", q.against,
              {.help = "an earlier version of the file: only what is worse by more than the "
                       "thresholds counts"});

@@ -8,6 +8,8 @@ import '../view/edges.css';
 import { busyBar } from '../panels/busy';
 import { notices, toolRail, topBar } from '../panels/chrome';
 import { h } from '../panels/dom';
+import { EdgeCheckup } from '../panels/edge_checkup';
+import { edgeLabels, edgeLegend } from '../panels/edge_legend';
 import { listenToEdges } from '../panels/edge_popover';
 import { openScene, scenes } from '../panels/gallery';
 import { heldBadge } from '../panels/held_badge';
@@ -35,18 +37,19 @@ import { workOffline } from './offline/register';
 import { Studio } from './studio';
 
 const app = new Studio();
+const checkup = new EdgeCheckup(app);
 
 document.getElementById('studio')!.append(
   topBar(app),
   toolRail(app),
-  h('main', { class: 'stage' }, app.viewer.element, legendCard(app), busyBar(app), notices(app)),
+  h('main', { class: 'stage' }, app.viewer.element, legendCard(app), edgeLegend(app, checkup), busyBar(app), notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
-    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), assemblyPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), checkPanel(app),
+    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), assemblyPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), checkPanel(app, checkup),
     viewsPanel(app), displayPanel(app), analysisPanel(app), historyPanel(app)),
   statusBar(app),
 );
 listenToKeys(app);
-app.viewer.element.append(readingLabels(app), heldBadge(app), viewCube(app), sectionHandle(app));
+app.viewer.element.append(readingLabels(app), edgeLabels(app, checkup), heldBadge(app), viewCube(app), sectionHandle(app));
 listenToQuestions(app);
 listenToEdges(app);
 

@@ -29,6 +29,9 @@ export class Documents {
     this.keeper = new Keeper(host, this);
   }
 
+  /** The bytes of the CAD file that was opened, unpacked; null where there is none. */
+  opened = async (): Promise<Uint8Array | null> => (this.file?.kind === 'step' ? plain(this.file.bytes) : null);
+
   /** Saves a Knead document; false where nothing was saved. */
   saveDocument: () => Promise<boolean> = () => Promise.resolve(false);
   private disk: { source: Source; place: OnDisk } | null = null;

@@ -1,7 +1,14 @@
 import type { Request } from './protocol';
+import type { Command } from './session_types';
 
 /** Commands that the engine has been given at once. */
 export type Act = Extract<Request, { kind: 'execute' }>;
+
+/**
+ * Commands after which every shape, and what is saved of it, is as before. Not among them: what holds or frees edges of faces,
+ * which decides whether they go along; `evolve`, which may run; `remove`, after which a plastic shape yields.
+ */
+const shapeless = new Set<Command['do']>(['select', 'lock', 'material', 'pin', 'freeze', 'load', 'limit', 'measure', 'move', 'turn', 'scale', 'edit_tool']);
 
 /**
  * What the engine has done since the last copy of the session: an engine that goes on from that copy does it again. Steps of
@@ -10,16 +17,24 @@ export type Act = Extract<Request, { kind: 'execute' }>;
 export class Acts {
   /** Counts everything that can be in a copy. */
   mark = 0;
+  /** Counts what may have changed a shape. */
+  shapes = 0;
+  /** Something was done that may have changed a shape; it was drawn before. */
+  onShapes: () => void = () => {};
   private since: { mark: number; act: Act | null }[] = [];
   private lost: typeof this.since | null = null;
 
   /** A request was answered; what failed has changed nothing, and fails again. */
   settled(request: Request, done: boolean): void {
+    const shaping = request.kind === 'execute' && request.commands.some((c) => !shapeless.has(c.do));
+    if (shaping) ++this.shapes;
     if (request.kind === 'execute') this.since.push({ mark: ++this.mark, act: request });
     else if (done && ['open', 'fresh', 'restore'].includes(request.kind)) this.since = []; // another session
+    if (shaping) this.onShapes();
   }
 
   gap(): void {
+    ++this.shapes;
     if (this.since.at(-1)?.act !== null) this.since.push({ mark: ++this.mark, act: null });
     else this.since.at(-1)!.mark = ++this.mark;
   }

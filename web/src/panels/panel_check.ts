@@ -1,110 +1,121 @@
-import { allowedGap, brokeSmooth, type CheckedEdge, type EdgeOrder, edgesInWords, gapes, ordered } from '../document/edge_checks';
-import { format } from '../document/units';
-import { EdgeMark } from '../tools/edge_mark';
-import { continuityOf, continuityTitles, type Edge } from '../tools/held';
+import type { EdgeMeasures } from '@knead/generated';
+import { type EdgeClass, type EdgeOrder, figureOf, isFault, limitOf, type Measure, measures, ordered, reportJson, shown, verdict } from '../document/edge_checks';
+import { download } from '../document/download';
+import { format, parseLength, parseNumber } from '../document/units';
 import type { App } from './app';
-import { h } from './dom';
-import { note, panel } from './panel';
+import { field, h, select } from './dom';
+import type { EdgeCheckup } from './edge_checkup';
+import { numberInput } from './number_input';
+import { panel, row } from './panel';
 
 const columns: [EdgeOrder, string, string][] = [
-  ['id', 'Edge', 'By the number in the file'], ['gap', 'Gap', 'Between the faces that meet there, the widest along the edge'],
+  ['id', 'Edge', 'In the order of the file'],
+  ['gap', 'Gap', 'Between the faces that meet there, or between them and the curve of the edge: the widest along it'],
   ['angle', 'Angle', 'Between the normals of the faces, the largest along the edge; 0° is smooth'],
-  ['curvature', 'Bend', 'By which the curvatures of the faces differ where they are smooth, the largest along the edge; 0 is continuous curvature'],
+  ['curvature', 'Curv.', 'Difference of the curvatures across the edge over their sum, percent, where the faces are tangent'],
 ];
+const classes: [EdgeClass, string][] = [['none', 'Not judged'], ['a', 'A: 0.01 mm, 0.1°'], ['b', 'B: 0.02 mm, 0.2°'], ['c', 'C: 0.05 mm, 0.5°'], ['own', 'Own limits']];
+const names: Record<Measure, string> = { gap: 'Gap', angle: 'Angle', curvature: 'Curvature' };
+const none = Infinity; // no limit
+const most: Record<Measure, number> = { gap: none, angle: 5, curvature: 100 }; // limits
+const listed = 200; // rows, until more are asked for
 
-/** How the faces at the edges of the selected surfaces meet: a table, the worst first. A click on a row leads to the edge. */
-export function checkPanel(app: App): HTMLElement {
-  const mark = new EdgeMark(app.viewer);
-  let edges: CheckedEdge[] | null = null;
-  let failed = '';
-  let of = '';
-  let order: EdgeOrder = 'worst';
-  let chosen: string | null = null;
-  let courses = new Map<string, readonly number[]>();
-
-  const surfaces = (a: App) => (a.viewer.waiting ? [] : (a.state?.selection ?? []).filter((k) => (a.state!.surfaces[k]?.faces ?? 0) > 0));
-  const busy = (a: App) => a.hand.active || a.playing();
-  /** Asks again only when something has changed, and nothing is under way. */
-  const ask = async () => {
-    const now = `${app.documents.sessions} ${app.changes} ${surfaces(app).join()}`;
-    if (now === of || busy(app)) return;
-    of = now;
-    try {
-      const found = await Promise.all(surfaces(app).map(async (surface) => (await app.client.query('checked_edges', { surface })).map((e) => ({ ...e, surface }))));
-      if (of !== now) return;
-      [edges, failed] = [found.flat(), ''];
-    } catch (error) {
-      if (of !== now) return;
-      [edges, failed] = [[], error instanceof Error ? error.message : String(error)];
+/** How the faces of the whole document meet at its edges: verdict, table and limits. A click on a row leads to the edge. */
+export function checkPanel(app: App, checkup: EdgeCheckup): HTMLElement {
+  let all = false;
+  let scrolled = 0;
+  let typing = false; // what comes from the engine meanwhile must not take the field away
+  let last: unknown[] = [];
+  const key = () => (typing ? last : (last = [checkup.version, checkup.stale, all, app.viewer.unit]));
+  const more = () => {
+    all = true;
+    checkup.set({});
+  };
+  const table = (rows: readonly EdgeMeasures[]): HTMLElement => {
+    const head = columns.map(([by, text, about]) => h('th', { scope: 'col', aria: { sort: checkup.order === by ? (by === 'id' ? 'ascending' : 'descending') : 'none' } },
+      h('button', { type: 'button', title: about, aria: { label: `Sort by ${by === 'id' ? 'edge' : by}` }, onclick: () =>
+        checkup.set({ order: checkup.order === by ? 'worst' : by }) }, text)));
+    const element = h('div', { class: 'edges-frame', tabIndex: 0, role: 'region', aria: { label: 'Table of edges' } },
+      h('table', { class: 'edges', aria: { label: 'Edges of the document' } }, h('thead', {}, h('tr', {}, ...head)),
+        h('tbody', {}, ...rows.slice(0, all ? rows.length : listed).map((e) => rowOf(checkup, e)))));
+    element.addEventListener('scroll', () => (scrolled = element.scrollTop));
+    requestAnimationFrame(() => (element.scrollTop = scrolled));
+    return element;
+  };
+  const element = panel(app, 'Edges', key, () => {
+    const { report } = checkup;
+    const parts: (Node | null)[] = [h('p', { class: 'note verdict', aria: { live: 'polite' }, data: { verdict: verdictOf(checkup) } },
+      checkup.failed ? `The edges cannot be measured: ${checkup.failed}` : report ? verdict(report, checkup.judging.grade, checkup.worse) : 'Measuring the edges of the document …')];
+    if (checkup.stale || checkup.failed) {
+      parts.push(row(h('span', { class: 'note stale' }, checkup.failed ? '' : 'Measured before the last change.'),
+        h('button', { class: 'button small', type: 'button', disabled: checkup.busy, onclick: () => void checkup.measure() }, 'Measure again')));
     }
+    parts.push(...limitFields(app, checkup));
+    if (!report || report.edges.length === 0) return parts;
+    const rows = ordered(report, checkup.order, checkup.kind);
+    const kinds: [string, string][] = [['all', `All ${report.edges.length}`], ...report.counts.map(({ kind, count }): [string, string] => [kind, `${kind} ${count}`])];
+    const colours: [Measure | 'none', string][] = [['none', 'Nothing'], ...measures.map((m): [Measure, string] => [m, names[m]])];
+    parts.push(
+      field('Kind', select('Kind of edges', kinds, checkup.kind, (kind) => checkup.set({ kind }))),
+      field('Colour by', select('Colour edges by', colours, checkup.colour ?? 'none', (to) => checkup.set({ colour: to === 'none' ? null : to })), 'In the view, from the limit to the largest value'),
+      table(rows),
+      rows.length > listed && !all ? h('button', { class: 'button small', type: 'button', onclick: more }, `Show all ${rows.length} rows`) : null,
+      row(h('button', { class: 'button small', type: 'button', title: 'As knead check --json writes it', onclick: () =>
+        download(reportJson(report), `${app.documents.name.replace(/\.[^.]*$/, '')}-edges.json`, 'application/json') }, 'Download report')));
+    return parts;
+  }, false, (a) => (a.state?.surfaces.length ?? 0) > 0 || a.viewer.context.pieces.length > 0);
+  const look = () => (checkup.shown = (element as HTMLDetailsElement).open && !element.hidden);
+  element.addEventListener('toggle', () => {
+    look();
     app.changed();
-  };
-  const unmark = () => {
-    chosen = null;
-    mark.hide();
-  };
-  const lead = async (edge: CheckedEdge) => {
-    if (chosen === edge.id) unmark();
-    else {
-      chosen = edge.id;
-      const { id } = app.state!.surfaces[edge.surface]!;
-      const key = `${id} ${edge.id}`;
-      if (!courses.has(key)) {
-        for (const e of await app.client.query('face_edges', { surface: edge.surface }).catch(() => [])) courses.set(`${id} ${e.id}`, e.course);
-      }
-      if (chosen !== edge.id) return; // another click since
-      mark.show(id, courses.get(key) ?? []);
-      mark.zoom();
-    }
-    app.changed();
-  };
-  let session = -1;
-  const element = panel(app, 'Edges', (a) => [edges, failed, order, chosen, a.state?.surfaces.map((s) => s.constraints), surfaces(a)], () => {
-    if (surfaces(app).length === 0) return [note('Select a surface with faces.')];
-    if (failed) return [note(`The edges cannot be checked: ${failed}`)];
-    if (!edges) return [note('…')];
-    const unit = app.viewer.unit;
-    const allowed = allowedGap(unit);
-    const list = ordered(edges, order, allowed);
-    const head = columns.map(([by, text, about]) => h('th', { scope: 'col', aria: { sort: order === by ? 'descending' : 'none' } },
-      h('button', { type: 'button', title: about, aria: { label: `Sort by ${text.toLowerCase()}` }, onclick: () => {
-        order = order === by ? 'worst' : by;
-        app.changed();
-      } }, text)));
-    return [
-      h('p', { class: 'note', aria: { live: 'polite' } }, edgesInWords(list, unit)),
-      h('table', { class: 'edges', aria: { label: 'Edges of the selected faces' } },
-        h('thead', {}, h('tr', {}, ...head, h('th', { scope: 'col' }, 'Held'))),
-        h('tbody', {}, ...list.map((e) => rowOf(e, allowed)))),
-    ];
-  }, false, (a) => (a.state?.surfaces.some((s) => s.faces > 0) ?? false));
-
-  const rowOf = (e: CheckedEdge, allowed: number): HTMLElement => {
-    const info = app.state!.surfaces[e.surface]!;
-    const faces = `${e.faces.length > 1 ? 'between' : 'of'} ${e.faces.join(', ')}`;
-    const was = (text: string, value: number | null) => (value === null ? '' : `As opened ${text}`);
-    const gap = h('td', { class: gapes(e, allowed) ? 'wrong' : '', title: was(`${format(e.opened_gap)}`, e.opened_gap) },
-      e.unknown || e.faces.length < 2 ? '–' : format(e.gap < 1e-6 * allowed ? 0 : e.gap));
-    const angle = h('td', { class: brokeSmooth(e) ? 'wrong' : '', title: was(`${format(e.opened_angle ?? 0)}°`, e.opened_angle) },
-      e.angle === null ? '–' : `${e.angle < 1e-6 ? '0' : format(e.angle)}°`);
-    const curvature = h('td', { title: was(`${format(e.opened_curvature ?? 0)} per ${app.viewer.unit}`, e.opened_curvature) },
-      e.curvature === null ? '–' : format(e.curvature < 1e-9 / app.diagonal ? 0 : e.curvature));
-    return h('tr', { class: e.id === chosen ? 'on' : '', data: { edge: e.id } },
-      h('th', { scope: 'row' }, h('button', { type: 'button', title: e.unknown || `Edge ${e.id} ${faces}: zoom to it`,
-        aria: { label: `Edge ${e.id} ${faces}`, pressed: String(e.id === chosen) }, onclick: () => void lead(e) }, e.id, h('small', {}, e.faces.join(' ')))),
-      gap, angle, curvature, h('td', {}, continuityTitles[continuityOf(info, e.id as Edge)]));
-  };
-  app.onChange.push(() => {
-    if (session !== app.documents.sessions) {
-      session = app.documents.sessions;
-      courses = new Map();
-      edges = null;
-      unmark();
-    }
-    mark.refresh();
-    if ((element as HTMLDetailsElement).open && !element.hidden) void ask();
-    else if (chosen) unmark();
   });
-  element.addEventListener('toggle', () => app.changed());
+  element.addEventListener('input', ({ target }) => (typing = target instanceof HTMLInputElement));
+  element.addEventListener('focusout', () => {
+    if (!typing) return;
+    typing = false;
+    app.changed();
+  });
+  app.onChange.push(look);
   return element;
+}
+
+function verdictOf({ report, failed }: EdgeCheckup): string {
+  if (!report || failed || measures.every((m) => report.thresholds[m] === null)) return '';
+  return report.passed ? 'passed' : 'failed';
+}
+
+/** A class or limits of one's own; and, where the file has no unit, what its lengths are. */
+function limitFields(app: App, checkup: EdgeCheckup): (Node | null)[] {
+  const { judging, report } = checkup;
+  const { unit } = app.viewer;
+  const number = (measure: Measure, value: number | null) => field(measure === 'gap' ? `Gap, ${unit || 'length'}` : measure === 'angle' ? 'Angle, °' : 'Curv., %',
+    numberInput(`Limit of ${names[measure].toLowerCase()}`, value, (x) => {
+      if (x < 0 || (x > most[measure] && x < none)) return `A limit from 0${most[measure] < none ? ` to ${most[measure]}` : ''}, or nothing`;
+      return void checkup.judge({ [measure]: x === none ? null : x });
+    }, (text) => (text.trim() === '' ? none : measure === 'gap' ? parseLength(text, unit) : parseNumber(text)), 'none'));
+  const choose = (grade: EdgeClass) => checkup.judge(grade === 'own' && report
+    ? { grade, gap: judging.gap ?? limitOf(report, 'gap'), angle: judging.angle ?? limitOf(report, 'angle') } : { grade });
+  const unknown = (unit === '' || unit === 'unknown') && ['a', 'b', 'c'].includes(judging.grade);
+  return [
+    field('Limits', select('Limits of edges', classes, judging.grade, choose)),
+    unknown ? field('Lengths in', select('Unit of lengths', ['mm', 'cm', 'm', 'inch', 'foot'].map((u) => [u, u] as [string, string]), judging.unit, (to) => checkup.judge({ unit: to })), 'The file does not say its unit') : null,
+    ...(judging.grade === 'own' ? [number('gap', judging.gap), number('angle', judging.angle)] : []),
+    judging.grade === 'none' ? null : number('curvature', judging.curvature),
+  ];
+}
+
+function rowOf(checkup: EdgeCheckup, e: EdgeMeasures): HTMLElement {
+  const report = checkup.report!;
+  const faces = e.faces.length > 0 ? `${e.faces.length > 1 ? 'between' : 'of'} ${e.faces.join(', ')}` : '';
+  const cells = measures.map((m) => {
+    const figure = figureOf(e, m), wrong = isFault(report, e, m), worse = checkup.isWorse(e.id, m);
+    const at = figure ? `at (${figure.at.point.map(format).join(', ')})` : '';
+    return h('td', { class: wrong ? 'wrong' : '', title: [at, worse ? 'worse than as opened' : ''].filter(Boolean).join(', ') },
+      `${shown(report, e, m)}${figure && m !== 'gap' ? { angle: '°', curvature: '%' }[m] : ''}`, worse && h('span', { class: 'worse', role: 'img', aria: { label: 'worse than as opened' } }, '▲'));
+  });
+  const label = [`Edge ${e.id}`, e.kind, faces].filter(Boolean).join(', ');
+  return h('tr', { class: e.id === checkup.chosen ? 'on' : '', data: { edge: e.id } },
+    h('th', { scope: 'row' }, h('button', { type: 'button', title: e.reason || `${label}: zoom to it`, aria: { label, pressed: String(e.id === checkup.chosen) },
+      onclick: () => checkup.mark(e) }, e.id, h('small', {}, e.kind))),
+    ...cells);
 }
