@@ -132,15 +132,17 @@ it('answers every query of a document, as the program does', async () => {
 
 it('moves a document after data, to a file', async () => {
   const doc = await open(bonnet(), { name: 'bonnet.step' });
-  const { file, report } = doc.morph({ space: '0; 0; 20*sin(x/500)', scale: -0.5 });
+  const { file, report } = doc.morphed({ space: '0; 0; 20*sin(x/500)', scale: -0.5 });
   expect(report).toMatchObject({ scale: -0.5, unit: 'mm', left_out: 0, fixed: [] });
   expect(report.after.largest).toBeLessThan(report.tolerance);
   expect(doc.save()).toEqual(bonnet());
+  expect(doc.morph({ space: '0; 0; 20*sin(x/500)', scale: -0.5 }).save()).toEqual(file);
+  expect(doc.undo().save()).toEqual(bonnet());
   const moved = await open(file, { name: 'moved.step' });
   expect(moved.check({ gap: 1e-2, against: bonnet() }).passed).toBe(true);
   const lines = new TextEncoder().encode('0 0 0 0 0 1\n');
-  expect(thrown(() => doc.morph({ space: '0;0;0', vectors: lines }))).toMatchObject({ where: 'vectors', kind: 'usage' });
-  expect(thrown(() => doc.morph())).toMatchObject({ what: 'nothing says where the surfaces should go' });
+  expect(thrown(() => doc.morphed({ space: '0;0;0', vectors: lines }))).toMatchObject({ where: 'vectors', kind: 'usage' });
+  expect(thrown(() => doc.morphed())).toMatchObject({ what: 'nothing says where the surfaces should go' });
 });
 
 it('compresses as the file was, or as a name says', async () => {

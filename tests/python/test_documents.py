@@ -104,14 +104,14 @@ class Queries(unittest.TestCase):
             doc.check(gap=1, against=b"no file")
         self.assertEqual(sheet().check()["counts"], [{"kind": "open", "count": 4}])
 
-    def test_morph_is_what_the_program_writes(self):
+    def test_morphed_is_what_the_program_writes(self):
         bend, opened = "0; 0; 20*sin(x/500)", pathlib.Path(BONNET).read_bytes()
         with tempfile.TemporaryDirectory() as folder:
             file, report = pathlib.Path(folder, "out.step"), pathlib.Path(folder, "report.json")
             subprocess.run([PROGRAMS[0], "morph", BONNET, "-o", file, "--report", report, "--space", bend, "--scale", "-0.5"],
                            check=True, capture_output=True)
             doc = knead.open(BONNET)
-            answer = doc.morph(space=bend, scale=-0.5)
+            answer = doc.morphed(space=bend, scale=-0.5)
             self.assertEqual(answer["file"], file.read_bytes())
             said = json.loads(report.read_text())
             del said["file"]
@@ -119,9 +119,11 @@ class Queries(unittest.TestCase):
                 del said[field]
             self.assertLessEqual(said.items(), answer["report"].items())
             self.assertEqual(doc.to_bytes(), opened)
+            self.assertEqual(doc.morph(space=bend, scale=-0.5).to_bytes(), answer["file"])
+            self.assertEqual(doc.undo().to_bytes(), opened)
             self.assertTrue(knead.open(answer["file"], name="out.step").check(gap=1e-2, against=opened)["passed"])
 
-    def test_morph_takes_data_in_all_ways(self):
+    def test_morphed_takes_data_in_all_ways(self):
         mesh = knead.open(BONNET).export
         with tempfile.TemporaryDirectory() as folder:
             obj = pathlib.Path(folder, "bonnet.obj")
@@ -135,17 +137,17 @@ class Queries(unittest.TestCase):
                     line = f"v {x!r} {y!r} {z + 3!r}"
                 moved.append(line)
             doc = knead.open(BONNET)
-            answer = doc.morph(from_=obj, to=io.BytesIO("\n".join(moved).encode()))
+            answer = doc.morphed(from_=obj, to=io.BytesIO("\n".join(moved).encode()))
             self.assertLess(answer["report"]["after"]["largest"], 1e-9)
             self.assertAlmostEqual(answer["report"]["before"]["mean"], 3, 9)
 
-    def test_errors_of_morph_name_the_field(self):
+    def test_errors_of_morphed_name_the_field(self):
         doc = knead.open(BONNET)
         for fields, where in (({}, "vectors"), ({"space": "0;0;0", "vectors": b"1 2 3 4 5 6"}, "vectors"), ({"from_": b"1 2 3"}, "to"),
                               ({"space": "0;0"}, "space"), ({"space": "0;0;1", "refine": 0}, "refine"),
                               ({"space": "0;0;1", "keep": ["#1"]}, "keep"), ({"vectors": b"1 2 3 4 5 x"}, "vectors")):
             with self.assertRaises(knead.Error) as refused:
-                doc.morph(**fields)
+                doc.morphed(**fields)
             self.assertIn(where, str(refused.exception))
 
 

@@ -102,9 +102,8 @@ TEST(MorphCommand, DataAreTextOrBytes) {
   // "0 0 0 0 0 0.1\n1 0 0 0 0 0.1\n2 1 0 0 0 0.1\n"
   ASSERT_TRUE(run_on(text, R"({"do":"morph",
       "vectors":"0 0 0 0 0 0.1\n1 0 0 0 0 0.1\n2 1 0 0 0 0.1\n"})"));
-  ASSERT_TRUE(run_on(
-      bytes,
-      R"({"do":"morph","vectors":"base64:MCAwIDAgMCAwIDAuMQoxIDAgMCAwIDAgMC4xCjIgMSAwIDAgMCAwLjEK"})"));
+  ASSERT_TRUE(run_on(bytes, R"({"do":"morph",
+      "vectors":"base64:MCAwIDAgMCAwIDAuMQoxIDAgMCAwIDAgMC4xCjIgMSAwIDAgMCAwLjEK"})"));
   EXPECT_GT(text.largest_displacement(0), 0.09);
   EXPECT_EQ(*text.save(), *bytes.save());
 }

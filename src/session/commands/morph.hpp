@@ -1,7 +1,7 @@
 #pragma once
 
 #include "../command_fields.hpp"
-#include "../morph_fields.hpp"
+#include "../queries/morph_fields.hpp"
 
 namespace knead {
 

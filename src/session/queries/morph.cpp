@@ -8,17 +8,17 @@
 namespace knead {
 
 void describe(MorphAnswer& a, Fields& fields) {
-  fields.name("morph answer", "The file that has followed data, and the report of it.");
+  fields.name("morphed answer", "The file that has followed data, and the report of it.");
   fields.add("file", a.file);
   fields.add("report", a.report, {.help = "docs/morph.md"});
 }
 
 void describe(MorphQuery& q, Fields& fields) {
   fields.name(
-      "morph",
+      "morphed",
       "The document as it would be saved with all its faces moved so that they follow data: "
       "displacements, a mesh before and after, a scan, or a map of space (docs/morph.md). The "
-      "document itself stays.");
+      "document itself stays: `morph` moves it.");
   fields.add("space", q.request.space,
              {.help = "the displacement as three formulas of x, y, z: \"0; 0; 0.01*x^2\"",
               .omit_empty = true});

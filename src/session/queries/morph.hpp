@@ -2,7 +2,7 @@
 
 #include "describe/bytes.hpp"
 #include "knead/session/session.hpp"
-#include "session/morph_fields.hpp"
+#include "morph_fields.hpp"
 
 namespace knead {
 
