@@ -127,6 +127,7 @@ Expected<void> place_data(std::span<const Datum> data, FitProblem& problem) {
       }
       const double weight = total > 0 ? problem.units[s].share * d.weight / total : 0;
       problem.points.push_back({d.surface, d.parameters, place, d.displacement, weight});
+      problem.points.back().along = d.along;
     }
     if (worst.count > 0) problem.contradicted.push_back(std::move(worst));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <numbers>
 
 #include "affine_part.hpp"
@@ -19,7 +20,8 @@ struct FitProblem {
   std::vector<FitExcess> contradicted = {};  ///< the worst data that contradict what stays
   AffinePart affine = {};
   FitNets nets = {};
-  std::vector<std::array<double, 2>> shares = {};  ///< of the weights of each joint
+  double lambda = std::numeric_limits<double>::infinity();  ///< of the nets before
+  std::vector<std::array<double, 2>> shares = {};           ///< of the weights of each joint
   /// By what factor each joint's positions and angles were too large when they last asked for finer
   /// nets; 0: finer nets did not help.
   std::vector<std::array<double, 2>> asked = {};

@@ -11,6 +11,7 @@
 #include "base/parallel_for.hpp"
 #include "knead/hold/constraints.hpp"
 #include "normal_equations.hpp"
+#include "solve/dissection.hpp"
 
 namespace knead::morph {
 namespace {
@@ -31,6 +32,13 @@ constexpr double least_energy = 1e-6;
 // Control points within this of the size of their net are one, and rings flat whose singular values
 // are below this share. All conditions at the poles of a surface weigh as an edge of this length.
 constexpr double pole_tolerance = 1e-9, flat_ring = 1e-6, pole_length = 0.1;
+
+// What is not known of a datum is guessed as zero, or what the displacement was before, with this
+// share of its weight: where nothing else is known points do not slide.
+constexpr double guessed = 1e-3;
+constexpr std::array<std::array<int, 2>, 6> components = {
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+constexpr std::array<std::array<std::size_t, 3>, 3> block_of = {{{0, 3, 4}, {3, 1, 5}, {4, 5, 2}}};
 
 constexpr double row_work = 500;  // multiplications for a row of a bicubic net, allocations too
 
@@ -91,8 +99,11 @@ Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPo
   if (auto made = result.make_data(nets, points); !made) return std::unexpected(made.error());
   if (auto made = result.make_joints(nets, joints); !made) return std::unexpected(made.error());
   NormalEquations fit(nets.unknowns);
-  for (std::size_t k = 0; k < points.size(); ++k)
-    fit.add(result.data_[k], result.weights_[k], result.wanted_[k]);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Point &n = result.along_[k], &d = result.wanted_[k];
+    const Point known = n.isZero(0) ? d : Point(guessed * d + (1 - guessed) * n.dot(d) * n);
+    fit.add(result.data_[k], result.weights_[k], known);
+  }
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const double share = std::max(joints[j].length / size, least_length) /
                          static_cast<double>(joints[j].points.size());
@@ -108,6 +119,7 @@ Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPo
   }
   result.right_ = fit.right();
   result.m_ = fit.matrix();
+  result.make_across(nets.unknowns);
   NormalEquations energies(nets.unknowns);
   for (std::size_t s = 0; s < nets.surfaces.size(); ++s) {
     if (nets.fixed[s]) continue;
@@ -120,6 +132,7 @@ Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPo
         units[s].share);
   }
   result.k_ = energies.matrix();
+  result.find_order();
   return result;
 }
 
@@ -129,6 +142,7 @@ Expected<void> FitSystem::make_data(const FitNets& nets, std::span<const FitPoin
   };
   for (const FitPoint& point : points) {
     wanted_.push_back(point.wanted);
+    along_.push_back(point.along);
     weights_.push_back(point.weight * point.share);
   }
   data_.resize(points.size());
@@ -142,6 +156,86 @@ Expected<void> FitSystem::make_data(const FitNets& nets, std::span<const FitPoin
       });
   Terms again;
   return failure.any() ? row_of(failure.index(), again) : Expected<void>();
+}
+
+void FitSystem::make_across(int unknowns) {
+  if (std::ranges::all_of(along_, [](const Point& n) { return n.isZero(0); })) return;
+  across_.resize(components.size());
+  detail::parallel_for(std::ssize(across_), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c) {
+      const auto [i, j] = components[c];
+      NormalEquations block(unknowns);
+      for (std::size_t k = 0; k < data_.size(); ++k) {
+        const Point& n = along_[k];
+        if (n.isZero(0)) continue;
+        const double share = (i == j ? 1.0 : 0.0) - n[i] * n[j];
+        block.add(data_[k], (1 - guessed) * weights_[k] * share, Point::Zero());
+      }
+      across_[c] = block.matrix();
+    }
+  });
+}
+
+// For all λ at once. Coordinates of a control point stay together where they are coupled: the
+// order of the control points is as good for them, and found in a ninth of the entries.
+void FitSystem::find_order() {
+  const Eigen::VectorXi order = minimum_degree(m_ + k_).order;
+  if (across_.empty()) {
+    order_ = order;
+    return;
+  }
+  order_.resize(3 * order.size());
+  for (Eigen::Index k = 0; k < order.size(); ++k) {
+    for (int c = 0; c < 3; ++c) order_[3 * k + c] = 3 * order[k] + c;
+  }
+}
+
+Points FitSystem::times_m(const Points& x) const {
+  Points result = symmetric_product(m_, x);
+  for (std::size_t c = 0; c < across_.size(); ++c) {
+    const auto [i, j] = components[c];
+    result.col(i) -= across_[c] * x.col(j);
+    if (i != j) result.col(j) -= across_[c] * x.col(i);
+  }
+  return result;
+}
+
+// Unknowns of one control point follow each other: x, y, z.
+SparseMatrix FitSystem::coupled(const SparseMatrix& a) const {
+  SparseMatrix result(3 * a.rows(), 3 * a.cols());
+  result.reserve(9 * a.nonZeros());
+  for (int k = 0; k < a.outerSize(); ++k) {
+    for (int c = 0; c < 3; ++c) {
+      result.startVec(3 * k + c);
+      std::array<SparseMatrix::InnerIterator, 3> less = {
+          SparseMatrix::InnerIterator(across_[block_of[c][0]], k),
+          SparseMatrix::InnerIterator(across_[block_of[c][1]], k),
+          SparseMatrix::InnerIterator(across_[block_of[c][2]], k)};
+      for (SparseMatrix::InnerIterator at(a, k); at; ++at) {
+        for (int d = 0; d < 3; ++d) {
+          auto& block = less[static_cast<std::size_t>(d)];
+          double value = c == d ? at.value() : 0;
+          if (block && block.row() == at.row()) {
+            value -= block.value();
+            ++block;
+          }
+          if (value != 0 || c == d) result.insertBack(3 * at.row() + d, 3 * k + c) = value;
+        }
+      }
+    }
+  }
+  result.finalize();
+  return result;
+}
+
+Points FitSystem::solved(const SparseCholesky& factor, const Points& b) const {
+  if (across_.empty()) return factor.solve(b);
+  Eigen::VectorXd right(3 * b.rows());
+  for (Eigen::Index k = 0; k < b.rows(); ++k) right.segment<3>(3 * k) = b.row(k).transpose();
+  const Eigen::VectorXd x = factor.solve(right);
+  Points result(b.rows(), 3);
+  for (Eigen::Index k = 0; k < b.rows(); ++k) result.row(k) = x.segment<3>(3 * k).transpose();
+  return result;
 }
 
 Expected<void> FitSystem::make_joints(const FitNets& nets, std::span<const Joint> joints) {
@@ -244,10 +338,13 @@ double FitSystem::freedom(const SparseCholesky& factor) const {
     const auto row = static_cast<Eigen::Index>(k);
     const auto bits = random();
     for (int c = 0; c < 3; ++c) probes(row, c) = (bits >> c & 1) != 0 ? 1 : -1;
+    // Of data along a direction one probe is for it alone, and counts three times.
+    if (!along_[k].isZero(0))
+      probes.row(row) = std::sqrt(3.0) * probes(row, 0) * along_[k].transpose();
     for (const auto& [unknown, value] : data_[k])
       right.row(unknown) += weights_[k] * value * probes.row(row);
   }
-  const Points x = factor.solve(right);
+  const Points x = solved(factor, right);
   double result = 0;
   for (std::size_t k = 0; k < data_.size(); ++k)
     result += value_of(data_[k], x).dot(probes.row(static_cast<Eigen::Index>(k)).transpose());
@@ -262,8 +359,13 @@ Expected<SparseCholesky> FitSystem::factor(double lambda) const {
   constexpr double least_raise = 1e-13, most_raise_of_diagonal = 1e-6;
   for (double raise = least_raise;; raise *= 100) {
     SparseMatrix a = m_ + lambda * k_;
+    if (!across_.empty()) a = coupled(a);
     for (int k = 0; k < a.cols(); ++k) a.coeffRef(k, k) *= 1 + raise;
-    auto result = SparseCholesky::factor(std::move(a));
+    SparseMatrix lower(a.rows(), a.cols());
+    lower.selfadjointView<Eigen::Lower>() = a.selfadjointView<Eigen::Lower>().twistedBy(
+        Eigen::PermutationMatrix<Eigen::Dynamic>(order_));
+    SparseMatrix().swap(a);
+    auto result = SparseCholesky::factor_in_order(lower, {order_, {}});
     if (Interruption::asked_for()) return interrupted_error();  // what it made means nothing
     if (result || raise > most_raise_of_diagonal) return result;
   }
@@ -277,7 +379,7 @@ Expected<FitState> FitSystem::solve(double lambda,
   FitState state{.x = Points::Zero(right_.rows(), 3)};
   do {
     if (Interruption::asked_for()) return interrupted_error();
-    state.x += factor->solve(Points(right_ - symmetric_product(m_, state.x)));
+    state.x += solved(*factor, right_ - times_m(state.x));
     ++state.rounds;
     measure(state);
   } while (!enough(state));

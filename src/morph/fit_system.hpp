@@ -17,7 +17,8 @@ struct FitPoint {
   Point place = Point::Zero();   ///< before the displacement
   Point wanted = Point::Zero();  ///< displacement
   double weight = 0;
-  double share = 1;    ///< of that weight, from 1 on: more where residuals are too large
+  double share = 1;             ///< of that weight, from 1 on: more where residuals are too large
+  Point along = Point::Zero();  ///< as of `Datum`
   bool faded = false;  ///< towards what stays: the displacement changes faster than the data do
 };
 
@@ -54,9 +55,11 @@ class FitSystem {
                                          const std::function<bool(const FitState&)>& enough,
                                          bool with_freedom = false) const;
 
-  /// D − d of a datum.
+  /// D − d of a datum, of which only the part that is known counts.
   [[nodiscard]] Point residual(std::size_t point, const Points& x) const {
-    return value_of(data_[point], x) - wanted_[point];
+    const Point off = value_of(data_[point], x) - wanted_[point];
+    const Point& n = along_[point];
+    return n.isZero(0) ? off : Point(n.dot(off) * n);
   }
   /// The largest |D_a − D_b| of a joint, and the point at which it is.
   struct Parting {
@@ -68,18 +71,31 @@ class FitSystem {
  private:
   FitSystem() = default;
   Expected<void> make_data(const FitNets& nets, std::span<const FitPoint> points);
+  void make_across(int unknowns);
+  void find_order();
   Expected<void> make_poles(const FitNets& nets);
   Expected<void> make_joints(const FitNets& nets, std::span<const Joint> joints);
   [[nodiscard]] Expected<SparseCholesky> factor(double lambda) const;
+  /// M X, with the blocks of data that are known along a direction alone.
+  [[nodiscard]] Points times_m(const Points& x) const;
+  /// M + λK with the coordinates coupled by data that are known along a direction alone. \param a
+  /// without them
+  [[nodiscard]] SparseMatrix coupled(const SparseMatrix& a) const;
+  /// (M + λK)⁻¹ B by its factor.
+  [[nodiscard]] Points solved(const SparseCholesky& factor, const Points& b) const;
   void measure(FitState& state) const;
   [[nodiscard]] double freedom(const SparseCholesky& factor) const;
 
   std::vector<Terms> data_;
-  std::vector<Point> wanted_;
+  std::vector<Point> wanted_, along_;
   std::vector<double> weights_;
   std::vector<std::vector<Terms>> apart_, slopes_;  ///< by joint and point
   std::vector<std::vector<Terms>> poles_;           ///< by surface
   SparseMatrix m_, k_;
+  /// What M has too much where data are known along a direction n alone, (1 − τ) Σ w r rᵀ (I − n
+  /// nᵀ)_cd for (c, d) = (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2); empty: all are known.
+  std::vector<SparseMatrix> across_;
+  Eigen::VectorXi order_;  ///< of elimination
   Points right_;
 };
 

@@ -165,6 +165,7 @@ Expected<ScanPartners> as_data(const Scan& scan, const std::vector<Partner>& par
     const auto d = displacement_of(partner, surface, settings.along_normal);
     if (!d) return std::unexpected(d.error());
     found.data.push_back({partner.foot.surface, partner.foot.parameters, *d, weight});
+    found.data.back().along = partner.normal;
     found.numbers.push_back(k);
     found.largest_distance = std::max(found.largest_distance, std::abs(partner.above));
     squares += partner.above * partner.above;

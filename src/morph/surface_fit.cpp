@@ -23,6 +23,7 @@ constexpr double near_wanted = 0.7, most_raise = 16, most_share = 4096, settling
 constexpr double most_share_late = 64 * most_share;
 // Joints of usual weights ask for finer nets above this multiple of what is wanted, others above 1.
 constexpr double light_joint = 3;
+constexpr double again = 16;  // times the λ of the nets before
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double helped = 0.8;    // refinement that leaves more has not
 constexpr double stalled = 0.97;  // a solve that leaves more than this is the last one
@@ -94,10 +95,13 @@ Expected<Fit> fit_once(FitProblem& problem) {
       FitSystem::create(problem.nets, problem.points, *joints, problem.units, problem.size);
   if (!system) return std::unexpected(system.error());
   const bool noisy = problem.settings.noise.has_value();
-  double lambda = problem.settings.energy.value_or(noisy ? first_lambda : exact_lambda);
+  // Finer nets follow noise with about the λ of coarser ones, or less.
+  const double first = noisy ? std::min(first_lambda, again * problem.lambda) : exact_lambda;
+  double lambda = problem.settings.energy.value_or(first);
   auto state =
       noisy ? solve_noisy(problem, *system, lambda) : solve_exact(problem, *system, lambda);
   if (!state) return std::unexpected(state.error());
+  problem.lambda = lambda;
   Fit result{*std::move(joints), *std::move(system), *std::move(state), lambda};
   auto surfaces = moved(problem, result.state.x);
   if (!surfaces) return std::unexpected(surfaces.error());

@@ -17,6 +17,8 @@ struct Datum {
   std::array<double, 2> parameters = {};  ///< within the domain of that surface
   Point displacement = Point::Zero();
   double weight = 1;  ///< relative to the other data of this surface; >= 0
+  /// Of length 1: only the part of the displacement along it is known; zero: all of it is.
+  Point along = Point::Zero();
 };
 
 /// A surface of the model and what its faces show of it.

@@ -184,6 +184,45 @@ TEST(FitScan, GoesNowhereBeyondTheBorderOfAScan) {
   EXPECT_LT(found.farthest, 1.5 * 0.1);  // the sheet is lifted by 0.1 at most
 }
 
+/// A roof over x from 0 to 1 and a wall below its edge x = 1, both flat, moved.
+std::vector<FitSurface> angle(const Point& by) {
+  const auto knots = *KnotVector::clamped_uniform(1, 2);
+  const auto sheet = [&](const Point& a, const Point& b, const Point& along) {
+    Points net(4, 3);
+    net << a.transpose(), (a + along).transpose(), b.transpose(), (b + along).transpose();
+    net.rowwise() += by.transpose();
+    return std::make_shared<const Surface>(*Surface::create({knots, knots}, net));
+  };
+  const Point y(0, 1, 0);
+  return {{sheet({0, 0, 0}, {1, 0, 0}, y), {}}, {sheet({1, 0, 0}, {1, 0, -1}, y), {}}};
+}
+
+// Each of both faces says nothing of how the other moves along it, and the edge of them all.
+TEST(FitScan, FacesSlideAlongBesideASharpEdge) {
+  const Point by(0.02, 0, 0.05);
+  const auto model = angle(Point::Zero()), truth = angle(by);
+  morph::FitEdge edge{.course = nullptr, .surfaces = {0, 1}, .name = "edge"};
+  for (const double t : {0.0, 0.5, 1.0})
+    edge.samples.push_back({t, Point(1, t, 0), {Eigen::Vector2d(1, t), Eigen::Vector2d(0, t)}});
+  constexpr double noise = 1e-3;
+  std::vector<Point> points = points_of(*truth[0].surface, 5000, noise);
+  const auto below = points_of(*truth[1].surface, 5000, noise);
+  points.insert(points.end(), below.begin(), below.end());
+  const auto fit = morph::fit_scan(morph::scan_of(points, {}, {}), model, {{edge}}, {},
+                                   {.reach = 0.2, .noise = noise});
+  ASSERT_TRUE(fit) << fit.error().message();
+  const Surface &roof = fit->fit.surfaces[0], &wall = fit->fit.surfaces[1];
+  for (int i = 0; i <= 20; ++i) {
+    for (int j = 0; j <= 20; ++j) {
+      const Eigen::Vector2d at(i / 20.0, j / 20.0);
+      EXPECT_NEAR(evaluate_point<2>(roof, parameters_of(roof, at))->z(), by.z(), noise);
+      EXPECT_NEAR(evaluate_point<2>(wall, parameters_of(wall, at))->x(), 1 + by.x(), noise);
+    }
+  }
+  EXPECT_NEAR(evaluate_point<2>(roof, std::array{1.0, 0.5})->x(), 1 + by.x(), noise)
+      << "the edge itself";
+}
+
 TEST(FitScan, OutliersDoNotPull) {
   const auto everywhere = [](const Eigen::Vector2d&) { return true; };
   auto points = points_of(*sheet(0.1), 20'000, 1e-3);
