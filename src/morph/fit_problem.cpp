@@ -9,6 +9,7 @@
 #include "knead/energy/domain_scaling.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "spline/onto_net.hpp"
 
 namespace knead::morph {
 namespace {
@@ -57,10 +58,13 @@ Expected<void> check(std::span<const FitSurface> surfaces, std::span<const FitEd
   };
   if (!positive(settings.tolerance) || !positive(settings.noise) || !positive(settings.energy) ||
       !positive(settings.parting) || !positive(settings.allowed_parting) || !(settings.angle > 0) ||
-      !(settings.refinement >= 1) || (settings.rounds && *settings.rounds < 1)) {
+      !(settings.refinement >= 1) || (settings.rounds && *settings.rounds < 1) ||
+      !positive(settings.begin_with_energy)) {
     return input_error("a setting of the fit is out of range", "settings",
                        "lengths, angle and λ are above 0, refinement and rounds at least 1");
   }
+  if (!settings.begin_with.empty() && settings.begin_with.size() != surfaces.size())
+    return usage_error("there is not one of each surface to begin with", "settings");
   return {};
 }
 
@@ -207,6 +211,19 @@ Expected<void> raise_degrees(FitProblem& problem) {
     auto net = raised(problem.nets.surfaces[s]);
     if (!net) return std::unexpected(net.error().within(fmt::format("surface {}", s)));
     problem.nets.surfaces[s] = *std::move(net);
+  }
+  return {};
+}
+
+Expected<void> take_knots(FitProblem& problem) {
+  const auto& from = problem.settings.begin_with;
+  for (std::size_t s = 0; s < from.size(); ++s) {
+    Surface& net = problem.nets.surfaces[s];
+    // What nothing has moved is as it was given.
+    if (problem.nets.fixed[s] || from[s].size() <= net.size()) continue;
+    auto finer = onto_net(net, from[s]);
+    if (!finer) return std::unexpected(finer.error().within(fmt::format("surface {}", s)));
+    net = *std::move(finer);
   }
   return {};
 }

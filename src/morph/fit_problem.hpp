@@ -25,6 +25,7 @@ struct FitProblem {
   /// By what factor each joint's positions and angles were too large when they last asked for finer
   /// nets; 0: finer nets did not help.
   std::vector<std::array<double, 2>> asked = {};
+  std::vector<double> excess = {};  ///< of data with noise, of each surface, likewise
 
   [[nodiscard]] bool satisfied(const FitState& state) const {
     return state.largest_residual <= tolerance && state.largest_parting <= parting &&
@@ -42,6 +43,9 @@ struct FitProblem {
 /// Gives the nets that are not fixed clamped ends and degree 3 at least. Errors: those of
 /// `elevate_degree`.
 [[nodiscard]] Expected<void> raise_degrees(FitProblem& problem);
+
+/// Gives the nets the knots of `FitSettings::begin_with` too. Errors: those of `insert_knots`.
+[[nodiscard]] Expected<void> take_knots(FitProblem& problem);
 
 /// The surfaces moved by X and the affine part; fixed ones, and those that nothing moves, are the
 /// ones given.

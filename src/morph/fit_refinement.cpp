@@ -169,6 +169,7 @@ void plan_for_residuals(const FitNets& nets, std::span<const FitPoint> points,
       const double parts = std::floor(std::pow(found / wanted, 1.0 / (degree + 1)));
       ask(plan[surface], d, cell.spans[d], std::clamp(static_cast<int>(parts), 2, most_parts),
           found / wanted);
+      plan[surface].excess += static_cast<double>(within.size()) * std::pow(found / wanted, 2);
     }
   }
 }

@@ -18,6 +18,7 @@ struct SurfaceRefinement {
   /// By direction: of a span, at its left knot.
   std::array<std::map<int, SpanRefinement>, 2> spans = {};
   double urgency = 0;  ///< of the most urgent one
+  double excess = 0;   ///< Σ (found / wanted)² over the data of cells whose residuals ask for it
 };
 using RefinementPlan = std::vector<SurfaceRefinement>;
 

@@ -14,10 +14,11 @@ namespace knead::morph {
 namespace {
 
 constexpr int most_turns = 8;
-constexpr double settled = 0.98;            // distances of a turn, of those before
-constexpr double overestimated = 0.9;       // less noise than that has been assumed
-constexpr double near_noise = 1.02;         // distances that are those of the noise, of it
-constexpr double least_noise = 1e-6;        // of the size: less is rounding of the scan's file
+constexpr double settled = 0.98;       // distances of a turn, of those before
+constexpr double overestimated = 0.9;  // less noise than that has been assumed
+constexpr double near_noise = 1.02;    // distances that are those of the noise, of it
+constexpr double least_noise = 1e-5;   // of the size: less is not followed unless it is asked for
+constexpr double approach = 0.1;       // a turn follows data to that part of their distances
 constexpr std::size_t most_data = 200'000;  // of one fit
 constexpr double facing = std::numbers::sqrt2 / 2;
 constexpr double search_work = 1e4;  // multiplications, of one point
@@ -202,10 +203,19 @@ double noise_between(std::span<const std::array<std::uint32_t, 2>> pairs,
 
 // Only the noise along the normal is left in the data, whose deviation is that of one coordinate;
 // `FitSettings` has that of three.
-FitSettings fit_settings(const ScanSettings& settings, double noise, double scale) {
+/// \param before a fit of nearly the same data, from which this one goes on
+/// \param coarseness times as far from the data as wanted in the end, edges too
+FitSettings fit_settings(const ScanSettings& settings, double noise, double scale,
+                         const FitResult& before, double coarseness = 1) {
   FitSettings result{
       .tolerance = settings.tolerance, .affine = false, .refinement = settings.refinement};
-  if (noise > 0) result.noise = std::abs(scale) * noise / std::numbers::sqrt3;
+  if (noise > 0) result.noise = coarseness * std::abs(scale) * noise / std::numbers::sqrt3;
+  if (coarseness > 1) {
+    result.parting = approach * coarseness * noise;
+    result.angle *= coarseness;
+  }
+  result.begin_with = before.surfaces;
+  if (before.lambda > 0) result.begin_with_energy = before.lambda;
   return result;
 }
 
@@ -240,8 +250,11 @@ Expected<ScanFit> fit_scan(const Scan& scan, std::span<const FitSurface> surface
   if (auto right = settings.check ? settings.check(*data) : Expected<void>(); !right)
     return std::unexpected(right.error());
   for (;;) {
+    // Feet are as wrong as the model is off: what is followed more closely at first is not there.
+    const double coarseness =
+        result.noise > 0 ? std::max(1.0, approach * data->rms / result.noise) : 1;
     auto fit = fit_surfaces(surfaces, edges, fitted(data->found.data, surfaces, 1),
-                            fit_settings(settings, result.noise, 1));
+                            fit_settings(settings, result.noise, 1, result.fit, coarseness));
     if (!fit) return std::unexpected(fit.error());
     auto model = moved_model(surfaces, fit->surfaces, shown);
     if (!model) return std::unexpected(model.error());
@@ -257,14 +270,15 @@ Expected<ScanFit> fit_scan(const Scan& scan, std::span<const FitSurface> surface
     const bool lower = estimates && less < overestimated * result.noise;
     if (lower) result.noise = less;
     const bool little = result.turns > 1 && !lower && sought->rms > settled * data->rms;
-    if (little || sought->rms <= near_noise * result.noise || result.turns == most_turns) break;
+    const bool noise_left = sought->rms <= near_noise * result.noise;
+    if ((coarseness == 1 && (little || noise_left)) || result.turns == most_turns) break;
     partners = std::move(next);
     data = std::move(sought);
   }
   if (settings.scale == 1) return result;
   auto scaled =
       fit_surfaces(surfaces, edges, fitted(result.last.found.data, surfaces, settings.scale),
-                   fit_settings(settings, result.noise, settings.scale));
+                   fit_settings(settings, result.noise, settings.scale, result.fit));
   if (!scaled) return std::unexpected(scaled.error());
   result.fit = *std::move(scaled);
   return result;

@@ -131,7 +131,8 @@ void plan_for_measure(FitProblem& problem, const Joint& joint, std::size_t j, st
   if (asked > 0) plan_for_joint(problem.nets, joint, point, excess, plan);
 }
 
-/// What of a fit asks for finer nets.
+/// What of a fit asks for finer nets. Data with noise are followed no closer than λ lets them, and
+/// a surface whose residuals the last refinement has hardly changed does not ask again.
 RefinementPlan plan_for(FitProblem& problem, const Fit& fit) {
   RefinementPlan plan(problem.given.size());
   const double noise = problem.settings.noise.value_or(0);
@@ -139,6 +140,12 @@ RefinementPlan plan_for(FitProblem& problem, const Fit& fit) {
       problem.nets, problem.points,
       [&](std::size_t k) { return fit.system.residual(k, fit.state.x); },
       noise > 0 ? noise : problem.tolerance, noise, plan);
+  problem.excess.resize(plan.size(), never);
+  for (std::size_t s = 0; s < plan.size() && noise > 0; ++s) {
+    const bool less = plan[s].excess < helped * helped * problem.excess[s];
+    problem.excess[s] = less ? plan[s].excess : 0;
+    if (!less) plan[s] = {};
+  }
   for (std::size_t j = 0; j < fit.joints.size(); ++j) {
     const auto parting = fit.system.parting(j, fit.state.x);
     plan_for_measure(problem, fit.joints[j], j, 0, parting.point,
@@ -236,6 +243,8 @@ int control_points(const FitNets& nets) {
 Expected<FitResult> fit_and_refine(FitProblem& problem) {
   if (auto made = raise_degrees(problem); !made) return std::unexpected(made.error());
   const double most = problem.settings.refinement * control_points(problem.nets);
+  if (auto taken = take_knots(problem); !taken) return std::unexpected(taken.error());
+  problem.lambda = problem.settings.begin_with_energy.value_or(never);
   const double allowed =
       std::max(problem.parting, problem.settings.allowed_parting.value_or(problem.parting));
   // Without holds residuals settle, and joints need not press before.

@@ -61,6 +61,10 @@ struct FitSettings {
   /// Repeated solves on each factor, exactly; none: as needed. If given, weights are never changed,
   /// and on nets that are not refined displacements are linear in data that contradict no hold.
   std::optional<int> rounds = {};
+  /// The surfaces of a fit of similar data to the same surfaces, and the λ of that fit: nets have
+  /// their knots and λ is sought from there. Empty: the surfaces as they are.
+  std::span<const Surface> begin_with = {};
+  std::optional<double> begin_with_energy = {};
 };
 
 /// What is larger than wanted after the fit.

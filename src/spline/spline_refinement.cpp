@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
+
+#include "onto_net.hpp"
 
 namespace knead {
 namespace {
@@ -189,6 +193,20 @@ Expected<Surface> with_clamped_ends(const Surface& surface) {
     weights.insert(weights.end(), row.begin(), row.end());
   }
   return Surface::create(std::move(knots), std::move(points), std::move(weights));
+}
+
+Expected<Surface> onto_net(Surface shape, const Surface& like) {
+  std::array<std::vector<double>, 2> more;
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (const int times = like.knots()[d].degree() - shape.knots()[d].degree(); times > 0) {
+      auto elevated = elevate_degree<2>(shape, static_cast<int>(d), times);
+      if (!elevated) return std::unexpected(elevated.error());
+      shape = std::move(*elevated);
+    }
+    std::ranges::set_difference(like.knots()[d].knots(), shape.knots()[d].knots(),
+                                std::back_inserter(more[d]));
+  }
+  return insert_knots<2>(shape, more);
 }
 
 }  // namespace knead

@@ -165,6 +165,15 @@ TEST(FitScan, FollowsExactPoints) {
   EXPECT_EQ(found.fit.noise, 0);
 }
 
+// Exact points ask for no more than the default tolerance, and feet that are still wrong for less.
+TEST(FitScan, GivesExactPointsNoMoreControlPointsThanTheyNeed) {
+  const auto everywhere = [](const Eigen::Vector2d&) { return true; };
+  const Scan scan = morph::scan_of(points_of(*sheet(0.1), 20'000, 0), {}, {});
+  const auto found = followed(scan, everywhere, {});
+  EXPECT_LT(found.rms, found.fit.noise);
+  EXPECT_LE(found.fit.fit.control_points, 120);
+}
+
 TEST(FitScan, LeavesNoiseBehind) {
   const auto everywhere = [](const Eigen::Vector2d&) { return true; };
   constexpr double noise = 2e-3;

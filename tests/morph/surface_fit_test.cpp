@@ -158,6 +158,21 @@ TEST(SurfaceFit, SmoothsNoise) {
   EXPECT_LT(edge.degrees, 0.05);
 }
 
+TEST(SurfaceFit, GoesOnFromTheNetsOfAFitOfSimilarData) {
+  const Model model = sheets(false);
+  const Map map = bulge(0.2 * model.size);
+  const FitResult first = fit(model, data_on(model, map));
+  ASSERT_GT(first.refinements, 1);
+  const FitResult second = fit(model, data_on(model, map), {.begin_with = first.surfaces});
+  EXPECT_LT(second.refinements, first.refinements);
+  EXPECT_GE(second.control_points, first.control_points);
+  EXPECT_LT(errors_of(model, second, map).rms, 2e-5 * model.size);
+  const auto fewer = fit_surfaces(model.surfaces, model.edges, data_on(model, map),
+                                  {.begin_with = std::span(first.surfaces).first(1)});
+  ASSERT_FALSE(fewer);
+  EXPECT_NE(fewer.error().message().find("not one of each surface"), std::string::npos);
+}
+
 TEST(SurfaceFit, HoldsAtAFixedNeighbour) {
   Model model = sheets(true);
   model.surfaces[0].fixed = true;

@@ -16,6 +16,7 @@
 #include "refining.hpp"
 #include "scene/model/model.hpp"
 #include "scene/places.hpp"
+#include "spline/onto_net.hpp"
 
 namespace knead {
 namespace {

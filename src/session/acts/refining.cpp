@@ -199,22 +199,6 @@ Expected<void> unite_restricted(Act& act, std::span<const SeamReport> reports, c
   return refine_as(act, seam_refinements(patches, near));
 }
 
-// Degree elevation and knot insertion: exact, so that shapes from before a refinement can be
-// compared and shared with those after it, control point by control point.
-Expected<Surface> onto_net(Surface shape, const Surface& like) {
-  std::array<std::vector<double>, 2> more;
-  for (std::size_t d = 0; d < 2; ++d) {
-    if (const int times = like.knots()[d].degree() - shape.knots()[d].degree(); times > 0) {
-      auto elevated = elevate_degree<2>(shape, static_cast<int>(d), times);
-      if (!elevated) return std::unexpected(elevated.error());
-      shape = std::move(*elevated);
-    }
-    std::ranges::set_difference(like.knots()[d].knots(), shape.knots()[d].knots(),
-                                std::back_inserter(more[d]));
-  }
-  return insert_knots<2>(shape, more);
-}
-
 namespace {
 
 const Surface* document_surface(const Act& act, const SceneSurface& surface) {

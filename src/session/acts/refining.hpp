@@ -40,8 +40,6 @@ namespace knead {
 [[nodiscard]] Expected<void> refine_at_trims(Act& act, SceneSurface& surface, const Fractions& at,
                                              double size);
 
-/// A shape on the net of another one, whose degrees are these or more, as are its knots then.
-[[nodiscard]] Expected<Surface> onto_net(Surface shape, const Surface& like);
 /// "#12: the net is now …", for the notes.
 [[nodiscard]] std::string net_note(const SceneSurface& surface);
 

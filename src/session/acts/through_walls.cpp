@@ -18,6 +18,7 @@
 #include "scene/model/model_walls.hpp"
 #include "session/commands.hpp"
 #include "session/gestures/stroking.hpp"
+#include "spline/onto_net.hpp"
 #include "trimming.hpp"
 
 namespace knead {

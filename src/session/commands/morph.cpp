@@ -11,6 +11,7 @@
 #include "session/acts/converting.hpp"
 #include "session/acts/placing.hpp"
 #include "session/acts/refining.hpp"
+#include "spline/onto_net.hpp"
 
 namespace knead {
 

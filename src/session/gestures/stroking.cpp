@@ -17,6 +17,7 @@
 #include "session/acts/selection.hpp"
 #include "session/acts/stepping.hpp"
 #include "session/acts/trimming.hpp"
+#include "spline/onto_net.hpp"
 
 namespace knead {
 namespace {
