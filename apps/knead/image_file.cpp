@@ -168,17 +168,13 @@ Expected<Image> image_in(std::string_view bytes, const std::string& path, ImageC
   return std::unexpected(error);
 }
 
-Expected<std::string> png_of(const Image& image) {
-  std::vector<unsigned char> bytes;
-  bytes.reserve(image.values.size());
-  for (const double x : image.values) {
-    bytes.push_back(static_cast<unsigned char>(std::lround(255 * std::clamp(x, 0.0, 1.0))));
-  }
+static Expected<std::string> encoded(int width, int height, png_uint_32 format,
+                                     const std::vector<unsigned char>& bytes) {
   png_image out{};
   out.version = PNG_IMAGE_VERSION;
-  out.width = static_cast<png_uint_32>(image.width);
-  out.height = static_cast<png_uint_32>(image.height);
-  out.format = PNG_FORMAT_GRAY;
+  out.width = static_cast<png_uint_32>(width);
+  out.height = static_cast<png_uint_32>(height);
+  out.format = format;
   png_alloc_size_t size = 0;
   std::string text;
   if (png_image_write_to_memory(&out, nullptr, &size, 0, bytes.data(), 0, nullptr) != 0) {
@@ -189,6 +185,19 @@ Expected<std::string> png_of(const Image& image) {
     }
   }
   return numerical_error(std::string("the picture cannot be made: ") + out.message);
+}
+
+Expected<std::string> png_of(const Image& image) {
+  std::vector<unsigned char> bytes;
+  bytes.reserve(image.values.size());
+  for (const double x : image.values) {
+    bytes.push_back(static_cast<unsigned char>(std::lround(255 * std::clamp(x, 0.0, 1.0))));
+  }
+  return encoded(image.width, image.height, PNG_FORMAT_GRAY, bytes);
+}
+
+Expected<std::string> png_of(int width, int height, const std::vector<unsigned char>& colours) {
+  return encoded(width, height, PNG_FORMAT_RGB, colours);
 }
 
 }  // namespace knead::cli

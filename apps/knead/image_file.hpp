@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "knead/image/image.hpp"
 
@@ -18,5 +19,8 @@ namespace knead::cli {
 
 /// The image as bytes of an 8-bit grey PNG, values clamped to [0, 1].
 [[nodiscard]] Expected<std::string> png_of(const Image& image);
+/// Rows from the top of red, green and blue as bytes of a PNG. Requires: three for each pixel.
+[[nodiscard]] Expected<std::string> png_of(int width, int height,
+                                           const std::vector<unsigned char>& colours);
 
 }  // namespace knead::cli

@@ -1,22 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "cad_input.hpp"
 #include "cli.hpp"
 #include "knead/contact/free_system.hpp"
-#include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/numerical_files.hpp"
+#include "outputs.hpp"
 #include "plain_surface.hpp"
 #include "rational_option.hpp"
 #include "say.hpp"
@@ -25,7 +21,6 @@ namespace knead::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
 struct MatricesArguments {
   std::string file, surface, out;
@@ -107,9 +102,10 @@ class Writer {
     return {};
   }
 
-  /// Writes all into `directory`, by way of one beside them. Errors (input): what the system says;
-  /// the directory is as it was then.
-  [[nodiscard]] Expected<void> write(const std::filesystem::path& directory) const;
+  /// Errors: those of `write_together`.
+  [[nodiscard]] Expected<void> write(const std::string& directory) const {
+    return write_together({"--out", directory}, files_);
+  }
 
   Expected<void> matrix(const std::string& name, const std::string& formula,
                         const SparseMatrix& matrix, double error_bound) {
@@ -134,68 +130,8 @@ class Writer {
   Json written = Json::array();
 
  private:
-  std::vector<std::pair<std::string, std::string>> files_;  // names and bytes
+  std::vector<std::pair<std::string, std::string>> files_;
 };
-
-/// A directory that goes when it is left, with what is in it.
-struct Passing {
-  fs::path path;
-  Passing(const Passing&) = delete;
-  Passing& operator=(const Passing&) = delete;
-  explicit Passing(fs::path made) : path(std::move(made)) {}
-  ~Passing() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-};
-
-/// The directories of `path` that are missing, outermost first.
-std::vector<fs::path> missing(const fs::path& path) {
-  std::vector<fs::path> result;
-  std::error_code ignored;
-  for (fs::path at = path; !at.empty() && !fs::exists(at, ignored); at = at.parent_path()) {
-    result.insert(result.begin(), at);
-  }
-  return result;
-}
-
-Expected<void> Writer::write(const fs::path& directory) const {
-  const std::vector<fs::path> made = missing(directory);
-  std::error_code problem;
-  fs::create_directories(directory, problem);
-  if (problem)
-    return input_error("the directory cannot be made: " + problem.message(), "--out",
-                       "name another one");
-  const auto write_all = [&]() -> Expected<void> {
-    std::string name = (directory / ".knead-set-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      return input_error(
-          "nothing can be written into the directory: " + std::generic_category().message(errno),
-          "--out", "name another one");
-    }
-    const Passing beside(name);
-    for (const auto& [file, bytes] : files_) {
-      if (auto possible = check_writable(directory / file); !possible) return possible;
-      auto status = write_file_atomically(beside.path / file, bytes);
-      if (!status) {
-        status.error().file = (directory / file).string();
-        return status;
-      }
-    }
-    for (const auto& [file, bytes] : files_) {
-      fs::rename(beside.path / file, directory / file, problem);
-      if (problem)
-        return input_error("it cannot be replaced: " + problem.message(),
-                           (directory / file).string());
-    }
-    return {};
-  };
-  auto status = write_all();
-  if (status) return status;
-  for (auto at = made.rbegin(); at != made.rend(); ++at)
-    fs::remove(*at, problem);  // if they are empty
-  return status;
-}
 
 Expected<void> run(const MatricesArguments& options) {
   if (options.file.empty() == !options.knots.given()) {

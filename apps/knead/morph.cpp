@@ -7,6 +7,7 @@
 
 #include "cad_input.hpp"
 #include "cli.hpp"
+#include "image_file.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "outputs.hpp"
 #include "say.hpp"
@@ -15,7 +16,7 @@ namespace knead::cli {
 namespace {
 
 struct MorphArguments {
-  std::string file, output, vectors, from, to, space, scan, report;
+  std::string file, output, vectors, from, to, space, scan, report, page;
   std::string scales = "1", faces, keep, places, columns, along;
   std::optional<double> tolerance, reach, noise;
   bool no_convert = false, strict = false;
@@ -43,15 +44,52 @@ Error in_options(Error error) {
   return error;
 }
 
-/// "part_0.5.step": a file for each of several scales.
-std::string output_of(const MorphArguments& options, double scale, std::size_t count) {
-  if (count == 1) return options.output;
-  const std::filesystem::path path(uncompressed_name(options.output));
-  const std::string packed = options.output.substr(path.string().size());
+/// "part_0.5.step" of "part.step": an output for each of several scales.
+std::string output_of(const std::string& output, double scale, std::size_t count) {
+  if (count == 1 || output.empty()) return output;
+  const std::filesystem::path path(uncompressed_name(output));
+  const std::string packed = output.substr(path.string().size());
   return (path.parent_path() /
           fmt::format("{}_{}{}", path.stem().string(), scale, path.extension().string()))
              .string() +
          packed;
+}
+
+/// The directory of the page, "made" of "made/".
+std::string page_of(const MorphArguments& options, double scale, std::size_t count) {
+  std::string path = options.page;
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  return count == 1 || path.empty() ? path : fmt::format("{}_{}", path, scale);
+}
+
+constexpr std::string_view page_mark = "<!-- knead morph -->\n";
+constexpr std::string_view page_name = "README.md";
+
+/// Whether a page can be written there: what stands under its name has to be one.
+Expected<void> check_page(const std::string& directory) {
+  if (auto possible = check_directory({"--page", directory}); !possible) return possible;
+  const auto there = std::filesystem::path(directory) / page_name;
+  std::error_code ignored;
+  if (!std::filesystem::exists(there, ignored)) return {};
+  if (auto possible = check_writable(there); !possible) return possible;
+  const auto bytes = read_file(there);
+  if (bytes && bytes->starts_with(page_mark)) return {};
+  return input_error(there.string() + " is there, and no page of this command", "--page",
+                     "name another directory");
+}
+
+Expected<void> write_page(const std::string& directory, const Source& source,
+                          const MorphedFile& morphed) {
+  auto page = illustrated_page(source, morphed);
+  if (!page) return std::unexpected(page.error().within("--page"));
+  std::vector<std::pair<std::string, std::string>> files = std::move(page->drawings);
+  for (const MorphPicture& picture : page->pictures) {
+    auto png = png_of(picture.width, picture.height, picture.colours);
+    if (!png) return std::unexpected(png.error().within("--page"));
+    files.emplace_back(picture.name, *std::move(png));
+  }
+  files.emplace_back(page_name, std::string(page_mark) + page->text);
+  return write_together({"--page", directory}, files);
 }
 
 Expected<MorphData> data_of(const MorphArguments& options) {
@@ -160,7 +198,7 @@ Expected<void> write_one(const MorphArguments& options, const std::shared_ptr<co
                            "--strict",
                            "allow more control points with --refine, or a larger "
                            "--tolerance");
-  const std::string output = output_of(options, settings.scale, count);
+  const std::string output = output_of(options.output, settings.scale, count);
   auto bytes = settings.scale == 0
                    ? Expected<std::string>(std::move(morphed->bytes))
                    : compressed_by_name(std::move(morphed->bytes), output, options.file);
@@ -169,6 +207,8 @@ Expected<void> write_one(const MorphArguments& options, const std::shared_ptr<co
   say("wrote {} ({} bytes, scale {})\n", output, bytes->size(), settings.scale);
   tell(report);
   reports += (reports.empty() ? "" : ",\n") + morph_json(report);
+  if (const std::string page = page_of(options, settings.scale, count); !page.empty())
+    return write_page(page, *source, *morphed);
   return {};
 }
 
@@ -188,7 +228,7 @@ Expected<void> run(MorphArguments& options) {
   settings.along_normal = options.along == "normal";
   std::vector<NamedFile> outputs = {{"--report", options.report}};
   for (const double scale : *scales)
-    outputs.push_back({"-o", output_of(options, scale, scales->size())});
+    outputs.push_back({"-o", output_of(options.output, scale, scales->size())});
   if (auto right = check_outputs(outputs, {{"FILE", options.file},
                                            {"--vectors", options.vectors},
                                            {"--from", options.from},
@@ -196,6 +236,11 @@ Expected<void> run(MorphArguments& options) {
                                            {"--scan", options.scan}});
       !right)
     return right;
+  for (const double scale : *scales) {
+    if (options.page.empty()) break;
+    if (auto possible = check_page(page_of(options, scale, scales->size())); !possible)
+      return possible;
+  }
   const auto data = data_of(options);
   if (!data) return std::unexpected(data.error());
   const auto source = open_cad_file(options.file, options.unpack);
@@ -259,6 +304,8 @@ void add_options(CLI::App& command, MorphArguments& options) {
   command.add_flag("--strict", options.strict,
                    "write nothing, and fail, where something is above what was wanted");
   command.add_option("--report", options.report, "JSON report to write (docs/morph.md)");
+  command.add_option("--page", options.page,
+                     "directory for the report as a page: README.md in Markdown, with pictures");
   options.unpack.add_to(command);
 }
 

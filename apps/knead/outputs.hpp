@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "knead/base/error.hpp"
@@ -31,6 +32,17 @@ struct NamedFile {
 
 /// `write_file_atomically`, remembered: an error that comes later says that this one is written.
 [[nodiscard]] Expected<void> write_output(const std::string& path, std::string_view bytes);
+
+/// Checks before the work begins whether files can be written into a directory, which may have to
+/// be made. Errors (input): it is a file; it may not be written to, or cannot be made.
+[[nodiscard]] Expected<void> check_directory(const NamedFile& directory);
+
+/// Puts files, names with bytes, into a directory, which is made where it is missing: by way of one
+/// within it, so that they come together or, unless the system fails between two renames, none
+/// does. Other files there stay. Remembered as by `write_output`. Errors (input): what the system
+/// says.
+[[nodiscard]] Expected<void> write_together(
+    const NamedFile& directory, const std::vector<std::pair<std::string, std::string>>& files);
 
 /// The files that `write_output` has written so far: "a.json, b.step".
 [[nodiscard]] const std::string& written_outputs();

@@ -132,9 +132,10 @@ it('answers every query of a document, as the program does', async () => {
 
 it('moves a document after data, to a file', async () => {
   const doc = await open(bonnet(), { name: 'bonnet.step' });
-  const { file, report } = doc.morphed({ space: '0; 0; 20*sin(x/500)', scale: -0.5 });
+  const { file, report, page } = doc.morphed({ space: '0; 0; 20*sin(x/500)', scale: -0.5 });
   expect(report).toMatchObject({ scale: -0.5, unit: 'mm', left_out: 0, fixed: [] });
   expect(report.after.largest).toBeLessThan(report.tolerance);
+  expect(page).toContain('## Deviation from the data');
   expect(doc.save()).toEqual(bonnet());
   expect(doc.morph({ space: '0; 0; 20*sin(x/500)', scale: -0.5 }).save()).toEqual(file);
   expect(doc.undo().save()).toEqual(bonnet());

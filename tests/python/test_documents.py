@@ -118,6 +118,7 @@ class Queries(unittest.TestCase):
             for field in [name for name in said if name.startswith("time_")]:
                 del said[field]
             self.assertLessEqual(said.items(), answer["report"].items())
+            self.assertIn("## Deviation from the data", answer["page"])
             self.assertEqual(doc.to_bytes(), opened)
             self.assertEqual(doc.morph(space=bend, scale=-0.5).to_bytes(), answer["file"])
             self.assertEqual(doc.undo().to_bytes(), opened)

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "knead/exchange/source.hpp"
@@ -49,9 +50,18 @@ struct MorphSettings {
 };
 
 /// Lengths over all points of a set: their mean, root mean square, the values that 95 and 99 % of
-/// them do not exceed, and the largest.
+/// them do not exceed, and the largest; and their parts along the outward normals, above 0 where
+/// data lie outside of the model: mean, least and largest.
 struct Deviation {
   double mean = 0, rms = 0, of_95 = 0, of_99 = 0, largest = 0;
+  double signed_mean = 0, signed_least = 0, signed_most = 0;
+};
+
+/// How many points have a part along the outward normal in each of equal intervals from −limit to
+/// limit.
+struct MorphHistogram {
+  double limit = 0;  ///< the largest magnitude
+  std::vector<int> counts = {};
 };
 
 /// How the points on one surface were followed.
@@ -115,11 +125,19 @@ struct MorphExcess {
 /// What `knead morph` says of its work. Lengths are in units of the model, times in seconds.
 struct MorphReport {
   std::string file = {}, format = {}, unit = {};
+  std::string data = {};       ///< what they are, and their files or formulas
+  std::string data_unit = {};  ///< if it was given
   double scale = 1, size = 0, tolerance = 0, reach = 0;
+  double refinement = 8;
+  bool along_normal = false;
+  std::vector<std::string> only = {}, kept = {}, places = {};  ///< as asked for
   int points = 0, used = 0, left_out = 0;         ///< of the data
   std::vector<MorphLeftOut> listed = {};          ///< the first of those that were left out
   double largest_distance = 0, rms_distance = 0;  ///< of the points used from the model
   Deviation before = {}, after = {};  ///< of displacements that are wanted from those made
+  MorphHistogram histogram_before = {}, histogram_after = {};
+  int points_between = 0;
+  std::optional<Deviation> between = {};  ///< after, of a map of space: between the data
   std::vector<MorphedSurface> surfaces = {};
   std::vector<std::string> converted = {};
   std::vector<MorphException> fixed = {};          ///< surfaces that stay, but for those asked for
@@ -131,7 +149,16 @@ struct MorphReport {
   double bytes_before = 0, bytes_after = 0;
   double lambda = 0;
   int rounds = 0, refinements = 0;
-  double time_model = 0, time_data = 0, time_fit = 0, time_save = 0, time_check = 0;
+  double time_model = 0, time_data = 0, time_fit = 0, time_deviation = 0, time_save = 0,
+         time_check = 0;
+};
+
+/// A point of the data on the model, and the parts along the outward normal of what is wanted there
+/// and of what of it is missing.
+struct MorphedPoint {
+  int surface = 0;  ///< position in the surfaces of the report
+  std::array<double, 3> place = {};
+  double before = 0, after = 0;
 };
 
 /// The file after it has followed the data.
@@ -139,6 +166,7 @@ struct MorphedFile {
   std::string bytes;
   MorphReport report;
   std::vector<std::string> edges = {};  ///< ids of those that were written anew
+  std::vector<MorphedPoint> points = {};
 };
 
 /// Moves the faces of a file so that they follow data, with every edge and vertex written anew, and
@@ -161,5 +189,30 @@ struct MorphedFile {
 /// A report as JSON, over several lines, and the schema of that.
 [[nodiscard]] std::string morph_json(const MorphReport& report);
 [[nodiscard]] std::string morph_schema();
+
+/// A report for people, as Markdown; without links to pictures.
+[[nodiscard]] std::string morph_page(const MorphReport& report);
+
+/// A picture in rows from the top, red, green and blue.
+struct MorphPicture {
+  std::string name = {};  ///< "before.png"
+  int width = 0, height = 0;
+  std::vector<unsigned char> colours = {};
+};
+
+/// A page with the pictures that it shows.
+struct IllustratedPage {
+  std::string text;                                            ///< README.md
+  std::vector<std::pair<std::string, std::string>> drawings;   ///< names and SVG texts
+  std::vector<MorphPicture> pictures;
+};
+
+/// `morph_page` with pictures: a histogram, and the parts along the normal as colours on the model,
+/// seen from two opposite directions: before and after on one scale, and after on a scale of its
+/// own. A place has the colour of the nearest datum on its surface, and is grey where there is none
+/// near. Without data, as at a scale of 0, there are no pictures. Errors: those of the faces'
+/// triangles. Cost: that of the triangles, and of drawing each datum as a disc.
+[[nodiscard]] Expected<IllustratedPage> illustrated_page(const Source& opened,
+                                                         const MorphedFile& morphed);
 
 }  // namespace knead

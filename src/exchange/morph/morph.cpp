@@ -13,6 +13,7 @@
 #include "knead/brep/edge_measures.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "morph_deviation.hpp"
 #include "morph_points.hpp"
 #include "moving_model.hpp"
 
@@ -35,50 +36,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-Deviation deviation_of(std::vector<double> lengths) {
-  if (lengths.empty()) return {};
-  std::ranges::sort(lengths);
-  const auto count = static_cast<double>(lengths.size());
-  const auto share = [&](double part) {
-    return lengths[static_cast<std::size_t>(std::ceil(part * count)) - 1];
-  };
-  Deviation result{.of_95 = share(0.95), .of_99 = share(0.99), .largest = lengths.back()};
-  for (const double x : lengths) result.mean += x / count, result.rms += x * x / count;
-  result.rms = std::sqrt(result.rms);
-  return result;
-}
-
-Expected<void> add_deviations(const MovingModel& model, const MorphPoints& points,
-                              const std::vector<Surface>& moved, MorphReport& report) {
-  const std::size_t count = model.surfaces.size();
-  std::vector<std::vector<double>> before(count), after(count);
-  std::vector<double> all_before, all_after;
-  for (const morph::Datum& datum : points.found.data) {
-    const auto k = static_cast<std::size_t>(datum.surface);
-    const auto from = evaluate_point<2>(*model.placed[k].surface, datum.parameters);
-    const auto to = evaluate_point<2>(moved[k], datum.parameters);
-    if (!from) return std::unexpected(from.error());
-    if (!to) return std::unexpected(to.error());
-    before[k].push_back(datum.displacement.norm());
-    after[k].push_back((*to - *from - datum.displacement).norm());
-    all_before.push_back(before[k].back());
-    all_after.push_back(after[k].back());
-  }
-  report.before = deviation_of(std::move(all_before));
-  report.after = deviation_of(std::move(all_after));
-  for (std::size_t k = 0; k < count; ++k) {
-    if (!model.shown[k]) continue;
-    const int net = model.surfaces[k].surface->size(), new_net = moved[k].size();
-    report.control_points_before += net;
-    report.control_points_after += new_net;
-    if (before[k].empty() && model.surfaces[k].fixed) continue;
-    report.surfaces.push_back(
-        {model.source->surfaces()[k].id, model.faces[k], static_cast<int>(before[k].size()),
-         deviation_of(std::move(before[k])), deviation_of(std::move(after[k])), net, new_net});
-  }
-  return {};
-}
 
 std::optional<double> parted(const EdgeMeasures& edge) {
   if (!edge.gap && !edge.off_curve) return std::nullopt;
@@ -186,6 +143,27 @@ Expected<void> check_edges(const MovingModel& model, const brep::ModelMeasures& 
   return {};
 }
 
+std::string described(const MorphData& data) {
+  if (data.vectors) return "displacements " + data.vectors->name;
+  if (data.scan) return "scan " + data.scan->name;
+  if (data.from && data.to) return "meshes " + data.from->name + " and " + data.to->name;
+  return "map of space " + data.space;
+}
+
+void describe_task(const Source& source, const MorphData& data, const MorphSettings& settings,
+                   MorphReport& report) {
+  report.file = source.name();
+  report.format = source.format();
+  report.data = described(data);
+  report.data_unit = settings.unit;
+  report.scale = settings.scale;
+  report.refinement = settings.refinement;
+  report.along_normal = settings.along_normal;
+  report.only = settings.faces;
+  report.kept = settings.keep;
+  report.places = settings.places;
+}
+
 void describe_points(const MorphPoints& points, MorphReport& report) {
   const auto& found = points.found;
   report.points = static_cast<int>(points.count);
@@ -287,9 +265,7 @@ Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, co
   Stopwatch watch;
   MorphedFile result;
   MorphReport& report = result.report;
-  report.file = source->name();
-  report.format = source->format();
-  report.scale = settings.scale;
+  describe_task(*source, data, settings, report);
   std::vector<std::shared_ptr<const Surface>> as_opened;
   for (const SourceSurface& s : source->surfaces()) as_opened.push_back(s.surface);
   auto opened = source->save(as_opened);
@@ -323,9 +299,15 @@ Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, co
   if (!fit) return std::unexpected(fit.error());
   if (points->scan) describe_points(*points, report);
   describe_fit(*model, *fit, report);
-  if (auto added = add_deviations(*model, *points, fit->surfaces, report); !added)
-    return std::unexpected(added.error());
   report.time_fit = watch.lap();
+
+  const auto between = detail::points_between(*model, data, settings);
+  if (!between) return std::unexpected(between.error());
+  if (auto added =
+          detail::add_deviations(*model, points->found.data, *between, fit->surfaces, result);
+      !added)
+    return std::unexpected(added.error());
+  report.time_deviation = watch.lap();
 
   result.edges = moving_edges(*model);
   auto bytes = saved(*model, std::move(fit->surfaces), result.edges);

@@ -46,10 +46,9 @@ Expected<double> unit_factor(const MovingModel& model, const MorphSettings& sett
   return own ? *data / *own : 1.0;
 }
 
-/// A grid over what is visible of a surface, and its edges between faces that move: feet.
-std::vector<Vector2d> places_on(const FitSurface& surface, const std::set<std::string>& moving) {
+/// A grid over what is visible of a surface: feet. \param between the middles of its cells instead
+std::vector<Vector2d> grid_on(const FitSurface& surface, bool between) {
   constexpr int least = 24;  // lines per direction
-  constexpr std::size_t along_edges = 33;
   const auto extent = surface.region.extent();
   std::array<int, 2> lines{};
   for (int d = 0; d < 2; ++d) {
@@ -59,14 +58,23 @@ std::vector<Vector2d> places_on(const FitSurface& surface, const std::set<std::s
     const auto spans = static_cast<int>(knots.spans().size());
     lines[static_cast<std::size_t>(d)] = std::clamp(per_span * spans, least, 400);
   }
+  const int last = between ? 1 : 0;
+  const double shift = between ? 1 : 0.5;
   std::vector<Vector2d> result;
-  for (int i = 0; i < lines[0]; ++i) {
-    for (int j = 0; j < lines[1]; ++j) {
-      const Vector2d part((i + 0.5) / lines[0], (j + 0.5) / lines[1]);
+  for (int i = 0; i < lines[0] - last; ++i) {
+    for (int j = 0; j < lines[1] - last; ++j) {
+      const Vector2d part((i + shift) / lines[0], (j + shift) / lines[1]);
       const Vector2d at = extent[0] + part.cwiseProduct(extent[1] - extent[0]);
       if (surface.region.contains(at)) result.push_back(at);
     }
   }
+  return result;
+}
+
+/// That grid, and the edges between faces that move: feet.
+std::vector<Vector2d> places_on(const FitSurface& surface, const std::set<std::string>& moving) {
+  constexpr std::size_t along_edges = 33;
+  std::vector<Vector2d> result = grid_on(surface, false);
   for (const TrimEdge& edge : surface.region.edges) {
     // Beside a face that stays the edge is held.
     const bool moves = std::ranges::all_of(
@@ -76,6 +84,20 @@ std::vector<Vector2d> places_on(const FitSurface& surface, const std::set<std::s
     for (std::size_t k = 0; k < edge.course.size(); k += step) result.push_back(edge.course[k]);
   }
   return result;
+}
+
+/// The displacement that a map wants at a foot on surface k.
+Expected<morph::Datum> mapped_point(const MovingModel& model, std::size_t k, const Vector2d& at,
+                                    const fields::SpaceMap& map, const MorphSettings& settings) {
+  const Surface& surface = *model.placed[k].surface;
+  const auto parameters = parameters_at_foot(surface, at);
+  const auto point = evaluate_point<2>(surface, parameters);
+  if (!point) return std::unexpected(point.error());
+  auto wanted = map.at(*point);
+  if (wanted && settings.along_normal)
+    wanted = morph::part_along_normal(*wanted, surface, parameters);
+  if (!wanted) return std::unexpected(wanted.error());
+  return morph::Datum{static_cast<int>(k), parameters, settings.scale * *wanted, 1};
 }
 
 // A map is known everywhere: each surface has points of its own, which need no partner. Those of
@@ -89,20 +111,12 @@ Expected<morph::Correspondences> mapped_points(const MovingModel& model,
     if (!model.placed[k].fixed) moving.insert(model.faces[k].begin(), model.faces[k].end());
   }
   for (std::size_t k = 0; k < model.placed.size(); ++k) {
-    const FitSurface& surface = model.placed[k];
-    if (!model.shown[k] || surface.fixed) continue;
-    for (const Vector2d& at : places_on(surface, moving)) {
-      const auto parameters = parameters_at_foot(*surface.surface, at);
-      const auto point = evaluate_point<2>(*surface.surface, parameters);
-      if (!point) return std::unexpected(point.error());
-      auto wanted = map.at(*point);
-      if (!wanted) return std::unexpected(wanted.error());
-      if (settings.along_normal) {
-        wanted = morph::part_along_normal(*wanted, *surface.surface, parameters);
-        if (!wanted) return std::unexpected(wanted.error());
-      }
+    if (!model.shown[k] || model.placed[k].fixed) continue;
+    for (const Vector2d& at : places_on(model.placed[k], moving)) {
+      auto datum = mapped_point(model, k, at, map, settings);
+      if (!datum) return std::unexpected(datum.error());
       result.numbers.push_back(result.data.size());
-      result.data.push_back({static_cast<int>(k), parameters, settings.scale * *wanted, 1});
+      result.data.push_back(*datum);
     }
   }
   return result;
@@ -224,6 +238,23 @@ Expected<morph::FitResult> follow_scan(const MovingModel& model, const MorphSett
   report.scan = said;
   if (!settings.tolerance) report.tolerance = fit->noise;
   return std::move(fit->fit);
+}
+
+Expected<std::vector<morph::Datum>> points_between(const MovingModel& model, const MorphData& data,
+                                                   const MorphSettings& settings) {
+  std::vector<morph::Datum> result;
+  if (data.space.empty()) return result;
+  const auto map = fields::SpaceMap::parse(data.space);
+  if (!map) return std::unexpected(map.error().within("space"));
+  for (std::size_t k = 0; k < model.placed.size(); ++k) {
+    if (!model.shown[k] || model.placed[k].fixed) continue;
+    for (const Vector2d& at : grid_on(model.placed[k], true)) {
+      const auto datum = mapped_point(model, k, at, *map, settings);
+      if (!datum) return std::unexpected(datum.error());
+      result.push_back(*datum);
+    }
+  }
+  return result;
 }
 
 Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,

@@ -35,4 +35,10 @@ struct MorphPoints {
 [[nodiscard]] Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
                                               const MorphSettings& settings);
 
+/// Of a map of space: a point in the middle of four data each, with the displacement that is wanted
+/// there. Of other data none: what is true between them is not known. Errors: those of the map.
+[[nodiscard]] Expected<std::vector<morph::Datum>> points_between(const MovingModel& model,
+                                                                 const MorphData& data,
+                                                                 const MorphSettings& settings);
+
 }  // namespace knead::detail

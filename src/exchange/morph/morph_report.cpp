@@ -12,6 +12,17 @@ static void describe(Deviation& d, Fields& fields) {
   fields.add("of_95", d.of_95, {.help = "95 % are at most this", .unit = Unit::length});
   fields.add("of_99", d.of_99, {.help = "99 % are at most this", .unit = Unit::length});
   fields.add("largest", d.largest, {.unit = Unit::length});
+  fields.add("signed_mean", d.signed_mean,
+             {.help = "of the parts along the outward normal, above 0 where data lie outside",
+              .unit = Unit::length});
+  fields.add("signed_least", d.signed_least, {.help = "of these parts", .unit = Unit::length});
+  fields.add("signed_most", d.signed_most, {.help = "of these parts", .unit = Unit::length});
+}
+
+static void describe(MorphHistogram& h, Fields& fields) {
+  fields.name("morph histogram", "Parts of deviations along the outward normal.");
+  fields.add("limit", h.limit, {.help = "the largest magnitude", .unit = Unit::length});
+  fields.add("counts", h.counts, {.help = "of points, in equal intervals from -limit to limit"});
 }
 
 static void describe(MorphedSurface& s, Fields& fields) {
@@ -97,10 +108,17 @@ void describe(MorphReport& r, Fields& fields) {
   fields.name("morph report", "How the surfaces of a CAD file have followed data.");
   fields.add_all("file", r.file, "format", r.format);
   fields.add("unit", r.unit, {.help = "of lengths, as the file names it"});
+  fields.add("data", r.data, {.help = "what they are, with their files or formulas"});
+  fields.add("data_unit", r.data_unit, {.help = "if it was given", .omit_empty = true});
   fields.add("scale", r.scale, {.help = "of the displacements"});
   fields.add("size", r.size, {.help = "diagonal of the model's box", .unit = Unit::length});
   fields.add("tolerance", r.tolerance, {.help = "largest residual wanted", .unit = Unit::length});
   fields.add("reach", r.reach, {.help = "farthest from a face", .unit = Unit::length});
+  fields.add("refinement", r.refinement, {.help = "multiple of the control points at most"});
+  fields.add("along_normal", r.along_normal, {.help = "only this part of displacements"});
+  fields.add("only", r.only, {.help = "faces that may move, if these were named"});
+  fields.add("kept", r.kept, {.help = "faces that were asked to stay"});
+  fields.add("places", r.places, {.help = "of parts that the data are about"});
   fields.add("points", r.points, {.help = "of the data"});
   fields.add("used", r.used, {.help = "of them"});
   fields.add("left_out", r.left_out, {.help = "farther from every face than the reach"});
@@ -110,6 +128,11 @@ void describe(MorphReport& r, Fields& fields) {
   fields.add("rms_distance", r.rms_distance, {.unit = Unit::length});
   fields.add("before", r.before, {.help = "displacements that are wanted"});
   fields.add("after", r.after, {.help = "what of them is missing"});
+  fields.add("histogram_before", r.histogram_before);
+  fields.add("histogram_after", r.histogram_after);
+  fields.add("points_between", r.points_between, {.help = "of a map of space: as many between"});
+  fields.add("between", r.between,
+             {.help = "of a map of space: what is missing at points between the data"});
   fields.add("surfaces", r.surfaces);
   fields.add("converted", r.converted, {.help = "surfaces that became B-splines"});
   fields.add("fixed", r.fixed, {.help = "surfaces that could not move"});
@@ -127,6 +150,7 @@ void describe(MorphReport& r, Fields& fields) {
   fields.add("time_model", r.time_model, {.help = "seconds: conversion, regions, edges"});
   fields.add("time_data", r.time_data, {.help = "seconds: reading, nearest points"});
   fields.add("time_fit", r.time_fit, {.help = "seconds"});
+  fields.add("time_deviation", r.time_deviation, {.help = "seconds: before and after"});
   fields.add("time_save", r.time_save, {.help = "seconds"});
   fields.add("time_check", r.time_check, {.help = "seconds: opening and measuring edges"});
 }

@@ -11,6 +11,7 @@ void describe(MorphAnswer& a, Fields& fields) {
   fields.name("morphed answer", "The file that has followed data, and the report of it.");
   fields.add("file", a.file);
   fields.add("report", a.report, {.help = "docs/morph.md"});
+  fields.add("page", a.page, {.help = "the report for people, as Markdown"});
 }
 
 void describe(MorphQuery& q, Fields& fields) {
@@ -43,7 +44,8 @@ Expected<MorphAnswer> ask(const Session& session, const MorphQuery& q) {
   if (!source) return std::unexpected(source.error());
   auto morphed = follow_data(*source, std::move(data), q.request);
   if (!morphed) return std::unexpected(std::move(morphed.error()));
-  return MorphAnswer{{std::move(morphed->bytes)}, std::move(morphed->report)};
+  std::string page = morph_page(morphed->report);
+  return MorphAnswer{{std::move(morphed->bytes)}, std::move(morphed->report), std::move(page)};
 }
 
 }  // namespace knead

@@ -10,6 +10,7 @@ namespace knead {
 struct MorphAnswer {
   Bytes file;
   MorphReport report;
+  std::string page;  ///< Markdown
 };
 void describe(MorphAnswer& a, Fields& fields);
 
