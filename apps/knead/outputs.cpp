@@ -89,9 +89,9 @@ Expected<void> check_directory(const NamedFile& directory) {
   const std::vector<fs::path> to_make = missing(path);
   auto possible = check_writable(to_make.empty() ? path / ".knead-set" : to_make.front());
   if (possible) return possible;
-  return input_error(fmt::format("nothing can be written into {}: {}", directory.path,
-                                 possible.error().message()),
-                     directory.option, "name another directory");
+  return input_error(
+      fmt::format("nothing can be written into {}: {}", directory.path, possible.error().message()),
+      directory.option, "name another directory");
 }
 
 Expected<void> write_together(const NamedFile& directory,

@@ -9,8 +9,8 @@
 #include <regex>
 
 #include "knead/image/image.hpp"
-#include "knead/spline/evaluate.hpp"
 #include "knead/image_file.hpp"
+#include "knead/spline/evaluate.hpp"
 #include "program.hpp"
 #include "session/schema_check.hpp"
 #include "support/made_files.hpp"
@@ -86,9 +86,9 @@ TEST(MorphReport, OutwardIsAwayFromTheSolid) {
   int below = 0, upright = 0, above = 0;
   for (const Json& surface : said["surfaces"]) {
     const double mean = surface["before"]["signed_mean"].get<double>();
-    if (std::abs(mean + 0.1) < rounding) ++below;   // the floor: its outward normal is −z
-    if (std::abs(mean) < rounding) ++upright;       // four walls
-    if (mean > 0.09) ++above;                       // two patches of the roof, which is bent
+    if (std::abs(mean + 0.1) < rounding) ++below;  // the floor: its outward normal is −z
+    if (std::abs(mean) < rounding) ++upright;      // four walls
+    if (mean > 0.09) ++above;                      // two patches of the roof, which is bent
   }
   EXPECT_EQ(below, 1) << said["surfaces"].dump(1);
   EXPECT_EQ(upright, 4);
@@ -184,9 +184,8 @@ TEST(MorphPage, ItsLinksResolveAndItsPicturesShowTheDeviation) {
 
 TEST(MorphPage, SeveralScalesAreSeveralPages) {
   const Workshop workshop;
-  const Outcome run =
-      knead({"morph", square_file(workshop), "-o", workshop / "out.step", "--space", "0; 0; 0.1",
-             "--scale", "-1,0", "--page", workshop / "page"});
+  const Outcome run = knead({"morph", square_file(workshop), "-o", workshop / "out.step", "--space",
+                             "0; 0; 0.1", "--scale", "-1,0", "--page", workshop / "page"});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_TRUE(fs::exists(workshop / "page_-1/before.png"));
   EXPECT_NE(content_of(workshop / "page_0/README.md").find("byte for byte"), std::string::npos);

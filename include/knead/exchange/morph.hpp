@@ -60,7 +60,7 @@ struct Deviation {
 /// How many points have a part along the outward normal in each of equal intervals from −limit to
 /// limit.
 struct MorphHistogram {
-  double limit = 0;  ///< the largest magnitude
+  double limit = 0;  ///< what 99 % of the magnitudes do not exceed; others are in the outermost
   std::vector<int> counts = {};
 };
 
@@ -131,7 +131,7 @@ struct MorphReport {
   double refinement = 8;
   bool along_normal = false;
   std::vector<std::string> only = {}, kept = {}, places = {};  ///< as asked for
-  int points = 0, used = 0, left_out = 0;         ///< of the data
+  int points = 0, used = 0, left_out = 0;                      ///< of the data
   std::vector<MorphLeftOut> listed = {};          ///< the first of those that were left out
   double largest_distance = 0, rms_distance = 0;  ///< of the points used from the model
   Deviation before = {}, after = {};  ///< of displacements that are wanted from those made
@@ -202,8 +202,8 @@ struct MorphPicture {
 
 /// A page with the pictures that it shows.
 struct IllustratedPage {
-  std::string text;                                            ///< README.md
-  std::vector<std::pair<std::string, std::string>> drawings;   ///< names and SVG texts
+  std::string text;                                           ///< README.md
+  std::vector<std::pair<std::string, std::string>> drawings;  ///< names and SVG texts
   std::vector<MorphPicture> pictures;
 };
 

@@ -20,15 +20,18 @@ struct Differences {
   std::vector<Difference> before, after;
 };
 
+/// Position of the value that this part of all, in order, does not exceed. Requires: count > 0
+std::size_t share_of(std::size_t count, double part) {
+  return static_cast<std::size_t>(std::ceil(part * static_cast<double>(count))) - 1;
+}
+
 Deviation deviation_of(const std::vector<Difference>& differences) {
   if (differences.empty()) return {};
   std::vector<double> lengths;
   for (const Difference& d : differences) lengths.push_back(d.length);
   std::ranges::sort(lengths);
   const auto count = static_cast<double>(lengths.size());
-  const auto share = [&](double part) {
-    return lengths[static_cast<std::size_t>(std::ceil(part * count)) - 1];
-  };
+  const auto share = [&](double part) { return lengths[share_of(lengths.size(), part)]; };
   const auto [least, most] = std::ranges::minmax(differences, {}, &Difference::outward);
   Deviation result{.of_95 = share(0.95),
                    .of_99 = share(0.99),
@@ -47,8 +50,12 @@ Deviation deviation_of(const std::vector<Difference>& differences) {
 MorphHistogram histogram_of(const std::vector<Difference>& differences) {
   constexpr int bins = 41;  // an odd number: one is about 0
   MorphHistogram result{0, std::vector<int>(bins, 0)};
-  for (const Difference& d : differences)
-    result.limit = std::max(result.limit, std::abs(d.outward));
+  if (differences.empty()) return result;
+  std::vector<double> sizes;
+  for (const Difference& d : differences) sizes.push_back(std::abs(d.outward));
+  const auto at = share_of(sizes.size(), 0.99);
+  std::ranges::nth_element(sizes, sizes.begin() + static_cast<std::ptrdiff_t>(at));
+  result.limit = sizes[at];
   for (const Difference& d : differences) {
     const double share = result.limit > 0 ? (d.outward / result.limit + 1) / 2 : 0.5;
     const int bin = std::clamp(static_cast<int>(share * bins), 0, bins - 1);
@@ -102,8 +109,8 @@ Expected<Differences> differences_at(const MovingModel& model, std::span<const m
     const auto& [place, normal] = *from;
     const auto& [new_place, new_normal] = *to;
     result.before[i] = difference_of(datum, datum.displacement, senses[k] * normal);
-    result.after[i] = difference_of(datum, datum.displacement - (new_place - place),
-                                    senses[k] * new_normal);
+    result.after[i] =
+        difference_of(datum, datum.displacement - (new_place - place), senses[k] * new_normal);
     return {};
   };
   parallel_for(std::ssize(errors), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {

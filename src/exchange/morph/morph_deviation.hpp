@@ -13,7 +13,6 @@ namespace knead::detail {
 [[nodiscard]] Expected<void> add_deviations(const MovingModel& model,
                                             std::span<const morph::Datum> data,
                                             std::span<const morph::Datum> between,
-                                            const std::vector<Surface>& moved,
-                                            MorphedFile& result);
+                                            const std::vector<Surface>& moved, MorphedFile& result);
 
 }  // namespace knead::detail

@@ -28,8 +28,8 @@ std::string opening(int width, int height) {
 }
 
 std::string label(double x, double y, std::string_view anchor, const std::string& text) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y,
-                     anchor, text);
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor,
+                     text);
 }
 
 /// Numbers below an axis from −limit to limit.
@@ -54,7 +54,7 @@ std::string panel(const MorphHistogram& histogram, const std::string& title, dou
   const int most = std::max(1, std::ranges::max(histogram.counts));
   const double limit = histogram.limit, step = width / static_cast<double>(histogram.counts.size());
   std::string svg = label(left, 22, "start", title);
-  svg += label(left, top - 6, "start", fmt::format("{} points in the fullest", most));
+  svg += label(left, top - 6, "start", fmt::format("highest bar: {} points", most));
   for (std::size_t k = 0; k < histogram.counts.size(); ++k) {
     const double bar = height * histogram.counts[k] / most;
     if (bar == 0) continue;
@@ -93,13 +93,13 @@ std::array<double, 3> colour_of(double value) {
 }
 
 std::string histogram_drawing(const MorphReport& report) {
-  std::string svg = opening(900, 280);
-  svg += panel(report.histogram_before, "Signed deviation before", 40, report);
-  svg += panel(report.histogram_after, "Signed deviation after", 480, report);
+  std::string svg = opening(940, 270);
+  svg += panel(report.histogram_before, "Signed deviation before", 50, report);
+  svg += panel(report.histogram_after, "Signed deviation after", 520, report);
   if (report.tolerance < std::max(report.histogram_before.limit, report.histogram_after.limit))
-    svg += label(870, 22, "end",
-                 fmt::format("dashed: tolerance {:.3g}{}", report.tolerance,
-                             unit_after(report.unit)));
+    svg +=
+        label(900, 22, "end",
+              fmt::format("dashed: tolerance {:.3g}{}", report.tolerance, unit_after(report.unit)));
   return svg + "</svg>\n";
 }
 
@@ -108,9 +108,9 @@ std::string scale_drawing(double limit, const std::string& unit) {
   constexpr int steps = 64;
   std::string svg = opening(600, 62);
   for (int k = 0; k < steps; ++k) {
-    svg += fmt::format(
-        "<rect x=\"{:.2f}\" y=\"22\" width=\"{:.2f}\" height=\"14\" fill=\"{}\"/>\n",
-        left + width * k / steps, width / steps + 0.3, hex(colour_of(2 * (k + 0.5) / steps - 1)));
+    svg += fmt::format("<rect x=\"{:.2f}\" y=\"22\" width=\"{:.2f}\" height=\"14\" fill=\"{}\"/>\n",
+                       left + width * k / steps, width / steps + 0.3,
+                       hex(colour_of(2 * (k + 0.5) / steps - 1)));
   }
   svg += label(left, 15, "start", "data inside of the model");
   svg += label(left + width, 15, "end", "data outside");

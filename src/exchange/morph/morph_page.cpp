@@ -19,7 +19,7 @@ constexpr std::size_t most_rows = 20;
 std::string plain(std::string_view text) {
   std::string result;
   for (const char c : printable(text, 300)) {
-    if (std::string_view("\\`*_{}[]<>#|~").find(c) != std::string_view::npos) result += '\\';
+    if (std::string_view("\\`*_[]<>|~").find(c) != std::string_view::npos) result += '\\';
     result += c;
   }
   return result;
@@ -100,7 +100,7 @@ class Writer {
 
   void head() {
     const auto& r = report_;
-    add("# {}, moved to follow data\n\n", plain(r.file));
+    add("# {}, moved to follow data\n\n", plain(r.file.substr(r.file.find_last_of('/') + 1)));
     if (r.scale == 0) {
       add("The scale is 0: the file is as it was, byte for byte.\n\n");
     } else {
@@ -133,8 +133,9 @@ class Writer {
     if (contradicting > 0)
       add("; {} points contradict what stays, and are followed in part", contradicting);
     add(". The data want displacements of up to {}{}; of these at most {}{}, {}{} rms, is missing. "
-        "No edge is parted by\nmore than the check allows.\n\n",
-        figure(r.before.largest), unit_, figure(r.after.largest), unit_, figure(r.after.rms), unit_);
+        "No edge is parted by more than the check allows.\n\n",
+        figure(r.before.largest), unit_, figure(r.after.largest), unit_, figure(r.after.rms),
+        unit_);
   }
 
   static std::vector<std::string> cells(std::string name, const Deviation& d) {
@@ -155,7 +156,8 @@ class Writer {
       row(cells(fmt::format("after, at {} points between the data", count_of(r.points_between)),
                 *r.between));
     add("\nBefore: what the data want; after: what of that is missing. Signed figures are the "
-        "parts along the outward\nnormal, above 0 where the data lie outside.\n\n");
+        "parts along the outward "
+        "normal, above 0 where the data lie outside.\n\n");
     if (!illustrated_) return;
     add("![Histograms of the signed deviation before and after](histogram.svg)\n\n"
         "| before | after |\n|---|---|\n"
@@ -163,7 +165,8 @@ class Writer {
         "![The model after, in the same colours](after.png) |\n\n"
         "![Scale of the colours: signed deviation](scale.svg)\n\n"
         "Both are seen from the same two opposite directions; grey is where no data are near. The "
-        "deviation after,\non a scale of its own:\n\n"
+        "deviation after, "
+        "on a scale of its own:\n\n"
         "![The model after, in colours of a finer scale](remaining.png)\n\n"
         "![The finer scale](remaining_scale.svg)\n\n");
   }
@@ -180,9 +183,9 @@ class Writer {
     for (std::size_t k = 0; k < std::min(most_rows, worst.size()); ++k) {
       const MorphedSurface& s = *worst[k];
       row({s.faces.empty() ? "–" : plain(s.faces), plain(s.id), count_of(s.points),
-           figure(s.before.rms), figure(s.after.rms), figure(s.after.of_95),
-           figure(s.after.of_99), figure(s.after.largest), figure(s.after.signed_mean),
-           change(s.control_points_before, s.control_points_after)});
+           figure(s.before.rms), figure(s.after.rms), figure(s.after.of_95), figure(s.after.of_99),
+           figure(s.after.largest), figure(s.after.signed_mean),
+           count_of(s.control_points_before) + " → " + count_of(s.control_points_after)});
     }
     more_than(worst.size(), "surfaces");
     add("\n");
@@ -199,8 +202,7 @@ class Writer {
     if (r.scan) {
       row({"left out: beside the model, beyond its border", count_of(r.scan->beyond_border)});
       row({"left out: normal more than 45° from that of the face", count_of(r.scan->turned_away)});
-      row({"left out: more than six deviations from the moved model",
-           count_of(r.scan->outliers)});
+      row({"left out: more than six deviations from the moved model", count_of(r.scan->outliers)});
     }
     add("\nPoints used are {}{} from the model at most, {}{} rms.\n\n", figure(r.largest_distance),
         unit_, figure(r.rms_distance), unit_);
@@ -216,7 +218,7 @@ class Writer {
 
   void scan(const MorphScan& s) {
     add("The noise of each coordinate of the scan is {}{}{}. The distance of its points from the "
-        "model is {}{} rms before and\n{}{} after {} turns.",
+        "model is {}{} rms before and {}{} after {} turns.",
         figure(s.noise), unit_,
         s.noise == 0        ? ", as it is taken as exact"
         : s.noise_estimated ? ", as estimated"

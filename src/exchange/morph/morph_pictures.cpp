@@ -63,15 +63,14 @@ void fit(View& view, const std::vector<FaceMesh>& faces) {
     for (const Point& p : face.points) box.extend(Vector2d((view.axes * p).head<2>()));
   }
   view.middle = box.center();
-  view.samples_per_length =
-      finer * (side - 2 * margin) / std::max(box.sizes().maxCoeff(), 1e-300);
+  view.samples_per_length = finer * (side - 2 * margin) / std::max(box.sizes().maxCoeff(), 1e-300);
 }
 
 /// What each sample of a picture shows.
 struct Samples {
   static constexpr int width = finer * side;
-  std::vector<double> height = std::vector<double>(std::size_t{width} * width,
-                                                   -std::numeric_limits<double>::infinity());
+  std::vector<double> height =
+      std::vector<double>(std::size_t{width} * width, -std::numeric_limits<double>::infinity());
   std::vector<float> light = std::vector<float>(height.size(), 0);
   std::vector<int> surface = std::vector<int>(height.size(), -2);  // -2: nothing; -1: none
   std::vector<int> datum = std::vector<int>(height.size(), -1);    // the nearest
@@ -102,50 +101,56 @@ void draw(const FaceMesh& face, const std::array<std::uint32_t, 3>& t, int surfa
       const double height = u * p[0].z() + v * p[1].z() + w * p[2].z();
       const std::size_t k = Samples::at(column, row);
       if (height <= samples.height[k]) continue;
-      const Point normal =
-          u * face.normals[t[0]] + v * face.normals[t[1]] + w * face.normals[t[2]];
+      const Point normal = u * face.normals[t[0]] + v * face.normals[t[1]] + w * face.normals[t[2]];
       const double facing = std::abs(view.axes.row(2).dot(normal)) / std::max(normal.norm(), 1e-9);
       samples.height[k] = height;
-      samples.light[k] = static_cast<float>(0.5 + 0.5 * facing);
+      samples.light[k] = static_cast<float>(0.65 + 0.35 * facing);
       samples.surface[k] = surface;
     }
   }
 }
 
-/// Gives every sample the nearest datum on its surface, within a distance that suits their number.
-void spread(const std::vector<MorphedPoint>& points, const View& view, Samples& samples) {
-  const auto covered = static_cast<double>(
-      std::ranges::count_if(samples.surface, [](int surface) { return surface >= 0; }));
-  const double usual = std::sqrt(covered / static_cast<double>(points.size()));
-  const double radius = std::clamp(2 * usual, 2.0 * finer, 16.0 * finer);
+/// How far, in samples, the points on each surface are from each other, several times over.
+std::vector<double> radii_of(const std::vector<MorphedPoint>& points, const Samples& samples,
+                             std::size_t surfaces) {
+  std::vector<double> seen(surfaces, 0), count(surfaces, 0);
+  for (const int surface : samples.surface) {
+    if (surface >= 0) ++seen[static_cast<std::size_t>(surface)];
+  }
+  for (const MorphedPoint& p : points) ++count[static_cast<std::size_t>(p.surface)];
+  std::vector<double> result;
+  for (std::size_t k = 0; k < surfaces; ++k) {
+    // Points in rows are up to three times as far from each other as evenly spread ones.
+    const double usual = std::sqrt(seen[k] / std::max(count[k], 1.0));
+    result.push_back(std::clamp(3 * usual, 2.0 * finer, 64.0 * finer));
+  }
+  return result;
+}
+
+/// Gives every sample the nearest datum on its surface, within such a distance.
+void spread(const std::vector<MorphedPoint>& points, std::size_t surfaces, const View& view,
+            Samples& samples) {
+  const std::vector<double> radii = radii_of(points, samples, surfaces);
   std::vector<float> nearest(samples.datum.size(), std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point p = view.at({points[i].place[0], points[i].place[1], points[i].place[2]});
-    for (int row = Samples::clamped(p.y() - radius); row <= Samples::clamped(p.y() + radius);
-         ++row) {
-      for (int column = Samples::clamped(p.x() - radius);
-           column <= Samples::clamped(p.x() + radius); ++column) {
+    const double radius = radii[static_cast<std::size_t>(points[i].surface)];
+    const int left = Samples::clamped(p.x() - radius), right = Samples::clamped(p.x() + radius);
+    const int top = Samples::clamped(p.y() - radius), bottom = Samples::clamped(p.y() + radius);
+    for (int row = top; row <= bottom; ++row) {
+      for (int column = left; column <= right; ++column) {
         const std::size_t k = Samples::at(column, row);
         if (samples.surface[k] != points[i].surface) continue;
         // In space, so that the far side of a closed surface does not count.
         const Point way(column + 0.5 - p.x(), row + 0.5 - p.y(), samples.height[k] - p.z());
-        const double distance = way.head<2>().norm();
-        if (distance > radius || std::abs(way.z()) > 4 * radius) continue;
-        if (distance + std::abs(way.z()) >= nearest[k]) continue;
-        nearest[k] = static_cast<float>(distance + std::abs(way.z()));
+        const auto distance = static_cast<float>(way.norm());
+        if (way.head<2>().norm() > radius || distance > 3 * radius || distance >= nearest[k])
+          continue;
+        nearest[k] = distance;
         samples.datum[k] = static_cast<int>(i);
       }
     }
   }
-}
-
-/// The value below which 99 % of the magnitudes are, so that few points do not pale all others.
-double limit_of(const std::vector<MorphedPoint>& points, double MorphedPoint::*value) {
-  std::vector<double> sizes;
-  for (const MorphedPoint& p : points) sizes.push_back(std::abs(p.*value));
-  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size() - 1));
-  std::ranges::nth_element(sizes, at);
-  return *at;
 }
 
 /// Two views side by side, coloured by a value from −limit to limit.
@@ -155,7 +160,7 @@ MorphPicture picture(std::string name, const std::vector<MorphedPoint>& points,
   MorphPicture result{std::move(name), 2 * side, side, {}};
   const auto colour_at = [&](const Samples& view, std::size_t k) -> std::array<double, 3> {
     if (view.surface[k] == -2) return {255, 255, 255};
-    std::array<double, 3> colour = {150, 150, 150};
+    std::array<double, 3> colour = {120, 120, 120};
     if (view.datum[k] >= 0) {
       const double x = points[static_cast<std::size_t>(view.datum[k])].*value;
       colour = detail::colour_of(limit > 0 ? x / limit : 0);
@@ -168,8 +173,8 @@ MorphPicture picture(std::string name, const std::vector<MorphedPoint>& points,
       const Samples& view = views[column < side ? 0 : 1];
       std::array<double, 3> sum{};
       for (int k = 0; k < finer * finer; ++k) {
-        const auto colour = colour_at(view, Samples::at(finer * (column % side) + k % finer,
-                                                        finer * row + k / finer));
+        const auto colour = colour_at(
+            view, Samples::at(finer * (column % side) + k % finer, finer * row + k / finer));
         for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c] / (finer * finer);
       }
       for (const double c : sum)
@@ -204,11 +209,10 @@ Expected<IllustratedPage> illustrated_page(const Source& opened, const MorphedFi
       for (const auto& triangle : face.triangles)
         draw(face, triangle, found == number.end() ? -1 : found->second, *view, *samples);
     }
-    spread(morphed.points, *view, *samples);
+    spread(morphed.points, report.surfaces.size(), *view, *samples);
   }
   const auto& points = morphed.points;
-  const double limit = limit_of(points, &MorphedPoint::before),
-               remaining = limit_of(points, &MorphedPoint::after);
+  const double limit = report.histogram_before.limit, remaining = report.histogram_after.limit;
   IllustratedPage page{detail::page_text(report, true),
                        {{"histogram.svg", detail::histogram_drawing(report)},
                         {"scale.svg", detail::scale_drawing(limit, report.unit)},

@@ -21,8 +21,12 @@ static void describe(Deviation& d, Fields& fields) {
 
 static void describe(MorphHistogram& h, Fields& fields) {
   fields.name("morph histogram", "Parts of deviations along the outward normal.");
-  fields.add("limit", h.limit, {.help = "the largest magnitude", .unit = Unit::length});
-  fields.add("counts", h.counts, {.help = "of points, in equal intervals from -limit to limit"});
+  fields.add("limit", h.limit,
+             {.help = "what 99 % of the magnitudes do not exceed", .unit = Unit::length});
+  fields.add(
+      "counts", h.counts,
+      {.help = "of points, in equal intervals from -limit to limit; what is beyond counts in "
+               "the outermost"});
 }
 
 static void describe(MorphedSurface& s, Fields& fields) {
