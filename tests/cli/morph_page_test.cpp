@@ -116,7 +116,7 @@ TEST(MorphReport, ErrorsBetweenTheDataAreThoseOfTheFile) {
   const Workshop workshop;
   const Json said = report_of(workshop, square_file(workshop, 3),
                               {"--space", "0; 0; 0.01*sin(7*x)", "--refine", "1"});
-  const Surface moved = surface_of(workshop / "out.step", "#21");
+  const Surface moved = surface_of(workshop / "out.step", said["surfaces"][0]["id"]);
   // One span in each direction has 24 lines of data; errors are measured in the middles between.
   double largest = 0, squares = 0;
   constexpr int middles = 23;

@@ -93,7 +93,7 @@ std::array<double, 3> colour_of(double value) {
 }
 
 std::string histogram_drawing(const MorphReport& report) {
-  std::string svg = opening(940, 270);
+  std::string svg = opening(960, 270);
   svg += panel(report.histogram_before, "Signed deviation before", 50, report);
   svg += panel(report.histogram_after, "Signed deviation after", 520, report);
   if (report.tolerance < std::max(report.histogram_before.limit, report.histogram_after.limit))

@@ -1,6 +1,7 @@
 // Pictures of a model coloured by the deviation at its data.
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
 
@@ -110,48 +111,85 @@ void draw(const FaceMesh& face, const std::array<std::uint32_t, 3>& t, int surfa
   }
 }
 
-/// How far, in samples, the points on each surface are from each other, several times over.
-std::vector<double> radii_of(const std::vector<MorphedPoint>& points, const Samples& samples,
-                             std::size_t surfaces) {
-  std::vector<double> seen(surfaces, 0), count(surfaces, 0);
-  for (const int surface : samples.surface) {
-    if (surface >= 0) ++seen[static_cast<std::size_t>(surface)];
+/// How far the points on each surface of the report are from each other, several times over.
+/// \param numbers of these surfaces, of each face; -1: none
+std::vector<double> reaches_of(const std::vector<MorphedPoint>& points, std::size_t surfaces,
+                               const std::vector<FaceMesh>& faces,
+                               const std::vector<int>& numbers) {
+  std::vector<double> area(surfaces, 0), count(surfaces, 0);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (numbers[f] < 0) continue;
+    for (const auto& t : faces[f].triangles) {
+      const auto& p = faces[f].points;
+      area[static_cast<std::size_t>(numbers[f])] +=
+          (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+    }
   }
   for (const MorphedPoint& p : points) ++count[static_cast<std::size_t>(p.surface)];
-  std::vector<double> result;
-  for (std::size_t k = 0; k < surfaces; ++k) {
-    // Points in rows are up to three times as far from each other as evenly spread ones.
-    const double usual = std::sqrt(seen[k] / std::max(count[k], 1.0));
-    result.push_back(std::clamp(3 * usual, 2.0 * finer, 64.0 * finer));
-  }
-  return result;
+  constexpr double rows = 4;  // points in rows are farther from each other than evenly spread ones
+  for (std::size_t k = 0; k < surfaces; ++k)
+    area[k] = rows * std::sqrt(area[k] / std::max(count[k], 1.0));
+  return area;
 }
 
-/// Gives every sample the nearest datum on its surface, within such a distance.
-void spread(const std::vector<MorphedPoint>& points, std::size_t surfaces, const View& view,
-            Samples& samples) {
-  const std::vector<double> radii = radii_of(points, samples, surfaces);
-  std::vector<float> nearest(samples.datum.size(), std::numeric_limits<float>::infinity());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point p = view.at({points[i].place[0], points[i].place[1], points[i].place[2]});
-    const double radius = radii[static_cast<std::size_t>(points[i].surface)];
-    const int left = Samples::clamped(p.x() - radius), right = Samples::clamped(p.x() + radius);
-    const int top = Samples::clamped(p.y() - radius), bottom = Samples::clamped(p.y() + radius);
+/// Gives every sample the nearest datum on its surface, within the reach of that: from samples that
+/// have one to their neighbours.
+class Spreading {
+ public:
+  Spreading(const std::vector<MorphedPoint>& points, const std::vector<double>& reaches,
+            const View& view, Samples& samples)
+      : points_(points), reaches_(reaches), samples_(samples) {
+    for (const MorphedPoint& p : points)
+      places_.push_back(view.at({p.place[0], p.place[1], p.place[2]}));
+    for (double& reach : reaches_)
+      reach = std::clamp(reach * view.samples_per_length, 2.0 * finer, 64.0 * finer);
+  }
+
+  void run() {
+    constexpr double beside = 6;  // that steep faces and chords are off by, in samples
+    for (std::size_t i = 0; i < points_.size(); ++i) around(places_[i], i, beside);
+    while (!changed_.empty()) {
+      const std::size_t k = changed_.front();
+      changed_.pop_front();
+      const auto column = static_cast<double>(k % Samples::width),
+                 row = static_cast<double>(k / Samples::width);
+      around({column + 0.5, row + 0.5, 0}, static_cast<std::size_t>(samples_.datum[k]),
+             std::numeric_limits<double>::infinity());
+    }
+  }
+
+ private:
+  /// Offers a datum to the sample at a place and to those around it.
+  void around(const Point& at, std::size_t datum, double most) {
+    const auto surface = points_[datum].surface;
+    const double reach = std::min(most, reaches_[static_cast<std::size_t>(surface)]);
+    const int left = Samples::clamped(at.x() - 1), right = Samples::clamped(at.x() + 1);
+    const int top = Samples::clamped(at.y() - 1), bottom = Samples::clamped(at.y() + 1);
     for (int row = top; row <= bottom; ++row) {
       for (int column = left; column <= right; ++column) {
         const std::size_t k = Samples::at(column, row);
-        if (samples.surface[k] != points[i].surface) continue;
+        if (samples_.surface[k] != surface) continue;
         // In space, so that the far side of a closed surface does not count.
-        const Point way(column + 0.5 - p.x(), row + 0.5 - p.y(), samples.height[k] - p.z());
+        const Point& p = places_[datum];
+        const Point way(column + 0.5 - p.x(), row + 0.5 - p.y(), samples_.height[k] - p.z());
         const auto distance = static_cast<float>(way.norm());
-        if (way.head<2>().norm() > radius || distance > 3 * radius || distance >= nearest[k])
+        if (way.head<2>().norm() > reach || distance > 3 * reach || distance >= nearest_[k])
           continue;
-        nearest[k] = distance;
-        samples.datum[k] = static_cast<int>(i);
+        nearest_[k] = distance;
+        samples_.datum[k] = static_cast<int>(datum);
+        changed_.push_back(k);
       }
     }
   }
-}
+
+  const std::vector<MorphedPoint>& points_;
+  std::vector<double> reaches_;  // in samples
+  Samples& samples_;
+  std::vector<Point> places_;
+  std::vector<float> nearest_ =
+      std::vector<float>(samples_.datum.size(), std::numeric_limits<float>::infinity());
+  std::deque<std::size_t> changed_;
+};
 
 /// Two views side by side, coloured by a value from −limit to limit.
 MorphPicture picture(std::string name, const std::vector<MorphedPoint>& points,
@@ -198,18 +236,24 @@ Expected<IllustratedPage> illustrated_page(const Source& opened, const MorphedFi
     number[report.surfaces[k].id] = static_cast<int>(k);
     for (const std::string& face : report.surfaces[k].faces) number[face] = static_cast<int>(k);
   }
+  std::vector<int> numbers;  // of each face
+  for (const FaceMesh& face : meshed->faces) {
+    auto found = number.find(face.id);
+    if (found == number.end()) found = number.find(face.surface);
+    numbers.push_back(found == number.end() ? -1 : found->second);
+  }
+  const std::vector<double> reaches =
+      reaches_of(morphed.points, report.surfaces.size(), meshed->faces, numbers);
   View front = best_view(meshed->faces);
   View back = View::from(-front.axes.row(2).transpose());
   std::array<Samples, 2> views;
   for (const auto& [view, samples] : {std::pair(&front, &views[0]), std::pair(&back, &views[1])}) {
     fit(*view, meshed->faces);
-    for (const FaceMesh& face : meshed->faces) {
-      auto found = number.find(face.id);
-      if (found == number.end()) found = number.find(face.surface);
-      for (const auto& triangle : face.triangles)
-        draw(face, triangle, found == number.end() ? -1 : found->second, *view, *samples);
+    for (std::size_t f = 0; f < numbers.size(); ++f) {
+      for (const auto& triangle : meshed->faces[f].triangles)
+        draw(meshed->faces[f], triangle, numbers[f], *view, *samples);
     }
-    spread(morphed.points, report.surfaces.size(), *view, *samples);
+    Spreading(morphed.points, reaches, *view, *samples).run();
   }
   const auto& points = morphed.points;
   const double limit = report.histogram_before.limit, remaining = report.histogram_after.limit;
