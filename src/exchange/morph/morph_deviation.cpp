@@ -18,6 +18,9 @@ struct Difference {
 
 struct Differences {
   std::vector<Difference> before, after;
+  std::vector<Point> places;  ///< before
+
+  explicit Differences(std::size_t count = 0) : before(count), after(count), places(count) {}
 };
 
 /// Position of the value that this part of all, in order, does not exceed. Requires: count > 0
@@ -97,7 +100,7 @@ Difference difference_of(const morph::Datum& datum, const Point& whole, const Po
 Expected<Differences> differences_at(const MovingModel& model, std::span<const morph::Datum> data,
                                      const std::vector<Surface>& moved) {
   const std::vector<int> senses = outward_senses(model);
-  Differences result{std::vector<Difference>(data.size()), std::vector<Difference>(data.size())};
+  Differences result(data.size());
   std::vector<std::optional<Error>> errors(data.size() / 1024 + 1);
   const auto measure = [&](std::size_t i) -> Expected<void> {
     const morph::Datum& datum = data[i];
@@ -108,6 +111,7 @@ Expected<Differences> differences_at(const MovingModel& model, std::span<const m
     if (!to) return std::unexpected(to.error());
     const auto& [place, normal] = *from;
     const auto& [new_place, new_normal] = *to;
+    result.places[i] = place;
     result.before[i] = difference_of(datum, datum.displacement, senses[k] * normal);
     result.after[i] =
         difference_of(datum, datum.displacement - (new_place - place), senses[k] * new_normal);
@@ -127,22 +131,6 @@ Expected<Differences> differences_at(const MovingModel& model, std::span<const m
   return result;
 }
 
-/// The points of the data, on the surfaces of the report, whose positions there are `numbers`.
-Expected<void> add_points(const MovingModel& model, std::span<const morph::Datum> data,
-                          const Differences& all, const std::vector<int>& numbers,
-                          MorphedFile& result) {
-  for (std::size_t i = 0; i < data.size(); ++i) {
-    const auto k = static_cast<std::size_t>(data[i].surface);
-    const auto place = evaluate_point<2>(*model.placed[k].surface, data[i].parameters);
-    if (!place) return std::unexpected(place.error());
-    result.points.push_back({numbers[k],
-                             {place->x(), place->y(), place->z()},
-                             all.before[i].outward,
-                             all.after[i].outward});
-  }
-  return {};
-}
-
 }  // namespace
 
 Expected<void> add_deviations(const MovingModel& model, std::span<const morph::Datum> data,
@@ -157,9 +145,9 @@ Expected<void> add_deviations(const MovingModel& model, std::span<const morph::D
   report.histogram_after = histogram_of(all->after);
   std::vector<Differences> by_surface(model.surfaces.size());
   for (std::size_t i = 0; i < data.size(); ++i) {
-    auto& [before, after] = by_surface[static_cast<std::size_t>(data[i].surface)];
-    before.push_back(all->before[i]);
-    after.push_back(all->after[i]);
+    Differences& own = by_surface[static_cast<std::size_t>(data[i].surface)];
+    own.before.push_back(all->before[i]);
+    own.after.push_back(all->after[i]);
   }
   std::vector<int> numbers(model.surfaces.size(), -1);
   for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -167,7 +155,8 @@ Expected<void> add_deviations(const MovingModel& model, std::span<const morph::D
     const int net = model.surfaces[k].surface->size(), new_net = moved[k].size();
     report.control_points_before += net;
     report.control_points_after += new_net;
-    const auto& [before, after] = by_surface[k];
+    const auto& before = by_surface[k].before;
+    const auto& after = by_surface[k].after;
     if (before.empty() && model.surfaces[k].fixed) continue;
     numbers[k] = static_cast<int>(report.surfaces.size());
     report.surfaces.push_back({model.source->surfaces()[k].id, model.faces[k],
@@ -180,7 +169,15 @@ Expected<void> add_deviations(const MovingModel& model, std::span<const morph::D
     report.points_between = static_cast<int>(between.size());
     report.between = deviation_of(errors->after);
   }
-  return add_points(model, data, *all, numbers, result);
+  result.points.reserve(data.size());
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const Point& place = all->places[i];
+    result.points.push_back({numbers[static_cast<std::size_t>(data[i].surface)],
+                             {place.x(), place.y(), place.z()},
+                             all->before[i].outward,
+                             all->after[i].outward});
+  }
+  return {};
 }
 
 }  // namespace knead::detail
