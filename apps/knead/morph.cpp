@@ -118,6 +118,11 @@ Expected<MorphData> data_of(const MorphArguments& options) {
     if (!bytes) return std::unexpected(std::move(bytes.error()));
     *file = MorphFile{*std::move(bytes), *name};
   }
+  if (constexpr std::string_view block = "lattice:"; data.space.starts_with(block)) {
+    auto bytes = read_file(data.space.substr(block.size()));
+    if (!bytes) return std::unexpected(std::move(bytes.error()));
+    data.space.replace(block.size(), std::string::npos, *bytes);
+  }
   return data;
 }
 
@@ -273,7 +278,8 @@ void add_options(CLI::App& command, MorphArguments& options) {
                      "standard deviation of each coordinate of the data, in the file's unit; of a "
                      "scan it is estimated, other data are exact");
   command.add_option("--space", options.space,
-                     "the displacement as three formulas of x, y, z: \"0; 0; 0.01*x^2\"");
+                     "the displacement as three formulas of x, y, z: \"0; 0; 0.01*x^2\"; or "
+                     "\"lattice:FILE.json\", a block of space of which control points are moved");
   command
       .add_option("--scale", options.scales,
                   "factors of the displacements: -1 compensates; of several each gets a file, with "

@@ -12,8 +12,6 @@ namespace knead {
 
 constexpr std::int64_t max_lattice_size = 1000000;
 
-// Control points at Greville abscissae reproduce x = lower + u ∘ (upper − lower) (linear
-// precision): the volume at rest is the identity of its box.
 Expected<Lattice> Lattice::create(const BoundingBox& box, double margin,
                                   const std::array<int, 3>& degree, const std::array<int, 3>& net) {
   if (!box.lower.allFinite() || !box.upper.allFinite() || !(box.diagonal() > 0)) {
@@ -22,6 +20,17 @@ Expected<Lattice> Lattice::create(const BoundingBox& box, double margin,
   if (!(std::isfinite(margin) && margin > 0)) {
     return input_error(fmt::format("{} is not a margin", margin), "margin", "use a number > 0");
   }
+  return between(box.lower.array() - margin * box.diagonal(),
+                 box.upper.array() + margin * box.diagonal(), degree, net);
+}
+
+// Control points at Greville abscissae reproduce x = lower + u ∘ (upper − lower) (linear
+// precision): the volume at rest is the identity of its box.
+Expected<Lattice> Lattice::between(const Point& lower, const Point& upper,
+                                   const std::array<int, 3>& degree,
+                                   const std::array<int, 3>& net) {
+  if (!lower.allFinite() || !upper.allFinite() || !((upper - lower).array() > 0).all())
+    return input_error("the box has no size", "upper", "give a corner above the other in x, y, z");
   if (std::ranges::all_of(net, [](int n) { return n > 0; }) && !product_of(net, max_lattice_size)) {
     return input_error("the lattice has more than a million control points", "net", "use fewer");
   }
@@ -32,8 +41,6 @@ Expected<Lattice> Lattice::create(const BoundingBox& box, double margin,
     knots.push_back(std::move(*made));
   }
   const Eigen::Index size = static_cast<Eigen::Index>(net[0]) * net[1] * net[2];
-  const Point lower = box.lower.array() - margin * box.diagonal(),
-              upper = box.upper.array() + margin * box.diagonal();
   Points points(size, 3);
   Eigen::Index row = 0;
   for (int i = 0; i < net[0]; ++i) {
@@ -65,6 +72,40 @@ Expected<Points> Lattice::deformed(const Points& points, const Points& control_p
   const auto moved = evaluate<3>(*displacement, parameters);
   if (!moved) return std::unexpected(moved.error());
   return Points(points + moved->points());
+}
+
+Expected<std::function<Expected<Point>(const Point&)>> Lattice::displacement(
+    const Points& control_points) const {
+  auto volume = rest_.with_control_points(control_points - rest_.control_points());
+  if (!volume) return std::unexpected(volume.error());
+  return [volume = *std::move(volume), lower = lower_,
+          size = size_](const Point& x) -> Expected<Point> {
+    const Point u = (x - lower).cwiseQuotient(size);
+    if (!((u.array() >= 0).all() && (u.array() <= 1).all())) return Point(Point::Zero());
+    return evaluate_point<3>(volume, {u[0], u[1], u[2]});
+  };
+}
+
+Expected<Points> Lattice::moved(Points control_points, std::span<const int> which,
+                                const std::array<double, 3>& by) const {
+  const int count = rest_.size();
+  if (which.empty())
+    return input_error("no control points are named", "which",
+                       "give their numbers, counted from 0");
+  const Eigen::RowVector3d move(by.data());
+  if (!move.allFinite()) return input_error("the move is not finite", "by", "give three numbers");
+  std::vector<bool> moved(static_cast<std::size_t>(count), false);
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const int number = which[k];
+    if (number < 0 || number >= count) {
+      return input_error(fmt::format("the block has no control point {}", number),
+                         fmt::format("which[{}]", k),
+                         fmt::format("use numbers from 0 to {}", count - 1));
+    }
+    if (!moved[static_cast<std::size_t>(number)]) control_points.row(number) += move;
+    moved[static_cast<std::size_t>(number)] = true;
+  }
+  return control_points;
 }
 
 Expected<std::vector<bool>> Lattice::faces(std::span<const std::string> names, int rows) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,12 @@ class Lattice {
                                                 const std::array<int, 3>& degree,
                                                 const std::array<int, 3>& net);
 
+  /// The same for a box that is not widened. Errors: `upper` is not above `lower` in every
+  /// direction.
+  [[nodiscard]] static Expected<Lattice> between(const Point& lower, const Point& upper,
+                                                 const std::array<int, 3>& degree,
+                                                 const std::array<int, 3>& net);
+
   /// The volume at rest.
   [[nodiscard]] const Volume& rest() const { return rest_; }
 
@@ -31,6 +38,15 @@ class Lattice {
   /// D(u(x)) with D the displacement of the volume, so that points stay exactly where the volume
   /// does not move. Errors (input): a point outside the box, named by its row.
   [[nodiscard]] Expected<Points> deformed(const Points& points, const Points& control_points) const;
+
+  /// x ↦ D(u(x)), as of `deformed`; zero outside of the box.
+  [[nodiscard]] Expected<std::function<Expected<Point>(const Point&)>> displacement(
+      const Points& control_points) const;
+
+  /// Control points after some have been moved, each once. Errors (input, at `which` or `by`): none
+  /// are named; there is no such control point; a move that is not finite.
+  [[nodiscard]] Expected<Points> moved(Points control_points, std::span<const int> which,
+                                       const std::array<double, 3>& by) const;
 
   /// Control points on faces "u0", "u1", "v0", "v1", "w0", "w1" (u along x), `rows` deep; an error
   /// lists the names.

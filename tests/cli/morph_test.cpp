@@ -110,6 +110,23 @@ TEST(Morph, AnAffineMapOfSpaceIsItsImage) {
   EXPECT_EQ(against(said, knead({"schema", "morph"}).json(), "report"), "");
 }
 
+/// A block whose end along x is moved shears its linear half with all points of the faces.
+TEST(Morph, ABlockOfSpaceTakesPointsAlong) {
+  const Workshop workshop;
+  const std::string out = workshop / "out.step";
+  const std::string block =
+      workshop.file("block.json", R"({"net":[2,2,2],"degree":[1,1,1],"lower":[-2000,-2000,-2000],
+                        "upper":[2000,2000,2000],"moves":[{"which":[4,5,6,7],"by":[0,0,40]}]})");
+  ASSERT_EQ(knead({"morph", bonnet(), "-o", out, "--space", "lattice:" + block}).code, 0);
+  const Surface before = surface_of(bonnet(), "#285"), after = surface_of(out, "#285");
+  const Points& net = before.control_points();
+  ASSERT_EQ(after.size(), before.size()) << "an affine map";
+  for (int k = 0; k < before.size(); ++k) {
+    const Point wanted = Point(net.row(k)) + Point(0, 0, 40 * (net(k, 0) + 2000) / 4000);
+    EXPECT_LE((Point(after.control_points().row(k)) - wanted).norm(), 1e-9 * size);
+  }
+}
+
 TEST(Morph, EdgesAreClosedAsBefore) {
   const Workshop workshop;
   const std::string out = workshop / "out.step";
@@ -294,6 +311,8 @@ TEST(Morph, SaysWhatIsWrongAndWritesNothing) {
   fails({"--vectors", vtk, "--field", "w"}, 3, {"\"w\"; there are \"u\", \"t\" of 1"});
   fails({"--vectors", good, "--columns", "a,b,c"}, 2, {"--columns: 3 columns are named, not six"});
   fails({"--space", "x;y"}, 2, {"--space", "2 formulas, not three"});
+  fails({"--space", "lattice:" + bad}, 2, {"--space: lattice", "this is not JSON"});
+  fails({"--space", "lattice:" + workshop / "none.json"}, 3, {"none.json"});
   fails({"--space", "1/(x-x);0;0"}, 3, {"the displacement is not finite"});
   fails({"--space", affine, "--keep", "#9"}, 2,
         {"--keep", "\"#9\" is neither a face nor a surface"});

@@ -11,6 +11,7 @@
 #include "exchange/fields/mesh_points.hpp"
 #include "exchange/fields/point_fields.hpp"
 #include "exchange/fields/raw_numbers.hpp"
+#include "exchange/fields/space_map.hpp"
 
 namespace knead {
 namespace {
@@ -311,6 +312,36 @@ TEST(SpaceMap, ThreeFormulas) {
   EXPECT_NE(wrong.error().message().find("formula 2"), std::string::npos)
       << wrong.error().message();
   EXPECT_FALSE(SpaceMap::parse("1/x;0;0")->at({0, 1, 2}));
+}
+
+TEST(SpaceMap, ABlockOfSpace) {
+  // Trilinear on its own box: a corner that moves takes the middle along by an eighth.
+  const auto map = SpaceMap::parse(
+      R"(lattice:{"net":[2,2,2],"degree":[1,1,1],"lower":[0,0,0],"upper":[2,4,8],
+          "moves":[{"which":[7],"by":[8,16,-8]},{"which":[0,0],"by":[8,0,0]}]})");
+  ASSERT_TRUE(map) << map.error().message();
+  EXPECT_EQ(map->at({1, 2, 4}).value(), Point(2, 2, -1));
+  EXPECT_EQ(map->at({0, 0, 0}).value(), Point(8, 0, 0)) << "named twice, moved once";
+  EXPECT_EQ(map->at({2.1, 2, 4}).value(), Point(0, 0, 0)) << "outside of the block";
+  // Around a model: with a margin of a half each side is as long as the diagonal and the box.
+  const auto around = SpaceMap::parse(
+      R"(lattice:{"net":[2,2,2],"degree":[1,1,1],"margin":0.5,"moves":[{"which":[7],"by":[8,0,0]}]})",
+      {Point(0, 0, 0), Point(3, 4, 0)});
+  ASSERT_TRUE(around) << around.error().message();
+  EXPECT_NEAR(around->at({1.5, 2, 0}).value().x(), 1, 1e-14);
+  const std::pair<const char*, const char*> wrong[] = {
+      {R"({"moves":[{"which":[216],"by":[1,0,0]}],"lower":[0,0,0],"upper":[1,1,1]})",
+       "the block has no control point 216"},
+      {R"({"moves":[],"lower":[0,0,0]})", "one corner of the block is missing"},
+      {R"({"moves":[],"lower":[0,0,0],"upper":[1,0,1]})", "the box has no size"},
+      {R"({"net":[4,4,4]})", "moves"},
+      {R"({"moves":[],"size":1})", "size"},
+      {"[1", "this is not JSON"}};
+  for (const auto& [text, what] : wrong) {
+    const auto refused = SpaceMap::parse("lattice:" + std::string(text));
+    ASSERT_FALSE(refused) << text;
+    EXPECT_NE(refused.error().message().find(what), std::string::npos) << refused.error().message();
+  }
 }
 
 }  // namespace

@@ -24,7 +24,9 @@ struct MorphFile {
 struct MorphData {
   std::optional<MorphFile> vectors = {};        ///< points with displacements
   std::optional<MorphFile> from = {}, to = {};  ///< the same mesh before and after
-  std::string space = {};  ///< the displacement, three formulas of x, y and z separated by ";"
+  /// The displacement at every point: three formulas of x, y and z separated by ";"; or "lattice:"
+  /// and a block of space of which control points are moved, as JSON (docs/morph.md).
+  std::string space = {};
   std::optional<MorphFile> scan = {};  ///< points or a mesh of where the visible faces should lie
 };
 

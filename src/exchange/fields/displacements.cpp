@@ -209,37 +209,4 @@ Expected<Displacements> mesh_pair(std::string_view from, std::string_view from_f
   return result;
 }
 
-Expected<SpaceMap> SpaceMap::parse(std::string_view text) {
-  static constexpr std::array<std::string_view, 3> variables = {"x", "y", "z"};
-  std::vector<Formula> formulas;
-  std::size_t begin = 0;
-  for (;;) {
-    const auto end = std::min(text.find(';', begin), text.size());
-    const auto formula = Formula::parse(text.substr(begin, end - begin), variables);
-    if (!formula)
-      return std::unexpected(
-          formula.error().within(fmt::format("formula {}", formulas.size() + 1)));
-    formulas.push_back(*formula);
-    if (end == text.size() || formulas.size() > 3) break;
-    begin = end + 1;
-  }
-  if (formulas.size() != 3)
-    return input_error(formulas.size() > 3
-                           ? "there are more than three formulas"
-                           : fmt::format("there are {} formulas, not three", formulas.size()),
-                       {}, "write the displacement along x, y and z, separated by semicolons");
-  return SpaceMap(std::move(formulas));
-}
-
-Expected<Point> SpaceMap::at(const Point& place) const {
-  Point result;
-  for (Eigen::Index k = 0; k < 3; ++k)
-    result[k] = formulas_[static_cast<std::size_t>(k)](std::span(place.data(), 3));
-  if (!result.allFinite())
-    return input_error("the displacement is not finite",
-                       fmt::format("at ({:.6g}, {:.6g}, {:.6g})", place[0], place[1], place[2]),
-                       "use formulas that have a value at every point of the model");
-  return result;
-}
-
 }  // namespace knead::fields

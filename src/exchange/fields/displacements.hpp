@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "energy/formula.hpp"
 #include "knead/base/error.hpp"
 #include "knead/spline/spline.hpp"
 
@@ -39,20 +38,5 @@ struct DisplacementColumns {
 /// before. Errors (input): those of the readers; different counts, with both.
 [[nodiscard]] Expected<Displacements> mesh_pair(std::string_view from, std::string_view from_file,
                                                 std::string_view to, std::string_view to_file);
-
-/// A displacement at every point of space.
-class SpaceMap {
- public:
-  /// Three formulas of x, y and z (src/energy/formula.hpp), separated by semicolons. Errors
-  /// (input): there are not three; those of `Formula::parse`, with which one it is.
-  [[nodiscard]] static Expected<SpaceMap> parse(std::string_view text);
-
-  /// Errors (input): a formula has no finite value at this point, which is named.
-  [[nodiscard]] Expected<Point> at(const Point& place) const;
-
- private:
-  explicit SpaceMap(std::vector<Formula> formulas) : formulas_(std::move(formulas)) {}
-  std::vector<Formula> formulas_;
-};
 
 }  // namespace knead::fields

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "knead/base/printable.hpp"
 #include "knead/brep/edge_measures.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -147,7 +148,7 @@ std::string described(const MorphData& data) {
   if (data.vectors) return "displacements " + data.vectors->name;
   if (data.scan) return "scan " + data.scan->name;
   if (data.from && data.to) return "meshes " + data.from->name + " and " + data.to->name;
-  return "map of space " + data.space;
+  return "map of space " + printable(data.space, 200);
 }
 
 void describe_task(const Source& source, const MorphData& data, const MorphSettings& settings,

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "exchange/fields/mesh_points.hpp"
+#include "exchange/fields/space_map.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -44,6 +45,20 @@ Expected<double> unit_factor(const MovingModel& model, const MorphSettings& sett
                        "use " + list_of_length_units());
   const auto own = millimetres_of(model.unit());
   return own ? *data / *own : 1.0;
+}
+
+/// The map of space of the data; a block is put round the nets of all faces.
+Expected<fields::SpaceMap> map_of(const MovingModel& model, const MorphData& data) {
+  AlignedBox3d box;
+  for (std::size_t k = 0; k < model.placed.size(); ++k) {
+    if (!model.shown[k]) continue;
+    const Points& net = model.placed[k].surface->control_points();
+    box.extend(Point(net.colwise().minCoeff().transpose()));
+    box.extend(Point(net.colwise().maxCoeff().transpose()));
+  }
+  auto map = fields::SpaceMap::parse(data.space, {box.min(), box.max()});
+  if (!map) return std::unexpected(map.error().within("space"));
+  return map;
 }
 
 /// A grid over what is visible of a surface: feet. \param between the middles of its cells instead
@@ -244,8 +259,8 @@ Expected<std::vector<morph::Datum>> points_between(const MovingModel& model, con
                                                    const MorphSettings& settings) {
   std::vector<morph::Datum> result;
   if (data.space.empty()) return result;
-  const auto map = fields::SpaceMap::parse(data.space);
-  if (!map) return std::unexpected(map.error().within("space"));
+  const auto map = map_of(model, data);
+  if (!map) return std::unexpected(map.error());
   for (std::size_t k = 0; k < model.placed.size(); ++k) {
     if (!model.shown[k] || model.placed[k].fixed) continue;
     for (const Vector2d& at : grid_on(model.placed[k], true)) {
@@ -288,8 +303,8 @@ Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
     return result;
   }
   if (!data.space.empty()) {
-    const auto map = fields::SpaceMap::parse(data.space);
-    if (!map) return std::unexpected(map.error().within("space"));
+    const auto map = map_of(model, data);
+    if (!map) return std::unexpected(map.error());
     auto points = mapped_points(model, *map, settings);
     if (!points) return std::unexpected(points.error());
     result.found = *std::move(points);

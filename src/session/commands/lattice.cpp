@@ -67,29 +67,6 @@ Expected<Points> pressed(const Act& act, const LatticeCommand& c, const Lattice&
   return std::move(active.control_points);
 }
 
-/// Control points of the block after the user's hand has moved some.
-Expected<Points> moved_by_hand(const LatticeCommand& c, Points points) {
-  const auto count = static_cast<int>(points.rows());
-  if (c.which.empty())
-    return input_error("no control points are named", "which",
-                       "give their numbers, counted from 0");
-  if (!c.by) return input_error("nothing says how far they are moved", "by", "give [dx, dy, dz]");
-  const Eigen::RowVector3d by(c.by->data());
-  if (!by.allFinite()) return input_error("the move is not finite", "by", "give three numbers");
-  std::vector<bool> moved(static_cast<std::size_t>(count), false);
-  for (std::size_t k = 0; k < c.which.size(); ++k) {
-    const int number = c.which[k];
-    if (number < 0 || number >= count) {
-      return input_error(fmt::format("the block has no control point {}", number),
-                         fmt::format("which[{}]", k),
-                         fmt::format("use numbers from 0 to {}", count - 1));
-    }
-    if (!moved[static_cast<std::size_t>(number)]) points.row(number) += by;
-    moved[static_cast<std::size_t>(number)] = true;
-  }
-  return points;
-}
-
 }  // namespace
 
 // Free-form deformation (Sederberg and Parry, SIGGRAPH 1986): control points of surfaces are moved
@@ -99,6 +76,8 @@ Expected<void> execute(const LatticeCommand& c, Act& act) {
   auto surface = selected(act);
   if (!surface) return std::unexpected(surface.error());
   const bool by_hand = !c.which.empty() || c.by.has_value();
+  if (by_hand && !c.by)
+    return input_error("nothing says how far they are moved", "by", "give [dx, dy, dz]");
   if (by_hand && !c.hold.empty())
     return input_error("faces hold against tools only", "hold", "leave it out, or which");
   if (c.again && !by_hand)
@@ -121,8 +100,9 @@ Expected<void> execute(const LatticeCommand& c, Act& act) {
   }
   const auto lattice = lattice_around(pulled.before, c.margin, c.degree, c.net);
   if (!lattice) return std::unexpected(lattice.error());
-  auto after = by_hand ? moved_by_hand(c, on ? on->points : lattice->rest().control_points())
-                       : pressed(act, c, *lattice);
+  auto after =
+      by_hand ? lattice->moved(on ? on->points : lattice->rest().control_points(), c.which, *c.by)
+              : pressed(act, c, *lattice);
   if (!after) return std::unexpected(after.error());
   for (std::size_t k = 0; k < pulled.surfaces.size(); ++k) {
     const auto points = lattice->deformed(pulled.before[k]->control_points(), *after);

@@ -18,8 +18,9 @@ namespace knead {
 void describe(MorphCommand& c, Fields& fields) {
   fields.name("morph", "move all faces so that they follow data, and stay closed");
   fields.add("space", c.request.space,
-             {.help = "the displacement as three formulas of x, y, z: \"0; 0; 0.01*x^2\"; this, "
-                      "`vectors`, `from` with `to`, or `scan`",
+             {.help = "the displacement as three formulas of x, y, z: \"0; 0; 0.01*x^2\"; or "
+                      "\"lattice:\" and a block of space as JSON (docs/morph.md); this, `vectors`, "
+                      "`from` with `to`, or `scan`",
               .omit_empty = true});
   fields.add("vectors", c.vectors,
              {.help = "displacements: what such a file holds (lines of x y z dx dy dz, CSV, VTK, "

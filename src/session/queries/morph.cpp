@@ -21,7 +21,8 @@ void describe(MorphQuery& q, Fields& fields) {
       "displacements, a mesh before and after, a scan, or a map of space (docs/morph.md). The "
       "document itself stays: `morph` moves it.");
   fields.add("space", q.request.space,
-             {.help = "the displacement as three formulas of x, y, z: \"0; 0; 0.01*x^2\"",
+             {.help = "the displacement as three formulas of x, y, z: \"0; 0; 0.01*x^2\"; or "
+                      "\"lattice:\" and a block of space as JSON (docs/morph.md)",
               .omit_empty = true});
   fields.add("vectors", q.vectors,
              {.help = "displacements: lines of x y z dx dy dz, CSV, VTK, VTU or VTP"});
