@@ -6,14 +6,20 @@
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::morph {
-Expected<Point> part_along_normal(const Point& displacement, const Surface& surface,
-                                  const std::array<double, 2>& parameters) {
+
+Expected<Point> normal_at(const Surface& surface, const std::array<double, 2>& parameters) {
   Parameters<2> place(1, 2);
   place << parameters[0], parameters[1];
   const auto normals = unit_normals(surface, place);
   if (!normals) return std::unexpected(normals.error());
-  const Point normal = normals->row(0).transpose();
-  return Point(displacement.dot(normal) * normal);
+  return Point(normals->row(0).transpose());
+}
+
+Expected<Point> part_along_normal(const Point& displacement, const Surface& surface,
+                                  const std::array<double, 2>& parameters) {
+  const auto normal = normal_at(surface, parameters);
+  if (!normal) return std::unexpected(normal.error());
+  return Point(displacement.dot(*normal) * *normal);
 }
 
 Expected<Correspondences> correspond(const VisibleSearch& search,

@@ -25,6 +25,10 @@ struct Correspondences {
   double largest_distance = 0, rms_distance = 0;  ///< of the others, from the model
 };
 
+/// The unit normal of a surface; 0 where it has none. Errors: those of evaluation.
+[[nodiscard]] Expected<Point> normal_at(const Surface& surface,
+                                        const std::array<double, 2>& parameters);
+
 /// (d · n) n of a displacement d, n the unit normal of the surface there; 0 where it has none.
 /// Errors: those of evaluation.
 [[nodiscard]] Expected<Point> part_along_normal(const Point& displacement, const Surface& surface,

@@ -23,11 +23,8 @@ constexpr std::size_t most_data = 200'000;  // of one fit
 constexpr double facing = std::numbers::sqrt2 / 2;
 constexpr double search_work = 1e4;  // multiplications, of one point
 
-/// What has become of a point of the scan.
-enum class State : unsigned char { used, far, beyond_border, turned_away };
-
 struct Partner {
-  State state = State::far;
+  PointState state = PointState::far;
   VisibleFoot foot = {};
   Point normal = Point::Zero();
   double above = 0;  ///< along it
@@ -60,14 +57,6 @@ Expected<MovedModel> moved_model(std::span<const FitSurface> given,
   return MovedModel{std::move(surfaces), *std::move(search)};
 }
 
-Expected<Point> normal_at(const Surface& surface, const std::array<double, 2>& parameters) {
-  Parameters<2> at(1, 2);
-  at << parameters[0], parameters[1];
-  const auto normals = unit_normals(surface, at);
-  if (!normals) return std::unexpected(normals.error());
-  return Point(normals->row(0).transpose());
-}
-
 /// The foot downhill from the last one, if that is visible: between turns feet move little.
 std::optional<VisibleFoot> foot_beside(const Point& x, const VisibleFoot& before,
                                        const FitSurface& on) {
@@ -87,7 +76,7 @@ Expected<Partner> partner_of(const Point& x, const Point& scan_normal, const Par
                              double reach, double size) {
   Partner result;
   std::optional<VisibleFoot> foot;
-  if (last != nullptr && last->state == State::used)
+  if (last != nullptr && last->state == PointState::used)
     foot = foot_beside(x, last->foot, surfaces[static_cast<std::size_t>(last->foot.surface)]);
   result.foot = foot && foot->distance < reach ? *foot : search.nearest(x, reach);
   if (result.foot.surface < 0) return result;
@@ -98,9 +87,9 @@ Expected<Partner> partner_of(const Point& x, const Point& scan_normal, const Par
   const Point way = x - result.foot.point;
   result.above = way.dot(*normal);
   const bool known = !scan_normal.isZero(0);
-  result.state = beside(way, *normal, search_accuracy * size)           ? State::beyond_border
-                 : known && std::abs(scan_normal.dot(*normal)) < facing ? State::turned_away
-                                                                        : State::used;
+  result.state = beside(way, *normal, search_accuracy * size)           ? PointState::beyond_border
+                 : known && std::abs(scan_normal.dot(*normal)) < facing ? PointState::turned_away
+                                                                        : PointState::used;
   return result;
 }
 
@@ -143,20 +132,21 @@ Expected<ScanPartners> as_data(const Scan& scan, const std::vector<Partner>& par
   Correspondences& found = result.found;
   std::vector<double> distances;
   for (const Partner& partner : partners) {
-    if (partner.state == State::used) distances.push_back(std::abs(partner.above));
+    result.states.push_back(partner.state);
+    if (partner.state == PointState::used) distances.push_back(std::abs(partner.above));
   }
   const double deviation = weighted ? std::max(noise, robust_deviation(distances)) : 0;
   double squares = 0;
   for (std::size_t k = 0; k < partners.size(); ++k) {
     const Partner& partner = partners[k];
-    if (partner.state == State::far && found.left_out++ < Correspondences::most_listed) {
+    if (partner.state == PointState::far && found.left_out++ < Correspondences::most_listed) {
       constexpr double farther = 100;  // times the reach, to say how far it is
       found.listed.push_back(
           {k, scan.points[k], search.nearest(scan.points[k], farther * settings.reach).distance});
     }
-    result.beyond_border += partner.state == State::beyond_border ? 1 : 0;
-    result.turned_away += partner.state == State::turned_away ? 1 : 0;
-    if (partner.state != State::used) continue;
+    result.beyond_border += partner.state == PointState::beyond_border ? 1 : 0;
+    result.turned_away += partner.state == PointState::turned_away ? 1 : 0;
+    if (partner.state != PointState::used) continue;
     const double weight = tukey_weight(partner.above, deviation);
     if (weight == 0) {
       ++result.outliers;
@@ -195,7 +185,7 @@ double noise_between(std::span<const std::array<std::uint32_t, 2>> pairs,
                      const std::vector<Partner>& partners) {
   std::vector<double> differences;
   for (const auto& [a, b] : pairs) {
-    if (partners[a].state == State::used && partners[b].state == State::used)
+    if (partners[a].state == PointState::used && partners[b].state == PointState::used)
       differences.push_back(std::abs(partners[a].above - partners[b].above));
   }
   return median_deviation(std::move(differences)) / std::numbers::sqrt2;

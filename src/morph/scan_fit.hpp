@@ -24,14 +24,18 @@ struct ScanSettings {
   std::function<Expected<void>(const ScanPartners&)> check = {};
 };
 
+/// What has become of a point of a scan.
+enum class PointState : unsigned char { used, far, beyond_border, turned_away };
+
 /// Which points of a scan have partners on a model, and why others have none.
 struct ScanPartners {
   /// The data as they were fitted at last, unscaled; `left_out` are those beyond the reach.
   Correspondences found = {};
-  std::size_t beyond_border = 0;  ///< of the model, beside it
-  std::size_t turned_away = 0;    ///< normals of scan and model differ by more than 45°
-  std::size_t outliers = 0;       ///< more than six deviations from the moved model
-  double rms = 0;                 ///< distance of the partners from the model
+  std::size_t beyond_border = 0;        ///< of the model, beside it
+  std::size_t turned_away = 0;          ///< normals of scan and model differ by more than 45°
+  std::size_t outliers = 0;             ///< more than six deviations from the moved model
+  double rms = 0;                       ///< distance of the partners from the model
+  std::vector<PointState> states = {};  ///< of each point; outliers are used
 };
 
 struct ScanFit {

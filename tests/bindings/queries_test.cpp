@@ -221,7 +221,7 @@ TEST_F(QueriesOfThePage, AnswerEachInItsType) {
       if (field.presence == Presence::required) request[std::string(field.name)] = value_for(field);
     }
     if (name == "section_combs") request["plane"] = {1, 0, 0, 4.5};
-    if (name == "morphed") request["space"] = "0; 0; 1";
+    if (name == "morphed" || name == "deviation") request["space"] = "0; 0; 1";
     const std::string script = name == "run" ? R"({"knead": 2, "commands": []})" : "";
     if (name == "run") request["script"] = script.size();
     const JsonValue reply = ask(name, request, script);

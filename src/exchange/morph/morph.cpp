@@ -23,6 +23,7 @@ namespace {
 
 using brep::EdgeKind;
 using brep::EdgeMeasures;
+using detail::deviation_of;
 using detail::MorphPoints;
 using detail::MovingModel;
 
@@ -231,21 +232,6 @@ Expected<std::string> saved(const MovingModel& model, std::vector<Surface> moved
   return model.written->save(surfaces, edges);
 }
 
-Expected<void> check_settings(const MorphSettings& settings) {
-  const auto positive = [](std::optional<double> x) { return !x || (*x > 0 && std::isfinite(*x)); };
-  if (!std::isfinite(settings.scale)) return input_error("the scale is not finite", "scale");
-  if (!positive(settings.tolerance))
-    return input_error("it is no length above 0", "tolerance", "use one of the file's unit");
-  if (!positive(settings.reach))
-    return input_error("it is no length above 0", "reach", "use one of the file's unit");
-  if (!positive(settings.noise))
-    return input_error("it is no length above 0", "noise", "use one of the file's unit");
-  if (!(settings.refinement >= 1 && settings.refinement <= 1000))
-    return input_error("it is not from 1 to 1000", "refinement",
-                       "it is a multiple of the control points");
-  return {};
-}
-
 /// Of the data as they are followed: it is scaled with them.
 std::optional<double> noise_of(const MorphSettings& settings) {
   if (!settings.noise) return std::nullopt;
@@ -262,7 +248,7 @@ Expected<brep::ModelMeasures> measures_after(const std::string& bytes, const Sou
 
 Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, const MorphData& data,
                                  const MorphSettings& settings) {
-  if (auto right = check_settings(settings); !right) return std::unexpected(right.error());
+  if (auto right = detail::check_settings(settings); !right) return std::unexpected(right.error());
   Stopwatch watch;
   MorphedFile result;
   MorphReport& report = result.report;

@@ -10,12 +10,6 @@
 namespace knead::detail {
 namespace {
 
-/// What is wanted at a datum, or is missing there: the length of the difference, and its part along
-/// the outward normal.
-struct Difference {
-  double length = 0, outward = 0;
-};
-
 struct Differences {
   std::vector<Difference> before, after;
   std::vector<Point> places;  ///< before
@@ -26,28 +20,6 @@ struct Differences {
 /// Position of the value that this part of all, in order, does not exceed. Requires: count > 0
 std::size_t share_of(std::size_t count, double part) {
   return static_cast<std::size_t>(std::ceil(part * static_cast<double>(count))) - 1;
-}
-
-Deviation deviation_of(const std::vector<Difference>& differences) {
-  if (differences.empty()) return {};
-  std::vector<double> lengths;
-  for (const Difference& d : differences) lengths.push_back(d.length);
-  std::ranges::sort(lengths);
-  const auto count = static_cast<double>(lengths.size());
-  const auto share = [&](double part) { return lengths[share_of(lengths.size(), part)]; };
-  const auto [least, most] = std::ranges::minmax(differences, {}, &Difference::outward);
-  Deviation result{.of_95 = share(0.95),
-                   .of_99 = share(0.99),
-                   .largest = lengths.back(),
-                   .signed_least = least.outward,
-                   .signed_most = most.outward};
-  for (const auto& [length, outward] : differences) {
-    result.mean += length / count;
-    result.rms += length * length / count;
-    result.signed_mean += outward / count;
-  }
-  result.rms = std::sqrt(result.rms);
-  return result;
 }
 
 MorphHistogram histogram_of(const std::vector<Difference>& differences) {
@@ -65,18 +37,6 @@ MorphHistogram histogram_of(const std::vector<Difference>& differences) {
     ++result.counts[static_cast<std::size_t>(bin)];
   }
   return result;
-}
-
-/// 1 where the outward normal of a surface is ∂u × ∂v, as it stands in the model, else −1. Faces of
-/// both kinds, or none, leave it at 1.
-std::vector<int> outward_senses(const MovingModel& model) {
-  std::vector<int> senses = face_senses(*model.model);
-  senses.resize(model.placed.size(), 0);
-  for (std::size_t k = 0; k < senses.size(); ++k) {
-    const bool mirrored = model.places[k].to_model.linear().determinant() < 0;
-    senses[k] = (senses[k] < 0) != mirrored ? -1 : 1;
-  }
-  return senses;
 }
 
 /// A point of a surface and its unit normal ∂u × ∂v, which is 0 where it has none.
@@ -132,6 +92,38 @@ Expected<Differences> differences_at(const MovingModel& model, std::span<const m
 }
 
 }  // namespace
+
+Deviation deviation_of(const std::vector<Difference>& differences) {
+  if (differences.empty()) return {};
+  std::vector<double> lengths;
+  for (const Difference& d : differences) lengths.push_back(d.length);
+  std::ranges::sort(lengths);
+  const auto count = static_cast<double>(lengths.size());
+  const auto share = [&](double part) { return lengths[share_of(lengths.size(), part)]; };
+  const auto [least, most] = std::ranges::minmax(differences, {}, &Difference::outward);
+  Deviation result{.of_95 = share(0.95),
+                   .of_99 = share(0.99),
+                   .largest = lengths.back(),
+                   .signed_least = least.outward,
+                   .signed_most = most.outward};
+  for (const auto& [length, outward] : differences) {
+    result.mean += length / count;
+    result.rms += length * length / count;
+    result.signed_mean += outward / count;
+  }
+  result.rms = std::sqrt(result.rms);
+  return result;
+}
+
+std::vector<int> outward_senses(const MovingModel& model) {
+  std::vector<int> senses = face_senses(*model.model);
+  senses.resize(model.placed.size(), 0);
+  for (std::size_t k = 0; k < senses.size(); ++k) {
+    const bool mirrored = model.places[k].to_model.linear().determinant() < 0;
+    senses[k] = (senses[k] < 0) != mirrored ? -1 : 1;
+  }
+  return senses;
+}
 
 Expected<void> add_deviations(const MovingModel& model, std::span<const morph::Datum> data,
                               std::span<const morph::Datum> between,

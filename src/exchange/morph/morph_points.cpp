@@ -155,6 +155,21 @@ Expected<void> check_places(const MovingModel& model, const std::vector<morph::D
 
 }  // namespace
 
+Expected<void> check_settings(const MorphSettings& settings) {
+  const auto positive = [](std::optional<double> x) { return !x || (*x > 0 && std::isfinite(*x)); };
+  if (!std::isfinite(settings.scale)) return input_error("the scale is not finite", "scale");
+  if (!positive(settings.tolerance))
+    return input_error("it is no length above 0", "tolerance", "use one of the file's unit");
+  if (!positive(settings.reach))
+    return input_error("it is no length above 0", "reach", "use one of the file's unit");
+  if (!positive(settings.noise))
+    return input_error("it is no length above 0", "noise", "use one of the file's unit");
+  if (!(settings.refinement >= 1 && settings.refinement <= 1000))
+    return input_error("it is not from 1 to 1000", "refinement",
+                       "it is a multiple of the control points");
+  return {};
+}
+
 Expected<fields::Displacements> given_displacements(const MorphData& data,
                                                     const MorphSettings& settings) {
   if (data.vectors) {
@@ -216,6 +231,8 @@ morph::ScanSettings scan_settings(const MorphSettings& settings, const MorphPoin
           .along_normal = settings.along_normal};
 }
 
+}  // namespace
+
 MorphAlignment as_reported(const morph::Alignment& alignment) {
   MorphAlignment result{.angle = alignment.motion.angle(),
                         .rms_before = alignment.rms_before,
@@ -228,8 +245,6 @@ MorphAlignment as_reported(const morph::Alignment& alignment) {
   }
   return result;
 }
-
-}  // namespace
 
 Expected<morph::FitResult> follow_scan(const MovingModel& model, const MorphSettings& settings,
                                        MorphPoints& points, MorphReport& report) {
@@ -300,6 +315,7 @@ Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
     if (auto right = check_partners(model, result, *partners); !right)
       return std::unexpected(right.error());
     result.found = std::move(partners->found);
+    result.first = *std::move(partners);
     return result;
   }
   if (!data.space.empty()) {
@@ -323,6 +339,7 @@ Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
     if (!found) return std::unexpected(found.error());
     result.found = *std::move(found);
     result.count = given->points.size();
+    result.places = std::move(given->points);
   }
   if (result.found.data.empty()) {
     return input_error(

@@ -17,7 +17,15 @@ struct MorphPoints {
   double size = 0;                       ///< diagonal of the box of what is visible, in the model
   std::optional<morph::Scan> scan = {};  ///< in the model, aligned; `found` is empty then at first
   std::optional<morph::Alignment> alignment = {};
+  std::vector<Point> places = {};  ///< of displacements and of a mesh: where they are, in the model
+  /// Of a scan where nothing is to move (scale 0): its partners, without `found`.
+  std::optional<morph::ScanPartners> first = {};
 };
+
+[[nodiscard]] MorphAlignment as_reported(const morph::Alignment& alignment);
+
+/// Errors (input): a number that cannot be, with its field.
+[[nodiscard]] Expected<void> check_settings(const MorphSettings& settings);
 
 /// The displacements of the data, unscaled, in their own unit. Errors: those of the readers; not
 /// one kind of data is given (input).

@@ -5,7 +5,7 @@
 
 namespace knead {
 
-static void describe(Deviation& d, Fields& fields) {
+void describe(Deviation& d, Fields& fields) {
   fields.name("deviation", "Lengths over all points of a set.");
   fields.add("mean", d.mean, {.unit = Unit::length});
   fields.add("rms", d.rms, {.help = "root mean square", .unit = Unit::length});
@@ -67,7 +67,7 @@ static void describe(MorphedEdge& e, Fields& fields) {
   fields.add("curvature_after", e.curvature_after, {.help = "percent"});
 }
 
-static void describe(MorphAlignment& a, Fields& fields) {
+void describe(MorphAlignment& a, Fields& fields) {
   fields.name("morph alignment", "The motion x -> rotation x + shift of a scan onto the model.");
   fields.add("rotation", a.rotation, {.help = "rows"});
   fields.add("shift", a.shift, {.unit = Unit::length});

@@ -5,6 +5,8 @@
 
 namespace knead {
 
+void describe(Deviation& d, Fields& fields);
+void describe(MorphAlignment& a, Fields& fields);
 void describe(MorphReport& r, Fields& fields);
 
 }  // namespace knead

@@ -7,6 +7,7 @@
 
 #include "check.hpp"
 #include "describe/text.hpp"
+#include "deviation.hpp"
 #include "morph.hpp"
 
 namespace knead {
@@ -43,8 +44,8 @@ Expected<void> read_files(Json& request, std::string_view bytes, const Type& typ
 }  // namespace
 
 std::span<const DocumentQuery> document_queries() {
-  static const std::vector<DocumentQuery> all = {document_query<CheckQuery>(),
-                                                 document_query<MorphQuery>()};
+  static const std::vector<DocumentQuery> all = {
+      document_query<CheckQuery>(), document_query<DeviationQuery>(), document_query<MorphQuery>()};
   return all;
 }
 

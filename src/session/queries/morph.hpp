@@ -1,6 +1,5 @@
 #pragma once
 
-#include "describe/bytes.hpp"
 #include "knead/session/session.hpp"
 #include "morph_fields.hpp"
 
@@ -17,7 +16,7 @@ void describe(MorphAnswer& a, Fields& fields);
 /// `morph_file` of a document as it would be saved. The document stays as it is.
 struct MorphQuery {
   using Answer = MorphAnswer;
-  Bytes vectors, from, to, scan;  ///< files; empty: none
+  AskedData data;
   MorphRequest request;
 };
 void describe(MorphQuery& q, Fields& fields);

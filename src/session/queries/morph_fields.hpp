@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "describe/bytes.hpp"
 #include "describe/describe.hpp"
 #include "knead/exchange/morph.hpp"
 
@@ -16,7 +17,24 @@ struct MorphRequest {
   bool strict = false;               ///< what is above what was wanted is an error
 };
 
-/// All of its fields but `space`, which comes before those of files.
+/// The data as a query is asked: files; empty: none.
+struct AskedData {
+  Bytes vectors, from, to, scan;
+};
+
+/// The map of space, and the files.
+void describe_data(std::string& space, AskedData& data, Fields& fields);
+
+/// These, and the map of space.
+[[nodiscard]] MorphData data_of(const AskedData& asked, const std::string& space);
+
+/// Whether one kind of data is given. Errors (usage): none, several, half a pair of meshes.
+[[nodiscard]] Expected<void> check_kinds(const MorphData& data);
+
+/// The fields that say which points of the faces data are about.
+void describe_partners(MorphRequest& request, Fields& fields);
+
+/// These, and how they are followed: all but `space`, which comes before the fields of files.
 void describe_following(MorphRequest& request, Fields& fields);
 
 /// `morph_file` of a file by one kind of data. Errors: (usage) not one kind of data; (numerical)
