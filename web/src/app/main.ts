@@ -4,13 +4,16 @@ import '../view/view.css';
 import '../view/view_cube.css';
 import '../view/measure.css';
 import '../view/edges.css';
+import '../view/follow.css';
 
 import { busyBar } from '../panels/busy';
 import { notices, toolRail, topBar } from '../panels/chrome';
 import { h } from '../panels/dom';
+import { deviationLegend } from '../panels/deviation_legend';
 import { EdgeCheckup } from '../panels/edge_checkup';
 import { edgeLabels, edgeLegend } from '../panels/edge_legend';
 import { listenToEdges } from '../panels/edge_popover';
+import { FollowData } from '../panels/follow_data';
 import { openScene, scenes } from '../panels/gallery';
 import { heldBadge } from '../panels/held_badge';
 import { listenToKeys } from '../panels/keyboard';
@@ -22,13 +25,14 @@ import { displayPanel } from '../panels/panel_display';
 import { surfacePanel } from '../panels/panel_surface';
 import { brushPanel, pointsPanel } from '../panels/panels_hand';
 import { checkPanel } from '../panels/panel_check';
+import { followPanel } from '../panels/panel_follow';
 import { measurePanel, readingLabels } from '../panels/panel_measure';
 import { evolutionPanel, historyPanel, materialPanel } from '../panels/panels_model';
 import { constraintsPanel, surfacesPanel, toolsPanel } from '../panels/panels_scene';
 import { statusBar } from '../panels/plot';
 import { listenToQuestions } from '../panels/question';
 import { offerRecovery } from '../panels/recovery';
-import { droppedHandle } from '../document/disk';
+import { droppedHandle, openAll } from '../document/disk';
 import { offerTour } from '../panels/tour';
 import { sectionHandle } from '../panels/section';
 import { viewsPanel } from '../panels/panel_views';
@@ -38,13 +42,14 @@ import { Studio } from './studio';
 
 const app = new Studio();
 const checkup = new EdgeCheckup(app);
+const following = new FollowData(app);
 
 document.getElementById('studio')!.append(
   topBar(app),
   toolRail(app),
-  h('main', { class: 'stage' }, app.viewer.element, legendCard(app), edgeLegend(app, checkup), busyBar(app), notices(app)),
+  h('main', { class: 'stage' }, app.viewer.element, legendCard(app), edgeLegend(app, checkup), deviationLegend(app, following), busyBar(app), notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
-    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), assemblyPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), checkPanel(app, checkup),
+    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), assemblyPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), followPanel(app, following), checkPanel(app, checkup),
     viewsPanel(app), displayPanel(app), analysisPanel(app), historyPanel(app)),
   statusBar(app),
 );
@@ -57,13 +62,13 @@ listenToEdges(app);
 document.addEventListener('dragover', (event) => event.preventDefault());
 document.addEventListener('drop', (event) => {
   event.preventDefault();
-  const file = event.dataTransfer?.files[0];
-  const handle = droppedHandle(event.dataTransfer?.items[0]);
-  if (file) void handle.then((known) => app.documents.openFile(file, known));
+  const files = [...(event.dataTransfer?.files ?? [])];
+  const handles = files.map((_, k) => droppedHandle(event.dataTransfer?.items[k]));
+  void openAll(app.documents, files, handles);
 });
 
 // For tests and the curious.
-Object.assign(window, { studio: app });
+Object.assign(window, { studio: app, following });
 
 async function start(): Promise<void> {
   await app.client.ready;

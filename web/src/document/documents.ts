@@ -5,6 +5,7 @@ import { autosave, isReadable, type Kept, olderDocument } from './autosave';
 import { loadContext } from './context';
 import type { OnDisk } from './disk';
 import { download } from './download';
+import { isDataName, isTableOfPoints } from './data_files';
 import { cadFormat, isCompressed, readFormats } from './formats';
 import type { Host } from './host';
 import { Keeper } from './keeper';
@@ -32,6 +33,8 @@ export class Documents {
   /** The bytes of the CAD file that was opened, unpacked; null where there is none. */
   opened = async (): Promise<Uint8Array | null> => (this.file?.kind === 'step' ? plain(this.file.bytes) : null);
 
+  /** Data that the faces of the open document may follow; false where there is none to follow them. */
+  follow: (file: File) => Promise<boolean> = () => Promise.resolve(false);
   /** Saves a Knead document; false where nothing was saved. */
   saveDocument: () => Promise<boolean> = () => Promise.resolve(false);
   private disk: { source: Source; place: OnDisk } | null = null;
@@ -112,6 +115,9 @@ export class Documents {
         if (document.script) await this.openScript(document.commands, file.name);
         else if (await this.mayLeave()) await this.openDocument(document);
       });
+    } else if (await this.isData(file)) {
+      if (await this.follow(file)) return;
+      host.notify({ kind: 'error', text: `“${file.name}” is data that faces can follow, and no CAD file is open`, remedy: 'open the CAD file first, then drop the data' });
     } else if (cadFormat(file.name)) {
       if (await this.mayLeave()) await this.openStep(await bytes(), file.name);
     } else if (/\.3dm$/i.test(file.name)) {
@@ -122,6 +128,12 @@ export class Documents {
       host.notify({ kind: 'error', text: `“${file.name}” is not a kind of file that the studio reads`,
         remedy: `open ${readFormats}, a Rhino file (.3dm), a Knead document (.knead) or an image (.png, .jpg)` });
     }
+  }
+
+  /** Points and meshes; a table in CSV may also be the net of a surface. */
+  private async isData(file: File): Promise<boolean> {
+    if (!isDataName(file.name)) return false;
+    return !cadFormat(file.name) || isTableOfPoints(new Uint8Array(await file.arrayBuffer()));
   }
 
   /** Commands alone: only the user knows what they are meant for. */

@@ -101,9 +101,12 @@ function actionsFor(fixes: readonly Fix[]): Advice['actions'] {
   });
 }
 
+/** Options of the program that are fields of a panel. */
+const options = ['unit', 'align', 'reach', 'noise'];
+
 /** With the signs of a page instead of those of a terminal. */
 function typeset(text: string): string {
-  const quoted = text.split('`').map((part, k) => (k % 2 === 0 ? part : `“${part}”`)).join('');
+  const quoted = options.reduce((all, name) => all.replaceAll(`--${name}`, `“${sentence(name)}”`), text).split('`').map((part, k) => (k % 2 === 0 ? part : `“${part}”`)).join('');
   return quoted.replaceAll('>=', '≥').replaceAll('<=', '≤').replaceAll('time_step', 'time step').replaceAll('lambda', 'λ');
 }
 

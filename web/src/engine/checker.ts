@@ -1,34 +1,41 @@
+import type { Answer, Asked } from '@knead/engine';
 import type { CheckRequest, EdgeCheck, EngineErrorInfo } from '@knead/generated';
 import { KneadError } from './session_types';
+
+/** What is asked of a file, beside the session. */
+export type FileQuery = 'check' | 'deviation';
 
 /** What the worker is asked for; without a file the one that it has read before is meant. */
 export interface CheckAsked {
   id: number;
   file: Uint8Array | null;
   name: string;
-  request: CheckRequest;
+  query: FileQuery;
+  request: Asked<FileQuery>[0];
 }
-export type CheckReply = { id: number; answer: EdgeCheck } | { id: number; error: EngineErrorInfo };
+export type CheckReply = { id: number; answer: Answer<FileQuery> } | { id: number; error: EngineErrorInfo };
 
-/** Measures the edges of files in a worker of its own, which lasts until `end`. */
+/** Measures files in a worker of its own, which lasts until `end`. */
 export class Checker {
   private worker: Worker | null = null;
   /** What the worker has read: with other thresholds it is not read again. */
   private held: Uint8Array | null = null;
   private next = 1;
-  private readonly waiting = new Map<number, { resolve(answer: EdgeCheck): void; reject(error: Error): void }>();
+  private readonly waiting = new Map<number, { resolve(answer: Answer<FileQuery>): void; reject(error: Error): void }>();
 
   constructor(private readonly makeWorker: () => Worker) {}
 
-  /** Errors: those of `open` and `check`; "stopped" after `end`. */
-  check(file: Uint8Array, name: string, request: CheckRequest): Promise<EdgeCheck> {
+  check = (file: Uint8Array, name: string, request: CheckRequest): Promise<EdgeCheck> => this.ask('check', file, name, request);
+
+  /** Errors: those of `open` and of the query; "stopped" after `end`. */
+  ask<Q extends FileQuery>(query: Q, file: Uint8Array, name: string, request: Asked<Q>[0]): Promise<Answer<Q>> {
     const worker = (this.worker ??= this.begin());
     const id = this.next++;
     const known = this.held === file;
     this.held = file;
     return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject });
-      worker.postMessage({ id, file: known ? null : file, name, request } satisfies CheckAsked);
+      this.waiting.set(id, { resolve: resolve as (answer: Answer<FileQuery>) => void, reject });
+      worker.postMessage({ id, file: known ? null : file, name, query, request } satisfies CheckAsked);
     });
   }
 
@@ -53,7 +60,7 @@ export class Checker {
     };
     worker.onerror = (event) => {
       event.preventDefault();
-      this.end(event.message || 'the engine that measures edges stopped');
+      this.end(event.message || 'the engine beside the session stopped');
     };
     return worker;
   }

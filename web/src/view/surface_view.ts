@@ -134,6 +134,14 @@ export class SurfaceView {
     this.restyle(display, palette, selected);
   }
 
+  /** Draws the triangles elsewhere, with these normals, until the next picture; the picture stays what it is. */
+  drawAt(positions: Float32Array, normals: Float32Array): void {
+    const { geometry } = this.mesh;
+    setAttribute(geometry, 'position', positions, 3);
+    setAttribute(geometry, 'normal', normals, 3);
+    geometry.boundingSphere = geometry.boundingBox = null;
+  }
+
   /** The visible part of the surface if it is drawn trimmed; null: all. The view owns it from now on. */
   set trim(mask: TrimTextures | null) {
     this.forgetMask();

@@ -1,0 +1,180 @@
+import { dataEndings, type DataKind } from '../document/data_files';
+import { coverage, type Histogram, histogram, measuresOf, ramp } from '../document/deviations';
+import { format, parseLength } from '../document/units';
+import type { App } from './app';
+import { field, h, select, slider, toggle } from './dom';
+import type { FollowData } from './follow_data';
+import { numberInput } from './number_input';
+import { note, panel, row } from './panel';
+
+const kinds: [DataKind, string][] = [['scan', 'Scan: where faces should lie'], ['vectors', 'Displacements'], ['pair', 'Mesh before and after']];
+const units: [string, string][] = [['', 'As the file'], ...['mm', 'cm', 'm', 'inch', 'foot'].map((u): [string, string] => [u, u])];
+const none = Infinity; // what the engine takes
+const most = 2; // of the scale, either way
+
+const unitAfter = (unit: string): string => (unit === '' || unit === 'unknown' ? '' : ` ${unit}`);
+
+/** Data that the faces follow: what they are, how far the model is from them, how it follows. */
+export function followPanel(app: App, following: FollowData): HTMLElement {
+  const picker = h('input', { type: 'file', accept: dataEndings.join(','), hidden: true, multiple: true, aria: { label: 'Data to follow' } });
+  picker.addEventListener('change', () => {
+    const files = [...(picker.files ?? [])];
+    picker.value = '';
+    void app.attempt(async () => {
+      for (const file of files) await following.add(file);
+    });
+  });
+  const live = h('p', { class: 'note verdict', role: 'status', data: { state: '' } }), figures = h('div', { class: 'follow-figures' });
+  const key = () => [following.files.map(({ name }) => name), following.kind, following.settings, following.deviations !== null, following.failed, following.busy,
+    following.morphing, following.waits, following.stale, following.done?.scale, following.done?.left != null, app.viewer.unit];
+  const element = panel(app, 'Follow data', key, () => [
+    live,
+    row(h('button', { class: 'button small', type: 'button', disabled: following.morphing, onclick: () => picker.click() }, following.waits ? 'Choose the mesh after …' : 'Choose data …'),
+      following.stale || following.failed ? h('button', { class: 'button small', type: 'button', disabled: following.busy, onclick: () => void following.compare() }, 'Compare again') : null),
+    picker,
+    ...(following.files.length > 0 ? dataFields(app, following) : []),
+    ...(following.deviations ? [figures, ...followFields(app, following, element)] : []),
+  ], false, (a) => (a.state?.surfaces.length ?? 0) > 0 || a.viewer.context.pieces.length > 0) as HTMLDetailsElement;
+  const look = () => (following.shown = element.open && !element.hidden);
+  let told = '';
+  const update = () => {
+    look();
+    if (!following.shown) return;
+    const state = stateOf(following), words = inWords(app, following);
+    if (live.textContent !== words) live.textContent = words;
+    live.dataset.state = state;
+    const now = [following.version, following.done !== null, app.viewer.unit].join();
+    if (now === told || !following.deviations) return;
+    told = now;
+    figures.replaceChildren(...figuresOf(app, following));
+  };
+  element.addEventListener('toggle', () => {
+    look();
+    app.changed();
+  });
+  app.onChange.push(update);
+  following.reveal = () => {
+    element.open = true;
+    requestAnimationFrame(() => element.scrollIntoView({ block: 'start' }));
+  };
+  return element;
+}
+
+const stateOf = ({ failed, busy, morphing, deviations, done }: FollowData): string =>
+  (failed ? 'failed' : busy || morphing ? 'busy' : done ? 'followed' : deviations ? 'compared' : '');
+
+function inWords(app: App, following: FollowData): string {
+  const { files, deviations, done } = following;
+  if (files.length === 0) return 'Drop a scan, displacements, or a mesh before and after on the page, or choose it: the faces follow.';
+  if (following.failed) return `The data cannot be compared: ${following.failed}`;
+  if (following.waits) return `${files[0]!.name} is the mesh before. Drop or choose the mesh after, with the same points.`;
+  if (following.morphing) return 'The faces follow the data …';
+  if (!deviations) return 'Comparing the data with the model …';
+  const stale = following.stale ? ' Compared before the last change.' : '';
+  const after = done ? ` The faces have followed${done.scale === 1 ? '' : ` ${format(done.scale)} times the displacement`}; undo takes it back.` : '';
+  return `${files.map(({ name }) => name).join(' and ')}: ${coverage(deviations, unitAfter(app.viewer.unit))}${alignment(app, following)}${after}${stale}`;
+}
+
+function alignment(app: App, { deviations }: FollowData): string {
+  const found = deviations?.info.alignment;
+  if (!found) return '';
+  return ` Aligned by ${format(found.angle)}° and ${format(Math.hypot(...found.shift))}${unitAfter(app.viewer.unit)}.`;
+}
+
+/** What the data are. */
+function dataFields(app: App, following: FollowData): (Node | null)[] {
+  const { unit } = app.viewer;
+  const { settings, kind } = following;
+  const length = (text: string) => (text.trim() === '' ? none : parseLength(text, unit));
+  const optional = (name: 'reach' | 'noise') => (x: number) => {
+    if (!(x > 0)) return 'A length above 0, or nothing';
+    return void following.set({ [name]: x === none ? null : x });
+  };
+  return [
+    field('Data are', select('What the data are', kinds, kind, (to) => following.be(to))),
+    field('Unit', select('Unit of the data', units, settings.unit, (to) => following.set({ unit: to })), 'Of the coordinates of the data'),
+    kind === 'scan' ? row(toggle('Align', settings.align, (align) => following.set({ align }), 'Lays the scan onto the model, by a rigid motion')) : null,
+    field('Reach', numberInput('Reach', settings.reach, optional('reach'), length, '1 % of the model'), 'Farthest that a point may be from a face'),
+    field('Noise', numberInput('Noise', settings.noise, optional('noise'), length, kind === 'scan' ? 'estimated' : 'none'), 'Standard deviation of each coordinate of the data'),
+  ];
+}
+
+/** Limits, scale, and what is done with them. */
+function followFields(app: App, following: FollowData, element: HTMLElement): (Node | null)[] {
+  const { done, morphing } = following;
+  const scale = slider('Scale of the displacements', following.scale, [-most, most], (x) => take(Math.round(20 * x) / 20));
+  const typed = numberInput('Scale, a number', following.scale, (x) => {
+    if (Math.abs(x) > 100) return 'A scale from −100 to 100';
+    return void take(x);
+  });
+  const share = slider('Before to after', following.part, [0, 1], (part) => {
+    following.show({ part });
+    share.setAttribute('aria-valuetext', part === 0 ? 'before' : part === 1 ? 'after' : `${Math.round(100 * part)} % of the way`);
+  });
+  const button = h('button', { class: 'button small', type: 'button', onclick: () => void following.morph() });
+  const label = () => {
+    const other = done !== null && following.scale !== done.scale;
+    button.textContent = other ? 'Morph again at this scale' : 'Morph';
+    button.disabled = morphing || following.busy || following.scale === 0 || following.stale || (done !== null && !other);
+  };
+  const take = (x: number) => {
+    following.show({ scale: x });
+    scale.value = String(x);
+    scale.setAttribute('aria-valuetext', format(x));
+    if (document.activeElement !== typed) typed.value = format(x);
+    label();
+  };
+  label();
+  const limit = numberInput('Limits of the colours', following.limit, (x) => {
+    if (!(x > 0)) return 'A length above 0, or nothing';
+    return void following.show({ limit: x === none ? null : x });
+  }, (text) => (text.trim() === '' ? none : parseLength(text, app.viewer.unit)), '95 % of the points');
+  const check = () => {
+    const edges = element.parentElement!.querySelector<HTMLDetailsElement>('.panel[data-panel=Edges]')!;
+    edges.open = true;
+    edges.querySelector('summary')!.focus();
+    edges.scrollIntoView({ block: 'start' });
+  };
+  return [
+    field('Limits ±', limit, 'Where the colours end'),
+    field('Scale', row(scale, typed), '1: where the data lead; −1 compensates; more is over-bending'),
+    row(button, done ? h('button', { class: 'button small', type: 'button', title: 'How the faces meet at their edges', onclick: check }, 'Check edges') : null),
+    done ? field('Compare', row(h('small', {}, 'before'), share, h('small', {}, 'after')), 'Slides the faces between before and after: the document stays as it is') : null,
+  ];
+}
+
+/** Figures, the histogram and its limits, as they are at the present scale and share. */
+function figuresOf(app: App, following: FollowData): Node[] {
+  const { distances, ends, done } = following;
+  const unit = unitAfter(app.viewer.unit);
+  const { rms, of95, largest } = measuresOf(distances);
+  const bars = histogram(distances, ends);
+  const total = bars.below + bars.inside + bars.above, percent = (n: number) => `${format((100 * n) / Math.max(1, total))} %`;
+  const said = `${bars.inside.toLocaleString('en')} within ±${format(ends)}${unit} (${percent(bars.inside)}), ${bars.below.toLocaleString('en')} below, ${bars.above.toLocaleString('en')} above`;
+  const when = done && following.part < 1 ? (following.part === 0 ? 'Before' : 'On the way') : done ? 'After' : 'Distance';
+  return [
+    note(`${when}: rms ${format(rms)}${unit}, 95 % ${format(of95)}${unit}, largest ${format(largest)}${unit}.`),
+    bins(bars, ends, said, unit),
+    note(`${said}.`),
+  ];
+}
+
+const svg = <K extends keyof SVGElementTagNameMap>(tag: K, attributes: Record<string, string | number>, ...children: (Node | string)[]): SVGElementTagNameMap[K] => {
+  const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  element.append(...children);
+  return element;
+};
+
+function bins({ counts, extent }: Histogram, limit: number, said: string, unit: string): HTMLElement {
+  const [width, height] = [240, 64], highest = Math.max(1, ...counts), wide = width / counts.length;
+  const at = (x: number) => (extent > 0 ? (width * (x + extent)) / (2 * extent) : width / 2);
+  const picture = svg('svg', { viewBox: `0 0 ${width} ${height}`, class: 'follow-bins', role: 'img', 'aria-label': `Histogram of the distances: ${said}` },
+    ...counts.map((n, k) => svg('rect', { x: k * wide + 0.5, width: wide - 1, y: height * (1 - n / highest), height: (height * n) / highest,
+      class: Math.abs((k + 0.5) * wide - width / 2) < (at(limit) - at(-limit)) / 2 ? 'inside' : 'outside' })),
+    ...[-limit, 0, limit].map((x) => svg('line', { x1: at(x), x2: at(x), y1: 0, y2: height, class: x === 0 ? 'zero' : 'limit' })));
+  const strip = Object.assign(h('i', { class: 'legend-bar' }), { style: `background: ${ramp}` });
+  return h('div', { class: 'follow-histogram' }, picture, strip,
+    h('div', { class: 'legend-ticks' }, h('span', {}, `−${format(limit)}`), h('span', {}, '0'), h('span', {}, `${format(limit)}${unit}`)));
+}
+
