@@ -58,6 +58,30 @@ await page.keyboard.press('z');
 await picture('studio-zebra');
 await page.keyboard.press('z');
 
+// A scan of the bonnet bent upwards: random points of its triangles.
+await scene('Bonnet');
+const obj = await page.evaluate(async () => new TextDecoder().decode((await window.studio.client.query('file', { name: 'mesh.obj', tolerance: 0.5 })).file));
+const rows = (word) => obj.split('\n').filter((line) => line.startsWith(`${word} `)).map((line) => line.split(/\s+/).slice(1).map(parseFloat));
+const corners = rows('v');
+let seed = 1;
+const random = () => ((seed = (16807 * seed) % 2147483647), seed / 2147483647);
+const points = rows('f').flatMap((face) => {
+  const [a, b, c] = face.map((k) => corners[k - 1]);
+  const p = b.map((x, d) => x - a[d]), q = c.map((x, d) => x - a[d]);
+  const area = Math.hypot(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]) / 2;
+  return Array.from({ length: Math.floor(area / 150 + random()) }, () => {
+    const s = Math.sqrt(random()), t = random();
+    const [x, y, z] = a.map((at, d) => at + s * (1 - t) * p[d] + s * t * q[d]);
+    return [x, y, z + 8 * Math.sin(x / 400) * Math.cos(y / 300)].join(' ');
+  });
+});
+const follow = page.locator('.panel[data-panel="Follow data"]');
+await follow.locator('summary').click();
+await follow.locator('input[type=file]').setInputFiles({ name: 'scan.xyz', mimeType: 'text/plain', buffer: Buffer.from(points.join('\n')) });
+await follow.locator('.verdict[data-state=compared]').waitFor({ timeout: 60_000 });
+await picture('studio-follow');
+await follow.locator('summary').click();
+
 // A knot drawn onto its neighbour: the functions are less smooth there.
 await page.locator('button[aria-label^="Basis functions"]').click();
 await page.waitForSelector('.lab[data-drawn]');

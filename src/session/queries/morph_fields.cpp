@@ -9,9 +9,29 @@ namespace knead {
 
 static constexpr Choice directions[] = {{"normal", "along the normals of the faces"}};
 
-void describe_partners(MorphRequest& request, Fields& fields) {
+/// In one order, with the fields that say how data are followed or without them.
+static void describe_request(MorphRequest& request, Fields& fields, bool follows) {
   MorphSettings& s = request.settings;
   fields.add("align", s.align, {.help = "the scan is laid onto the model before, rigidly"});
+  if (follows) {
+    fields.add("noise", s.noise,
+               {.help = "standard deviation of each coordinate of the data",
+                .fallback = "none; of a scan it is estimated"});
+    fields.add("scale", s.scale, {.help = "factor of the displacements: -1 compensates"});
+    fields.add(
+        "tolerance", s.tolerance,
+        {.help = "largest residual wanted, in the file's unit", .fallback = "1e-5 of the size"});
+  }
+  fields.add("faces", s.faces, {.help = "only these move, by id of face or surface"});
+  fields.add("keep", s.keep, {.help = "these stay"});
+  fields.add("place", s.places,
+             {.help = "of parts in several places: those that the data are about"});
+  fields.add("convert", s.convert, {.help = "planes and the like become B-splines, to move"});
+  if (follows) {
+    fields.add("refine", s.refinement,
+               {.help = "at most so many times the control points, after raising to degree 3",
+                .range = between(1, 1000)});
+  }
   fields.add(
       "reach", s.reach,
       {.help = "farthest that a point may be from a face", .fallback = "1 % of the model's box"});
@@ -23,27 +43,16 @@ void describe_partners(MorphRequest& request, Fields& fields) {
              {.help = "of CSV: the names of point and displacement", .fallback = "x,y,z,dx,dy,dz"});
   fields.add("field", s.field,
              {.help = "of VTK: the name of the vector field at points", .omit_empty = true});
-  fields.add("faces", s.faces, {.help = "only these move, by id of face or surface"});
-  fields.add("keep", s.keep, {.help = "these stay"});
-  fields.add("place", s.places,
-             {.help = "of parts in several places: those that the data are about"});
-  fields.add("convert", s.convert, {.help = "planes and the like become B-splines, to move"});
+  if (!follows) return;
+  fields.add("strict", request.strict, {.help = "fails where something is above what was wanted"});
+}
+
+void describe_partners(MorphRequest& request, Fields& fields) {
+  describe_request(request, fields, false);
 }
 
 void describe_following(MorphRequest& request, Fields& fields) {
-  describe_partners(request, fields);
-  MorphSettings& s = request.settings;
-  fields.add("noise", s.noise,
-             {.help = "standard deviation of each coordinate of the data",
-              .fallback = "none; of a scan it is estimated"});
-  fields.add("scale", s.scale, {.help = "factor of the displacements: -1 compensates"});
-  fields.add(
-      "tolerance", s.tolerance,
-      {.help = "largest residual wanted, in the file's unit", .fallback = "1e-5 of the size"});
-  fields.add("refine", s.refinement,
-             {.help = "at most so many times the control points, after raising to degree 3",
-              .range = between(1, 1000)});
-  fields.add("strict", request.strict, {.help = "fails where something is above what was wanted"});
+  describe_request(request, fields, true);
 }
 
 void describe_data(std::string& space, AskedData& data, Fields& fields) {

@@ -6,7 +6,7 @@ import type { FollowData } from './follow_data';
 
 /** What the colours of data mean: a card in the corner of the scene. */
 export function deviationLegend(app: App, following: FollowData): HTMLElement {
-  const element = h('section', { class: 'edge-legend deviation-legend', hidden: true, aria: { label: 'Meaning of the colours of data' } });
+  const element = h('section', { class: 'deviation-legend', hidden: true, aria: { label: 'Meaning of the colours of data' } });
   let drawn = '';
   app.onChange.push(() => {
     element.hidden = !following.shown || !following.deviations;

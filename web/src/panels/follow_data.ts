@@ -1,6 +1,6 @@
 import type { DeviationRequest, MorphCommand } from '@knead/generated';
 import { byField, type DataFile, dataFile, type DataKind, textOf, withFile } from '../document/data_files';
-import { blended, colourAt, type Deviations, deviationsOf, distancesAt, type Grid, placesAt, sampledAt, share, shortAbove, sorted, targetsOf } from '../document/deviations';
+import { blended, colourAt, type Deviations, deviationsOf, distancesAt, type Grid, placesAt, sampledAt, shortAbove, sorted, targetsOf } from '../document/deviations';
 import { adviceOn } from '../document/words';
 import { Checker } from '../engine/checker';
 import { type Command, KneadError } from '../engine/session_types';
@@ -19,7 +19,15 @@ export interface FollowSettings {
   noise: number | null;
   /** Of the data; empty: that of the file. */
   unit: string;
+  /** Only the part of displacements along the normal. */
+  normal: boolean;
+  /** Of VTK: the vector field; of CSV: six columns; of an assembly: which places the data are about. Empty: what the engine takes. */
+  field: string;
+  columns: string;
+  place: string;
 }
+
+const usual: FollowSettings = { align: false, reach: null, noise: null, unit: '', normal: false, field: '', columns: '', place: '' };
 
 /** The document before and after it has followed the data. */
 interface Followed {
@@ -36,7 +44,7 @@ interface Followed {
 export class FollowData {
   files: readonly DataFile[] = [];
   kind: DataKind = 'scan';
-  settings: FollowSettings = { align: false, reach: null, noise: null, unit: '' };
+  settings = { ...usual };
   /** Of the document before it follows. */
   deviations: Deviations | null = null;
   failed = '';
@@ -54,6 +62,7 @@ export class FollowData {
   /** Opens the panel. */
   reveal: () => void = () => {};
 
+  private most = 0; // the usual end of the colours
   private open = false;
   private session = -1;
   private shapes = -1;
@@ -128,7 +137,7 @@ export class FollowData {
       this.session = app.documents.sessions;
       this.stop();
       this.forget();
-      Object.assign(this, { files: [], scale: 1, limit: null, settings: { align: false, reach: null, noise: null, unit: '' } });
+      Object.assign(this, { files: [], scale: 1, limit: null, settings: { ...usual } });
       ++this.version;
     }
     this.draw(); // frames draw the faces where they are
@@ -148,7 +157,7 @@ export class FollowData {
   async add(file: File): Promise<void> {
     const next = dataFile(file.name, new Uint8Array(await file.arrayBuffer()));
     Object.assign(this, withFile(this.files, this.kind, next), { limit: null, scale: 1 });
-    this.settings.align &&= this.kind === 'scan';
+    Object.assign(this.settings, { align: this.settings.align && this.kind === 'scan', field: '', columns: '' });
     this.again();
     this.reveal();
   }
@@ -162,9 +171,8 @@ export class FollowData {
   }
 
   set(change: Partial<FollowSettings>): void {
-    const compares = 'align' in change || 'reach' in change || 'unit' in change;
     Object.assign(this.settings, change);
-    if (compares) this.again();
+    if (Object.keys(change).some((name) => name !== 'noise')) this.again();
     else this.tell();
   }
 
@@ -181,8 +189,12 @@ export class FollowData {
   }
 
   private get asked(): Omit<DeviationRequest, 'scan' | 'vectors' | 'from' | 'to'> {
-    const { align, reach, unit } = this.settings;
-    return { ...(align ? { align } : {}), ...(reach === null ? {} : { reach }), ...(unit ? { unit } : {}) };
+    const { align, reach, unit, normal, field, columns, place } = this.settings;
+    const list = (text: string) => text.split(/[,;]/).map((name) => name.trim());
+    return {
+      ...(align ? { align } : {}), ...(reach === null ? {} : { reach }), ...(unit ? { unit } : {}), ...(normal ? { along: 'normal' as const } : {}),
+      ...(field ? { field } : {}), ...(columns ? { columns: list(columns) } : {}), ...(place ? { place: list(place) } : {}),
+    };
   }
 
   /** What the engine answers of the document as it is now; null if that is of no use any more. */
@@ -217,6 +229,7 @@ export class FollowData {
       const found = await this.ask({ ...data, ...this.asked });
       if (!found) return;
       this.deviations = found;
+      this.most = shortAbove(found.info.deviation.of_95);
       this.took = performance.now() - start;
     } catch (error) {
       this.deviations = null;
@@ -260,12 +273,14 @@ export class FollowData {
   /** Surfaces that were none before, as they were opened; and what is left of the distances. */
   private async complete(followed: Followed, of: Deviations): Promise<void> {
     const { app } = this;
-    for (const [surface, { id }] of (app.state?.surfaces ?? []).entries()) {
+    const { surfaces } = await app.client.query('state'); // the frame of it may be late
+    for (const [surface, { id }] of surfaces.entries()) {
       if (!followed.before.has(id)) followed.before.set(id, await app.client.query('picture', { surface, detail: app.display.detail, opened: true }));
     }
     this.tell();
     const { text, numbers } = targetsOf(of, followed.scale);
-    const later = await this.ask({ scan: new TextEncoder().encode(text), ...(this.settings.reach === null ? {} : { reach: this.settings.reach }) });
+    const { place } = this.asked;
+    const later = await this.ask({ scan: new TextEncoder().encode(text), reach: of.info.reach, ...(place ? { place } : {}) });
     if (later) followed.left = sorted(later, numbers, of.states.length);
   }
 
@@ -278,7 +293,7 @@ export class FollowData {
 
   /** Where the colours end. */
   get ends(): number {
-    return this.limit ?? (this.deviations ? shortAbove(share(this.deviations.distances, 0.95)) : 0);
+    return this.limit ?? (this.deviations ? this.most : 0);
   }
 
   private drawn: unknown[] = [];

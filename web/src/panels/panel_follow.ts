@@ -7,7 +7,7 @@ import type { FollowData } from './follow_data';
 import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
 
-const kinds: [DataKind, string][] = [['scan', 'Scan: where faces should lie'], ['vectors', 'Displacements'], ['pair', 'Mesh before and after']];
+const kinds: [DataKind, string][] = [['scan', 'Scan'], ['vectors', 'Displacements'], ['pair', 'Mesh before and after']];
 const units: [string, string][] = [['', 'As the file'], ...['mm', 'cm', 'm', 'inch', 'foot'].map((u): [string, string] => [u, u])];
 const none = Infinity; // what the engine takes
 const most = 2; // of the scale, either way
@@ -81,19 +81,33 @@ function alignment(app: App, { deviations }: FollowData): string {
   return ` Aligned by ${format(found.angle)}° and ${format(Math.hypot(...found.shift))}${unitAfter(app.viewer.unit)}.`;
 }
 
+/** A name, or several with commas; it takes effect when the field is left, or at Enter. */
+function named(label: string, value: string, placeholder: string, change: (value: string) => void): HTMLInputElement {
+  const input = h('input', { class: 'number', type: 'text', value, placeholder, spellcheck: false, autocomplete: 'off', aria: { label } });
+  input.addEventListener('change', () => change(input.value.trim()));
+  input.addEventListener('keydown', (e) => e.stopPropagation());
+  return input;
+}
+
 /** What the data are. */
 function dataFields(app: App, following: FollowData): (Node | null)[] {
   const { unit } = app.viewer;
-  const { settings, kind } = following;
+  const { settings, kind, files } = following;
+  const is = (ending: RegExp) => kind === 'vectors' && ending.test(files[0]!.name);
+  const repeated = app.viewer.placing.assembly?.parts.some(({ places }) => places.length > 1) ?? false;
   const length = (text: string) => (text.trim() === '' ? none : parseLength(text, unit));
   const optional = (name: 'reach' | 'noise') => (x: number) => {
     if (!(x > 0)) return 'A length above 0, or nothing';
     return void following.set({ [name]: x === none ? null : x });
   };
   return [
-    field('Data are', select('What the data are', kinds, kind, (to) => following.be(to))),
+    field('Data are', select('What the data are', kinds, kind, (to) => following.be(to)), 'A scan says where faces should lie, displacements where points go'),
     field('Unit', select('Unit of the data', units, settings.unit, (to) => following.set({ unit: to })), 'Of the coordinates of the data'),
-    kind === 'scan' ? row(toggle('Align', settings.align, (align) => following.set({ align }), 'Lays the scan onto the model, by a rigid motion')) : null,
+    kind === 'scan' ? row(toggle('Align', settings.align, (align) => following.set({ align }), 'Lays the scan onto the model, by a rigid motion'))
+      : row(toggle('Along normals', settings.normal, (normal) => following.set({ normal }), 'Only the part of each displacement along the normal of the face')),
+    is(/\.vt[kup]$/i) ? field('Field', named('Vector field', settings.field, 'the only one', (to) => following.set({ field: to })), 'The vectors at points that are the displacements') : null,
+    is(/\.csv$/i) ? field('Columns', named('Columns of the table', settings.columns, 'x,y,z,dx,dy,dz', (to) => following.set({ columns: to })), 'Those of point and displacement, by name') : null,
+    repeated ? field('Place', named('Place of the data', settings.place, 'part/part', (to) => following.set({ place: to })), 'Of parts that stand in several places: which of them the data are about') : null,
     field('Reach', numberInput('Reach', settings.reach, optional('reach'), length, '1 % of the model'), 'Farthest that a point may be from a face'),
     field('Noise', numberInput('Noise', settings.noise, optional('noise'), length, kind === 'scan' ? 'estimated' : 'none'), 'Standard deviation of each coordinate of the data'),
   ];
