@@ -28,6 +28,30 @@ const kept = async () => {
 const preset = () => studio.page.evaluate(() =>
   (window as never as { studio: { state: { surfaces: { preset: string | null }[] } } }).studio.state.surfaces.map((s) => s.preset));
 
+it('asks about the document that it has opened, also where the one before was not drawn yet', async () => {
+  const { page } = studio;
+  const text = readFileSync(join(root, 'samples/bonnet.step'), 'utf8');
+  await scene(page, 'Clay sheet');
+  const seen = await page.evaluate(async (step) => {
+    interface Page { state: { surfaces: { id: string }[] }; client: { execute(c: object[]): Promise<void> }; documents: { openFile(f: File): Promise<void> } }
+    const { studio: app } = window as never as { studio: Page };
+    const draw = window.requestAnimationFrame, waiting: FrameRequestCallback[] = [];
+    window.requestAnimationFrame = (callback) => waiting.push(callback);
+    try {
+      await app.client.execute([{ do: 'hold', rows: 1 }]); // a frame that the page does not get to draw
+      await app.documents.openFile(new File([step], 'bonnet.step'));
+      return app.state.surfaces.map(({ id }) => id);
+    } finally {
+      window.requestAnimationFrame = draw;
+      for (const callback of waiting) draw(callback);
+    }
+  }, text);
+  expect(seen).toEqual(['#285', '#1044']);
+  await settled(page);
+  expect(await page.locator('.notice.error').count()).toBe(0);
+  await scene(page, 'Clay sheet');
+});
+
 describe('undo', () => {
   it('goes no further back than the sheet that the page begins with', async () => {
     const { page } = studio;

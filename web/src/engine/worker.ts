@@ -142,6 +142,7 @@ function begin(engine: Engine, next: typeof source, act: () => void): void {
   }
   source = next;
   preparation.renew();
+  frameDrawn = true; // what the page has not drawn yet is of the session before: this one is on the page when it is asked about
   assemblyDue = true;
   shownSteps = 0;
 }
