@@ -1,8 +1,8 @@
 import { execFileSync } from 'node:child_process';
-import { writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { commands, directoryOfFile, engineOf, native, openFile, root, saveAs, scene, settled, studioOfFile } from './page';
+import { commands, directoryOfFile, engineOf, execute, handled, native, openFile, question, root, saveAs, scene, settled, studioOfFile } from './page';
 
 /** Data that the faces follow: dropped, aligned, seen as colours, followed, compared with before, checked and saved. */
 
@@ -135,11 +135,13 @@ it('shows limits in colours and in the histogram', async () => {
 it('follows, and slides between before and after', async () => {
   const { page } = studio;
   const before = await faces();
+  await fill('Noise', '0.05 mm');
+  expect(await state()).toBe('compared'); // that is of no importance here
   await button('Morph').click();
   await expect.poll(state, { timeout: 120_000 }).toBe('followed');
   await expect.poll(async () => (await figures())[0]).toBe('After');
   await expect.poll(async () => (await figures())[1]).toBeLessThan(0.3);
-  expect((await commands(page)).at(-1)).toMatchObject({ do: 'morph', align: true });
+  expect((await commands(page)).at(-1)).toMatchObject({ do: 'morph', align: true, noise: 0.05 });
   const after = await faces();
   expect(after.away).toBe(0);
   await slide('Before to after', 0);
@@ -187,7 +189,7 @@ it('takes displacements, and shows where they lead at once', async () => {
   const { page } = studio;
   const rows = (await pointsOn(bonnet, 60)).map(([x, y, z]) => [x, y, z, 0, 0, 8 * Math.sin(x / 400) * Math.cos(y / 300)]);
   await drop(['springback.csv', `x,y,z,dx,dy,dz\n${rows.map((r) => r.join()).join('\n')}\n`]);
-  await expect.poll(state, { timeout: 60_000 }).toBe('compared');
+  await expect.poll(() => status().textContent(), { timeout: 60_000 }).toMatch(/^springback\.csv: .* compared/);
   expect(await panel().locator('select[aria-label="What the data are"]').inputValue()).toBe('vectors');
   expect(await button('Align').count()).toBe(0);
   const [, rms] = await figures();
@@ -199,11 +201,31 @@ it('takes displacements, and shows where they lead at once', async () => {
   await expect.poll(state, { timeout: 120_000 }).toBe('followed');
   await expect.poll(async () => (await figures())[1]).toBeLessThan(0.05);
   expect((await commands(page)).at(-1)).toMatchObject({ do: 'morph', scale: -1 });
+  await execute(page, { do: 'select', surface: '#285' }); // it is none of the work that would be lost
   await fill('Scale, a number', '0.5');
   await button('Morph again at this scale').click();
   await expect.poll(async () => ((await commands(page)).at(-1) as { scale?: number }).scale, { timeout: 120_000 }).toBe(0.5);
   expect((await commands(page)).filter((c) => c.do === 'morph').length).toBe(1);
   await expect.poll(state).toBe('followed');
+});
+
+it('does not take back what was done since', async () => {
+  const { page } = studio;
+  await execute(page, { do: 'select', surface: '#285' }, { do: 'measure', name: 'middle' });
+  await fill('Scale, a number', '1');
+  await button('Morph again at this scale').click();
+  await page.locator('.notice', { hasText: 'Something was done since the faces have followed.' }).waitFor();
+  expect((await commands(page)).map((c) => c.do)).toEqual(['morph', 'select', 'measure']);
+});
+
+it('opens a document and its data that are dropped together', async () => {
+  const { page } = studio;
+  const before = await handled(page);
+  await drop(['few.xyz', '600 0 100\n700 0 120\n800 50 150\n'], ['again.step', readFileSync(bonnet, 'utf8')]);
+  await question(page).locator('button', { hasText: 'Open without saving' }).click();
+  await expect.poll(() => handled(page)).toBe(before + 2);
+  expect(await page.locator('.document-name').textContent()).toBe('again.step');
+  await expect.poll(() => status().textContent(), { timeout: 60_000 }).toMatch(/few\.xyz|cannot be compared/);
 });
 
 it('takes a mesh before and after', async () => {

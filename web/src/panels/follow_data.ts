@@ -157,7 +157,7 @@ export class FollowData {
   async add(file: File): Promise<void> {
     const next = dataFile(file.name, new Uint8Array(await file.arrayBuffer()));
     Object.assign(this, withFile(this.files, this.kind, next), { limit: null, scale: 1 });
-    Object.assign(this.settings, { align: this.settings.align && this.kind === 'scan', field: '', columns: '' });
+    Object.assign(this.settings, { align: this.settings.align && this.kind === 'scan', field: '', columns: '', noise: null });
     this.again();
     this.reveal();
   }
@@ -248,7 +248,7 @@ export class FollowData {
     this.morphing = true;
     this.tell();
     const { done } = this;
-    if (done && !(await app.execute([{ do: 'undo' }]))) {
+    if (done && !(await this.takeBack())) {
       this.morphing = false;
       return this.tell();
     }
@@ -262,6 +262,21 @@ export class FollowData {
     if (this.followed) await app.attempt(() => this.complete(this.followed!, deviations));
     this.morphing = false;
     this.tell();
+  }
+
+  /** The document as it was before it followed; false where something was done since. */
+  private async takeBack(): Promise<boolean> {
+    const { app } = this;
+    const commands = async () => (JSON.parse(await app.client.query('journal')) as Command[]).map((c) => c.do);
+    const before = await commands(), morph = before.lastIndexOf('morph');
+    if (before.slice(morph + 1).some((name) => name !== 'select')) {
+      app.notify({ kind: 'info', topic: 'morph again', text: 'Something was done since the faces have followed.', remedy: 'Undo that first, or compare again: they follow from where they are.' });
+      return false;
+    }
+    while ((await commands())[morph] === 'morph') {
+      if (!(await app.execute([{ do: 'undo' }]))) return false;
+    }
+    return true;
   }
 
   /** Surfaces as they are drawn now, by id. */
