@@ -241,7 +241,35 @@ it('takes a mesh before and after', async () => {
   expect((await figures())[1]).toBeCloseTo(1, 6);
 });
 
-it('has names for what is in it', async () => {
+it.each([[1440, 900], [1024, 768], [390, 844]])('fits a page of %i × %i', async (width, height) => {
+  const { page } = studio;
+  await page.setViewportSize({ width, height });
+  await settled(page);
+  const parts = await panel().locator('button, select, input:not([hidden]), svg').all();
+  expect(parts.length).toBeGreaterThan(8);
+  for (const part of parts) {
+    await part.scrollIntoViewIfNeeded();
+    const box = (await part.boundingBox())!;
+    expect([box.x >= 0, box.x + box.width <= width, box.width > 20], await part.evaluate((e) => e.outerHTML)).toEqual([true, true, true]);
+  }
+  const [legend, cube] = [(await page.locator('.deviation-legend').boundingBox())!, (await page.locator('.view-cube').boundingBox())!];
+  expect(legend.x + legend.width).toBeLessThan(cube.x);
+});
+
+it('is worked by keys, and has names for what is in it', async () => {
+  const { page } = studio;
+  const scale = panel().locator('input[aria-label="Scale of the displacements"]');
+  await scale.focus();
+  await page.keyboard.press('Home');
+  expect(await panel().locator('input[aria-label="Scale, a number"]').inputValue()).toBe('-2');
+  await page.keyboard.press('End');
+  await page.keyboard.press('ArrowLeft');
+  expect(Number(await panel().locator('input[aria-label="Scale, a number"]').inputValue())).toBeCloseTo(1.95, 9);
+  expect(await scale.getAttribute('aria-valuetext')).toBe('1.95');
+  await fill('Scale, a number', '1');
+  await button('Morph').focus();
+  await page.keyboard.press('Enter');
+  await expect.poll(state, { timeout: 60_000 }).toBe('followed');
   for (const control of await panel().locator('button, select, input:not([hidden])').all()) {
     const name = (await control.getAttribute('aria-label')) ?? (await control.textContent());
     expect(name?.trim(), await control.evaluate((e) => e.outerHTML)).toBeTruthy();

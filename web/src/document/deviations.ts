@@ -17,7 +17,7 @@ export interface Deviations {
 }
 
 export function deviationsOf(info: DataDeviation): Deviations {
-  const numbers = (bytes: Uint8Array) => new Float64Array(bytes.slice().buffer);
+  const numbers = (bytes: Uint8Array) => new Float64Array(bytes.buffer as ArrayBuffer, bytes.byteOffset, bytes.length / 8); // which the engine gives alone
   const { places, feet, normals, wanted, distances, states } = info;
   return { info, places: numbers(places), feet: numbers(feet), normals: numbers(normals), wanted: numbers(wanted), distances: numbers(distances), states };
 }

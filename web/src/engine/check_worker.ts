@@ -18,5 +18,6 @@ self.onmessage = async ({ data: { id, file, name, query, request } }: MessageEve
   } catch (error) {
     reply = { id, error: error instanceof KneadError ? error.info : errorOf('internal', error instanceof Error ? error.message : String(error), '') };
   }
-  self.postMessage(reply);
+  const handed = 'answer' in reply ? Object.values(reply.answer).filter(ArrayBuffer.isView).map(({ buffer }) => buffer as ArrayBuffer) : [];
+  self.postMessage(reply, { transfer: handed });
 };
