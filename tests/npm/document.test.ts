@@ -146,6 +146,20 @@ it('moves a document after data, to a file', async () => {
   expect(thrown(() => doc.morphed())).toMatchObject({ what: 'nothing says where the surfaces should go' });
 });
 
+it('says how far data are from a document, which stays', async () => {
+  const doc = await open(bonnet(), { name: 'bonnet.step' });
+  const answer = doc.deviation({ space: '0; 0; 2' });
+  expect(answer).toMatchObject({ unit: 'mm', used: answer.points, left_out: 0, alignment: null });
+  expect(answer.deviation.largest).toBeLessThanOrEqual(2 + 1e-12);
+  const [places, wanted] = [answer.places, answer.wanted].map((bytes) => new Float64Array(bytes.buffer));
+  expect([places!.length, wanted!.length, answer.states.length]).toEqual([3 * answer.points, 3 * answer.points, answer.points]);
+  expect([...wanted!.slice(0, 3)]).toEqual([0, 0, 2]);
+  const scan = new TextEncoder().encode(Array.from({ length: 9 }, (_, k) => [...places!.slice(3 * k, 3 * k + 3)].join(' ')).join('\n'));
+  expect(doc.deviation({ scan, unit: 'mm' }).deviation.largest).toBeLessThan(1e-6);
+  expect(doc.save()).toEqual(bonnet());
+  expect(thrown(() => doc.deviation())).toMatchObject({ what: 'nothing says where the surfaces should go' });
+});
+
 it('compresses as the file was, or as a name says', async () => {
   const gzip = new Uint8Array(await new Response(new Blob([bonnet()]).stream().pipeThrough(new CompressionStream('gzip'))).arrayBuffer());
   const doc = await open(gzip, { name: 'bonnet.step.gz' });

@@ -142,6 +142,17 @@ class Queries(unittest.TestCase):
             self.assertLess(answer["report"]["after"]["largest"], 1e-9)
             self.assertAlmostEqual(answer["report"]["before"]["mean"], 3, 9)
 
+    def test_deviation_says_how_far_data_are(self):
+        doc = knead.open(BONNET)
+        answer = doc.deviation(space="0; 0; 2")
+        self.assertEqual((answer["used"], answer["left_out"], answer["alignment"]), (answer["points"], 0, None))
+        self.assertLessEqual(answer["deviation"]["largest"], 2 + 1e-12)
+        wanted = np.frombuffer(answer["wanted"]).reshape(-1, 3)
+        self.assertEqual(wanted.shape, (answer["points"], 3))
+        np.testing.assert_array_equal(wanted, np.tile([0, 0, 2.0], (answer["points"], 1)))
+        self.assertEqual(set(answer["states"]), {0})
+        self.assertEqual(doc.save(), pathlib.Path(BONNET).read_bytes())
+
     def test_errors_of_morphed_name_the_field(self):
         doc = knead.open(BONNET)
         for fields, where in (({}, "vectors"), ({"space": "0;0;0", "vectors": b"1 2 3 4 5 6"}, "vectors"), ({"from_": b"1 2 3"}, "to"),
