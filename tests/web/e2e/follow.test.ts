@@ -50,8 +50,8 @@ interface Drawn {
 }
 /** How many points of data are drawn, and in how many colours. */
 const points = () => studio.page.evaluate(() => {
-  const drawn = (window as never as Drawn).studio.viewer.marks.children.find(({ name }) => name === 'data points')!;
-  if (!drawn.visible) return { count: 0, colours: 0 };
+  const drawn = (window as never as Drawn).studio.viewer.marks.children.find(({ name }) => name === 'data points');
+  if (!drawn?.visible) return { count: 0, colours: 0 };
   const { position, color } = drawn.geometry.attributes;
   return { count: position!.count, colours: new Set(Array.from({ length: color!.count }, (_, k) => [...color!.array.slice(3 * k, 3 * k + 3)].join())).size };
 });

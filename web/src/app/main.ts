@@ -9,11 +9,10 @@ import '../view/follow.css';
 import { busyBar } from '../panels/busy';
 import { notices, toolRail, topBar } from '../panels/chrome';
 import { h } from '../panels/dom';
-import { deviationLegend } from '../panels/deviation_legend';
 import { EdgeCheckup } from '../panels/edge_checkup';
 import { edgeLabels, edgeLegend } from '../panels/edge_legend';
 import { listenToEdges } from '../panels/edge_popover';
-import { FollowData } from '../panels/follow_data';
+import { followDoor } from '../panels/follow/door';
 import { openScene, scenes } from '../panels/gallery';
 import { heldBadge } from '../panels/held_badge';
 import { listenToKeys } from '../panels/keyboard';
@@ -25,14 +24,13 @@ import { displayPanel } from '../panels/panel_display';
 import { surfacePanel } from '../panels/panel_surface';
 import { brushPanel, pointsPanel } from '../panels/panels_hand';
 import { checkPanel } from '../panels/panel_check';
-import { followPanel } from '../panels/panel_follow';
 import { measurePanel, readingLabels } from '../panels/panel_measure';
 import { evolutionPanel, historyPanel, materialPanel } from '../panels/panels_model';
 import { constraintsPanel, surfacesPanel, toolsPanel } from '../panels/panels_scene';
 import { statusBar } from '../panels/plot';
 import { listenToQuestions } from '../panels/question';
 import { offerRecovery } from '../panels/recovery';
-import { droppedHandle, openAll } from '../document/disk';
+import { droppedHandle } from '../document/disk';
 import { offerTour } from '../panels/tour';
 import { sectionHandle } from '../panels/section';
 import { viewsPanel } from '../panels/panel_views';
@@ -42,14 +40,13 @@ import { Studio } from './studio';
 
 const app = new Studio();
 const checkup = new EdgeCheckup(app);
-const following = new FollowData(app);
 
 document.getElementById('studio')!.append(
   topBar(app),
   toolRail(app),
-  h('main', { class: 'stage' }, app.viewer.element, legendCard(app), edgeLegend(app, checkup), deviationLegend(app, following), busyBar(app), notices(app)),
+  h('main', { class: 'stage' }, app.viewer.element, legendCard(app), edgeLegend(app, checkup), busyBar(app), notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
-    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), assemblyPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), followPanel(app, following), checkPanel(app, checkup),
+    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), assemblyPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), followDoor(app), checkPanel(app, checkup),
     viewsPanel(app), displayPanel(app), analysisPanel(app), historyPanel(app)),
   statusBar(app),
 );
@@ -64,11 +61,11 @@ document.addEventListener('drop', (event) => {
   event.preventDefault();
   const files = [...(event.dataTransfer?.files ?? [])];
   const handles = files.map((_, k) => droppedHandle(event.dataTransfer?.items[k]));
-  void openAll(app.documents, files, handles);
+  void app.documents.openFiles(files, handles);
 });
 
 // For tests and the curious.
-Object.assign(window, { studio: app, following });
+Object.assign(window, { studio: app });
 
 async function start(): Promise<void> {
   await app.client.ready;

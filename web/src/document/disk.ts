@@ -1,6 +1,3 @@
-import { isDataName } from './data_files';
-import type { Documents } from './documents';
-
 /** Files of the user's disk that are written in place, where the browser gives access to them (File System Access). */
 
 type OpenPicker = (options: { id: string }) => Promise<FileSystemFileHandle[]>;
@@ -30,14 +27,6 @@ export async function pickFile(): Promise<OnDisk | null> {
 export async function droppedHandle(item: DataTransferItem | undefined): Promise<FileSystemFileHandle | null> {
   const handle = await (item as DroppedItem | undefined)?.getAsFileSystemHandle?.().catch(() => null);
   return handle?.kind === 'file' ? (handle as FileSystemFileHandle) : null;
-}
-
-/** Opens the first of several files that is a document, then the data that it may follow. */
-export async function openAll(documents: Documents, files: readonly File[], handles: readonly Promise<FileSystemFileHandle | null>[]): Promise<void> {
-  const all = files.map((file, k) => ({ file, handle: handles[k]! }));
-  const data = files.length > 1 ? all.filter(({ file }) => isDataName(file.name)) : [];
-  const [document] = all.filter((each) => !data.includes(each));
-  for (const { file, handle } of document ? [document, ...data] : data) await documents.openFile(file, await handle);
 }
 
 /** Whether another program has written the file since it was opened. */

@@ -105,6 +105,13 @@ export class Documents {
     this.host.changed();
   }
 
+  /** The first of several files that is a document, then the data that it may follow. */
+  async openFiles(files: readonly File[], handles: readonly Promise<FileSystemFileHandle | null>[]): Promise<void> {
+    const isData = (file: File) => files.length > 1 && isDataName(file.name);
+    const document = files.find((file) => !isData(file));
+    for (const file of [...(document ? [document] : []), ...files.filter(isData)]) await this.openFile(file, await handles[files.indexOf(file)]!);
+  }
+
   private async read(file: File): Promise<void> {
     const { host } = this;
     const bytes = async () => new Uint8Array(await file.arrayBuffer());

@@ -1,7 +1,7 @@
-import { ramp } from '../document/deviations';
-import { format } from '../document/units';
-import type { App } from './app';
-import { h } from './dom';
+import { ramp } from '../../document/deviations';
+import { format } from '../../document/units';
+import type { App } from '../app';
+import { h } from '../dom';
 import type { FollowData } from './follow_data';
 
 /** What the colours of data mean: a card in the corner of the scene. */

@@ -1,11 +1,11 @@
 import type { DeviationRequest, MorphCommand } from '@knead/generated';
-import { byField, type DataFile, dataFile, type DataKind, textOf, withFile } from '../document/data_files';
-import { blended, colourAt, type Deviations, deviationsOf, distancesAt, type Grid, placesAt, sampledAt, shortAbove, sorted, targetsOf } from '../document/deviations';
-import { adviceOn } from '../document/words';
-import { Checker } from '../engine/checker';
-import { type Command, KneadError } from '../engine/session_types';
-import { DataPoints } from '../view/data_points';
-import type { App } from './app';
+import { byField, type DataFile, dataFile, type DataKind, textOf, withFile } from '../../document/data_files';
+import { blended, colourAt, type Deviations, deviationsOf, distancesAt, type Grid, placesAt, sampledAt, shortAbove, sorted, targetsOf } from '../../document/deviations';
+import { adviceOn } from '../../document/words';
+import { Checker } from '../../engine/checker';
+import { type Command, KneadError } from '../../engine/session_types';
+import { DataPoints } from '../../view/data_points';
+import type { App } from '../app';
 
 const quick = 1500; // milliseconds: what took no longer is compared again by itself …
 const rest = 1200; // … after so long without a change
@@ -69,16 +69,11 @@ export class FollowData {
   private took = Infinity;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private run = {};
-  private readonly checker = new Checker(() => new Worker(new URL('../engine/check_worker.ts', import.meta.url), { type: 'module' }));
+  private readonly checker = new Checker(() => new Worker(new URL('../../engine/check_worker.ts', import.meta.url), { type: 'module' }));
   private readonly points: DataPoints;
 
   constructor(private readonly app: App) {
     this.points = new DataPoints(app.viewer);
-    app.documents.follow = async (file) => {
-      if (!app.state || app.state.surfaces.length + app.viewer.context.pieces.length === 0) return false;
-      await this.add(file);
-      return true;
-    };
     app.onChange.push(() => this.keepUp());
     const { acts } = app.client, told = acts.onShapes;
     acts.onShapes = () => {

@@ -1,11 +1,12 @@
-import { dataEndings, type DataKind } from '../document/data_files';
-import { coverage, type Histogram, histogram, measuresOf, ramp } from '../document/deviations';
-import { format, parseLength } from '../document/units';
-import type { App } from './app';
-import { field, h, select, slider, toggle } from './dom';
-import type { FollowData } from './follow_data';
-import { numberInput } from './number_input';
-import { note, panel, row } from './panel';
+import { dataEndings, type DataKind } from '../../document/data_files';
+import { coverage, type Histogram, histogram, measuresOf, ramp } from '../../document/deviations';
+import { format, parseLength } from '../../document/units';
+import type { App } from '../app';
+import { field, h, select, slider, toggle } from '../dom';
+import { FollowData } from './follow_data';
+import { deviationLegend } from './legend';
+import { numberInput } from '../number_input';
+import { note, panel, row } from '../panel';
 
 const kinds: [DataKind, string][] = [['scan', 'Scan'], ['vectors', 'Displacements'], ['pair', 'Mesh before and after']];
 const units: [string, string][] = [['', 'As the file'], ...['mm', 'cm', 'm', 'inch', 'foot'].map((u): [string, string] => [u, u])];
@@ -14,8 +15,21 @@ const most = 2; // of the scale, either way
 
 const unitAfter = (unit: string): string => (unit === '' || unit === 'unknown' ? '' : ` ${unit}`);
 
+/** Puts the panel into the place of its door, open or closed as that is, and its legend into the scene. */
+export function showFollowing(app: App, door: HTMLDetailsElement): FollowData {
+  const following = new FollowData(app);
+  const element = followPanel(app, following), focused = door.contains(document.activeElement);
+  element.open = door.open;
+  door.replaceWith(element);
+  if (focused) element.querySelector('summary')!.focus();
+  document.querySelector('.edge-legend')!.after(deviationLegend(app, following));
+  Object.assign(window, { following }); // for tests and the curious
+  app.changed();
+  return following;
+}
+
 /** Data that the faces follow: what they are, how far the model is from them, how it follows. */
-export function followPanel(app: App, following: FollowData): HTMLElement {
+function followPanel(app: App, following: FollowData): HTMLDetailsElement {
   const picker = h('input', { type: 'file', accept: dataEndings.join(','), hidden: true, multiple: true, aria: { label: 'Data to follow' } });
   picker.addEventListener('change', () => {
     const files = [...(picker.files ?? [])];
