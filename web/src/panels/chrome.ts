@@ -1,4 +1,5 @@
 import { canPick, pickFile } from '../document/disk';
+import { dataEndings } from '../document/data_files';
 import { readEndings } from '../document/formats';
 import type { Notice } from '../document/host';
 import { selected, unitOf } from '../engine/session_state';
@@ -16,7 +17,7 @@ import { toggleTour } from './tour';
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome screen. */
 
 export function topBar(app: App): HTMLElement {
-  const picker = h('input', { type: 'file', accept: readEndings.join(','), hidden: true, aria: { label: 'File to open' } });
+  const picker = h('input', { type: 'file', accept: [...readEndings, ...dataEndings].join(','), hidden: true, aria: { label: 'File to open' } });
   picker.addEventListener('change', () => {
     const file = picker.files?.[0];
     picker.value = '';
