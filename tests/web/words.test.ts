@@ -51,6 +51,11 @@ describe('what the engine refuses', () => {
     else for (const command of advice.actions.find((a) => a.label === label)!.commands) engine.execute(command); // is a command that can be done
   });
 
+  it('names options of the program as fields of a panel', () => {
+    const said = adviceOn(errorOf('input', 'none of 3 points is within 1 of a face', 'are they in the unit of the model? --unit, --align, --reach'));
+    expect(said.remedy).toBe('Are they in the unit of the model? “Unit”, “Align”, “Reach”');
+  });
+
   it('a fold names the held edge beside it, which may follow instead', () => {
     const error = told('step_folds_beside_edge', { surface: '#10', edge: '#43', hold: 'follow' }, [{ code: 'let_follow', commands: [{ do: 'edge', edge: '#43', hold: 'follow' }] }]);
     const { text, remedy, actions } = adviceOn(error, true);

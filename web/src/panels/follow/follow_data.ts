@@ -3,7 +3,7 @@ import { byField, type DataFile, dataFile, type DataKind, textOf, withFile } fro
 import { blended, colourAt, type Deviations, deviationsOf, distancesAt, type Grid, placesAt, sampledAt, shortAbove, sorted, targetsOf } from '../../document/deviations';
 import { adviceOn } from '../../document/words';
 import { Checker } from '../../engine/checker';
-import { type Command, KneadError } from '../../engine/session_types';
+import { type Command, KneadError, type Picture } from '../../engine/session_types';
 import { DataPoints } from '../../view/data_points';
 import type { App } from '../app';
 
@@ -321,19 +321,24 @@ export class FollowData {
     this.points.show(placesAt(deviations, scale), colours);
   }
 
-  private blends = false;
+  /** The frame and the share that the faces were blended by; null: they are drawn where they are. */
+  private blends: readonly unknown[] | null = null;
+  /** Surfaces before, on the grids of their present pictures. */
+  private readonly sampled = new WeakMap<Picture, Pick<Grid, 'positions' | 'normals'>>();
   /** Draws the faces between before and after, and at other scales: displacements are linear. */
   private blend(): void {
     const { app, done } = this;
     const { frame } = app;
     const share = done ? (this.part * this.scale) / done.scale : 1;
-    const away = this.open && done !== null && share !== 1;
-    if ((!away && !this.blends) || !frame) return;
+    const away = this.open && done !== null && share !== 1 ? [frame, share, done.before.size] : null;
+    if (!frame || away?.every((x, k) => x === this.blends?.[k]) || (!away && !this.blends)) return;
     this.blends = away;
     frame.pictures.forEach((picture, k) => {
-      const from = done?.before.get(frame.state.surfaces[k]!.id);
+      const from = away && done!.before.get(frame.state.surfaces[k]!.id);
       if (away && !from) return;
-      const drawn = (of: 'positions' | 'normals') => (away ? blended(sampledAt(from!, of, picture), picture[of], share) : picture[of]);
+      const before = from && (this.sampled.get(picture) ?? { positions: sampledAt(from, 'positions', picture), normals: sampledAt(from, 'normals', picture) });
+      if (before) this.sampled.set(picture, before);
+      const drawn = (of: 'positions' | 'normals') => (before ? blended(before[of], picture[of], share) : picture[of]);
       app.viewer.surfaces[k]?.drawAt(drawn('positions'), drawn('normals'));
     });
     app.viewer.redraw();
