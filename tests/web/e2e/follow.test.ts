@@ -132,6 +132,16 @@ it('shows limits in colours and in the histogram', async () => {
   await fill('Limits of the colours', '');
 });
 
+it('is stopped as every command, and keeps its data', async () => {
+  const { page } = studio;
+  await button('Morph').click();
+  await page.locator('.busy button').click();
+  await page.locator('.notice', { hasText: 'Stopped: the document is as it was before.' }).waitFor();
+  await expect.poll(state, { timeout: 60_000 }).toBe('compared');
+  expect(await status().textContent()).toMatch(/^scan\.xyz: .* compared.* Aligned/);
+  expect((await commands(page)).some((c) => c.do === 'morph')).toBe(false);
+});
+
 it('follows, and slides between before and after', async () => {
   const { page } = studio;
   const before = await faces();

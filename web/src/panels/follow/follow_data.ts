@@ -65,6 +65,7 @@ export class FollowData {
   private most = 0; // the usual end of the colours
   private open = false;
   private session = -1;
+  private deaths = 0;
   private shapes = -1;
   private took = Infinity;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -132,7 +133,9 @@ export class FollowData {
       this.session = app.documents.sessions;
       this.stop();
       this.forget();
-      Object.assign(this, { files: [], scale: 1, limit: null, settings: { ...usual } });
+      // Where the engine has stopped, the session is the same one in another engine: the data stay.
+      if (this.deaths === app.client.deaths) Object.assign(this, { files: [], scale: 1, limit: null, settings: { ...usual } });
+      this.deaths = app.client.deaths;
       ++this.version;
     }
     this.draw(); // frames draw the faces where they are
