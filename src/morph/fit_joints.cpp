@@ -60,6 +60,24 @@ Vector2d in_parameters(const Surface& s, const Vector2d& across) {
   return {s.knots(0).domain().length() * across.x(), s.knots(1).domain().length() * across.y()};
 }
 
+/// Leaves out directions across at points where a side is far slower than along most of the joint,
+/// as beside a cusp: derivatives by length have no bound there.
+void forget_cusps(Joint& joint) {
+  constexpr double most = 1e4;  // of the median
+  for (std::size_t side = 0; side < 2; ++side) {
+    std::vector<double> steps;
+    for (const auto& feet : joint.points) {
+      if (!feet[side].across.isZero()) steps.push_back(feet[side].across.norm());
+    }
+    if (steps.empty()) continue;
+    const auto middle = steps.begin() + std::ssize(steps) / 2;
+    std::ranges::nth_element(steps, middle);
+    for (auto& feet : joint.points) {
+      if (feet[side].across.norm() > most * *middle) feet[side].across.setZero();
+    }
+  }
+}
+
 /// The joints of the first surface at an edge with each of the others; of a held one, of each with
 /// its place.
 std::vector<Joint> joints_of(const FitEdge& edge, const FitNets& nets) {
@@ -86,6 +104,7 @@ std::vector<Joint> joints_of(const FitEdge& edge, const FitNets& nets) {
       }
       joint.points.push_back(feet);
     }
+    forget_cusps(joint);
     result.push_back(std::move(joint));
   }
   return result;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "brep/check/bare_faces.hpp"
 #include "knead/brep/model.hpp"
 
 namespace knead::morph {
@@ -54,6 +55,18 @@ bool same_bases(const detail::NetAcross& net) {
   return true;
 }
 
+/// A surface that is a curve stays one, and one that is a point.
+void join_collapsed(const Surface& surface, int first, Joined& joined) {
+  const auto collapsed = brep::collapsed_directions(surface);
+  for (int d = 0; d < 2; ++d) {
+    const detail::NetAcross net(surface, d);
+    for (int row = 1; collapsed[static_cast<std::size_t>(d)] && row < net.rows(); ++row) {
+      for (int j = 0; j < net.columns(); ++j)
+        joined.join(first + net.index(0, j), first + net.index(row, j));
+    }
+  }
+}
+
 void join_ends(const Surface& surface, const VisibleRegion& region, int first, Joined& joined) {
   const auto closed = brep::closed_directions(surface);
   for (int d = 0; d < 2; ++d) {
@@ -78,7 +91,9 @@ void FitNets::number(std::span<const FitSurface> given) {
   for (const Surface& s : surfaces) first.push_back(first.back() + s.size());
   Joined joined(first.back());
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    if (!fixed[s]) join_ends(surfaces[s], given[s].region, first[s], joined);
+    if (fixed[s]) continue;
+    join_ends(surfaces[s], given[s].region, first[s], joined);
+    join_collapsed(surfaces[s], first[s], joined);
   }
   unknown.assign(static_cast<std::size_t>(first.back()), -1);
   unknowns = 0;

@@ -24,8 +24,9 @@ struct FitNets {
   }
 
   /// Makes `first`, `unknown` and `unknowns` for the surfaces as they are. Control points of a pole
-  /// have one unknown, and so have both ends of a closed surface whose weights there agree: poles
-  /// stay points, and closed surfaces closed, exactly.
+  /// have one unknown, and so have both ends of a closed surface whose weights there agree; those
+  /// of a surface that is a curve have one across it: poles stay points, closed surfaces closed and
+  /// curves curves, exactly.
   void number(std::span<const FitSurface> given);
 
   /// R at a point of a surface, or its derivative in a direction of its parameters (`along` 0 or

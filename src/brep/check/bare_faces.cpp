@@ -11,29 +11,49 @@ namespace knead::brep {
 namespace {
 
 constexpr double point_like = 1e-9;  // of the net's size: a side so small is a point
+constexpr double rounding = 1e-13;   // of the coordinates
+
+/// What is so near is at the same place.
+double same_place(const Points& net) {
+  return std::max(point_like * net_diagonal(net), rounding * net.cwiseAbs().maxCoeff());
+}
 
 /// Whether all control points are on a line: the surface has no area.
-bool is_line(const Points& points, double size) {
+bool is_line(const Points& points) {
   Eigen::Index far = 0;
   (points.rowwise() - points.row(0)).rowwise().squaredNorm().maxCoeff(&far);
   const Point along = (points.row(far) - points.row(0)).transpose().normalized();
   double off = 0;
   for (const auto& row : points.rowwise())
     off = std::max(off, along.cross(Point((row - points.row(0)).transpose())).norm());
-  return off <= point_like * size;
+  return off <= same_place(points);
+}
+
+/// Whether all rows across a direction are the same: the surface is a curve.
+bool is_collapsed(const Surface& surface, int direction) {
+  const auto [m, n] = surface.net();
+  const Points& p = surface.control_points();
+  const double near = same_place(p);
+  for (int i = 0; i < m; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const int first = direction == 0 ? j : i * n;
+      if (!((p.row(i * n + j) - p.row(first)).norm() <= near)) return false;
+    }
+  }
+  return true;
 }
 
 void add_face(FacedModel& faced, Index s) {
   Model& model = faced.model;
   const SplineSurface& surface = model.surfaces[s];
-  const double size = net_diagonal(surface.surface.control_points());
-  if (is_line(surface.surface.control_points(), size)) return;
+  const double near = same_place(surface.surface.control_points());
+  if (!has_area(surface.surface)) return;
   Bound bound{.kind = Bound::Kind::edges};
   // Counterclockwise: v at its start along u, u at its end along v, and back.
   for (const auto& [direction, end, forward] :
        {std::tuple(1, 0, true), {0, 1, true}, {1, 1, false}, {0, 0, false}}) {
     auto curve = boundary_curve(surface.surface, direction, end);
-    if (!curve || !(net_diagonal(curve->control_points()) > point_like * size)) continue;
+    if (!curve || !(net_diagonal(curve->control_points()) > near)) continue;
     auto geometry = std::make_shared<CurveGeometry>();
     geometry->form = std::make_shared<const Curve>(*std::move(curve));
     bound.edges.push_back({static_cast<Index>(model.edges.size()), forward});
@@ -56,6 +76,15 @@ void add_face(FacedModel& faced, Index s) {
 }
 
 }  // namespace
+
+std::array<bool, 2> collapsed_directions(const Surface& surface) {
+  return {is_collapsed(surface, 0), is_collapsed(surface, 1)};
+}
+
+bool has_area(const Surface& surface) {
+  const auto collapsed = collapsed_directions(surface);
+  return !collapsed[0] && !collapsed[1] && !is_line(surface.control_points());
+}
 
 std::optional<FacedModel> with_bare_faces(const Model& model) {
   std::vector<bool> faced(model.surfaces.size(), false);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -14,9 +15,17 @@ struct FacedModel {
   std::vector<std::optional<CheckedFace::Side>> sides;
 };
 
+/// In which directions all rows of control points are the same, to 1e-9 of the net's diagonal or
+/// rounding: the surface is a curve, in both a point.
+[[nodiscard]] std::array<bool, 2> collapsed_directions(const Surface& surface);
+
+/// Whether it is neither that nor has all control points on a line.
+[[nodiscard]] bool has_area(const Surface& surface);
+
 /// Faces that cover their surfaces whole for those on which the model has none: a face is called as
 /// its surface, "#55", its edges by their sides, "#55.u0", "#55.u1", "#55.v0", "#55.v1". A side
-/// that is a point has no edge. None where every surface has a face. Cost: a copy of the model.
+/// that is a point has no edge, a surface without area no face. None where every surface has a
+/// face. Cost: a copy of the model.
 [[nodiscard]] std::optional<FacedModel> with_bare_faces(const Model& model);
 
 }  // namespace knead::brep

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "base/parallel_for.hpp"
+#include "brep/check/bare_faces.hpp"
+#include "brep/check/meeting_courses.hpp"
 #include "brep/shared_edge.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/brep/face_conversion.hpp"
@@ -227,7 +229,23 @@ void add_edges(MovingModel& result) {
   }
 }
 
-/// Surfaces without faces, of the same part, stay together where they meet geometrically.
+// Faces and surfaces that meet without a common edge stay together where they do; beside one that
+// is no B-spline surface, the other one keeps its place.
+void add_meetings(MovingModel& result) {
+  for (brep::MeetingCourse& met : brep::meeting_courses(*result.model)) {
+    morph::FitEdge edge{.course = nullptr,
+                        .surfaces = {},
+                        .samples = std::move(met.samples),
+                        .name = std::move(met.id)};
+    for (const brep::Index surface : met.surfaces) {
+      if (surface != brep::none) edge.surfaces.push_back(static_cast<int>(surface));
+    }
+    edge.held = edge.surfaces.size() < met.surfaces.size();
+    result.edges.push_back(std::move(edge));
+  }
+}
+
+/// Surfaces without area go with what they meet, of the same part: no face can meet them.
 Expected<void> add_seams(MovingModel& result) {
   std::map<const brep::Part*, std::vector<int>> bare;
   const auto& assembly = result.model->assembly;
@@ -236,17 +254,27 @@ Expected<void> add_seams(MovingModel& result) {
     bare[assembly ? assembly->part_of(result.source->surfaces()[k].id) : nullptr].push_back(
         static_cast<int>(k));
   }
+  const auto surface = [&](int k) -> const Surface& {
+    return *result.surfaces[static_cast<std::size_t>(k)].surface;
+  };
   for (const auto& [part, numbers] : bare) {
-    if (numbers.size() < 2) continue;
+    std::vector<bool> area;
     std::vector<const Surface*> patches;
-    for (const int k : numbers)
-      patches.push_back(result.surfaces[static_cast<std::size_t>(k)].surface.get());
-    const auto seams = find_seams(patches, suggested_seam_tolerance(patches));
+    for (const int k : numbers) {
+      patches.push_back(&surface(k));
+      area.push_back(brep::has_area(surface(k)));
+    }
+    if (numbers.size() < 2 || std::ranges::find(area, false) == area.end()) continue;
+    auto seams = find_seams(patches, suggested_seam_tolerance(patches));
     if (!seams) return std::unexpected(seams.error());
+    std::erase_if(seams->seams, [&](const Seam& seam) {
+      return area[static_cast<std::size_t>(seam.a.patch)] &&
+             area[static_cast<std::size_t>(seam.b.patch)];
+    });
     auto edges = morph::edges_of_seams(patches, seams->seams);
     if (!edges) return std::unexpected(edges.error());
     for (morph::FitEdge& edge : *edges) {
-      for (int& surface : edge.surfaces) surface = numbers[static_cast<std::size_t>(surface)];
+      for (int& s : edge.surfaces) s = numbers[static_cast<std::size_t>(s)];
       result.edges.push_back(std::move(edge));
     }
   }
@@ -347,6 +375,7 @@ Expected<MovingModel> moving_model(const std::shared_ptr<const Source>& source,
   add_surfaces(*opened, *choice, settings.convert, result);
   add_regions(result);
   add_edges(result);
+  add_meetings(result);
   if (auto right = add_seams(result); !right) return std::unexpected(right.error());
   if (auto right = add_places(settings, result); !right) return std::unexpected(right.error());
   if (std::ranges::all_of(result.surfaces, &morph::FitSurface::fixed)) {
