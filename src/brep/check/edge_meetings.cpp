@@ -14,7 +14,7 @@
 namespace knead::brep {
 namespace {
 
-constexpr int least_steps = 32, bisections = 48;
+constexpr int least_steps = 32, bisections = 48, most_changes = 4;
 constexpr double chord_share = 1e-3;   // of the extent of a curve
 constexpr double beside = 0.9;         // |cos| of the angle between edges that run along each other
 constexpr double least_length = 1e-3;  // of the edge
@@ -62,7 +62,10 @@ class MeetingFinder {
     at.back() -= inwards;
     for (const double t : at) {
       const Partner here = partner(k, t, samples.empty() ? Partner{} : samples.back().second);
-      if (!samples.empty() && !here.is_same(samples.back().second)) {
+      // Between two partners there may be others, or none: the ends of those that meet in a point do
+      // not quite.
+      for (int n = 0; n < most_changes && !samples.empty(); ++n) {
+        if (here.is_same(samples.back().second)) break;
         const auto [last, next] = change(k, samples.back().first, t, samples.back().second);
         samples.emplace_back(last, partner(k, last, samples.back().second));
         samples.emplace_back(next, partner(k, next, here));

@@ -58,7 +58,9 @@ std::array<double, 3> place_of(const EdgeMeasures& edge) {
 std::string remedy_at(const MovingModel& model, const EdgeMeasures& edge) {
   std::set<std::string> moving;
   for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
-    if (!model.surfaces[k].fixed) moving.insert(model.faces[k].begin(), model.faces[k].end());
+    if (model.surfaces[k].fixed) continue;
+    moving.insert(model.faces[k].begin(), model.faces[k].end());
+    moving.insert(model.source->surfaces()[k].id);  // called so where no face is on it
   }
   for (const std::string& face : edge.faces) {
     if (!moving.contains(face))
