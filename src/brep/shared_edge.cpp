@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "boundary_curve.hpp"
 #include "brep/surfaces/surface_foot.hpp"
@@ -146,6 +147,10 @@ struct SharedEdge::Data {
         samples[k].feet.push_back(sided(path.feet[k], sides.back()));
     }
   }
+  [[nodiscard]] double distance(std::size_t k, const Point& p, const Vector2d& foot) const {
+    const auto point = evaluate_point<2>(shapes[k], parameters_at_foot(shapes[k], foot));
+    return point ? (*point - p).norm() : std::numeric_limits<double>::infinity();
+  }
   static Vector2d sided(Vector2d foot, const std::optional<ClosingSide>& side) {
     if (side) foot[side->direction] = side->end;
     return foot;
@@ -194,7 +199,11 @@ SharedEdge::Sample SharedEdge::at(double parameter) const {
   Sample result{parameter, d.piece.curve.at(parameter), {}};
   for (std::size_t k = 0; k < d.feet.size(); ++k) {
     const Vector2d hint = (1 - share) * a.feet[k] + share * after->feet[k];
-    result.feet.push_back(Data::sided(d.feet[k].beside(result.point, hint, d.near[k]), d.sides[k]));
+    const Vector2d found = Data::sided(d.feet[k].beside(result.point, hint, d.near[k]), d.sides[k]);
+    // Where a surface is folded or a side of it hardly moves, a descent may leave the foot for
+    // another that is as near but for rounding.
+    const bool left = d.distance(k, result.point, hint) < d.distance(k, result.point, found);
+    result.feet.push_back(left ? hint : found);
   }
   look_across(d.shapes, d.piece.curve.derivative(parameter), result);
   return result;

@@ -62,8 +62,8 @@ class MeetingFinder {
     at.back() -= inwards;
     for (const double t : at) {
       const Partner here = partner(k, t, samples.empty() ? Partner{} : samples.back().second);
-      // Between two partners there may be others, or none: the ends of those that meet in a point do
-      // not quite.
+      // Between two partners there may be others, or none: the ends of those that meet in a point
+      // do not quite.
       for (int n = 0; n < most_changes && !samples.empty(); ++n) {
         if (here.is_same(samples.back().second)) break;
         const auto [last, next] = change(k, samples.back().first, t, samples.back().second);

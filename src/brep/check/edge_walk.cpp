@@ -8,6 +8,7 @@ namespace knead::brep {
 namespace {
 
 constexpr int first_steps = 16, most_samples = 600, most_crossings = 200, most_halvings = 5;
+constexpr std::array end_shares = {1.0 / 1024, 1.0 / 256, 1.0 / 64};
 constexpr double settled = 5e-3;    // of a largest value, by which halving may still change it
 constexpr double beside = 1e-7;     // of the edge: limits at knots that it crosses
 constexpr double same_line = 1e-7;  // fractions: a foot that runs along a knot does not cross it
@@ -49,6 +50,11 @@ class Walker {
     std::vector<double> result;
     for (int k = 0; k <= first_steps; ++k)
       result.push_back(std::lerp(from, to, static_cast<double>(k) / first_steps));
+    // Where edges end, surfaces may have corners and poles, and gaps rise within a short way.
+    for (const double share : end_shares) {
+      result.push_back(std::lerp(from, to, share));
+      result.push_back(std::lerp(to, from, share));
+    }
     std::vector<double> ends = {from};
     if (const auto whole = piece_.curve.whole()) {
       if (const auto curve = piece_.curve.spline(*whole)) {

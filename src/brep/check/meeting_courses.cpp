@@ -110,7 +110,8 @@ class Courses {
       if (surface == none || !searches_[surface]) continue;
       result.surfaces[side] = surface;
       const Surface& s = shape(surface);
-      followed.push_back({s, *searches_[surface], line, on_surface * net_diagonal(s.control_points())});
+      followed.push_back(
+          {s, *searches_[surface], line, on_surface * net_diagonal(s.control_points())});
       const auto feet = followed.back().search.along(points, followed.back().within).feet;
       for (std::size_t k = 0; k < feet.size(); ++k)
         result.samples[k].feet.push_back(followed.back().on_side(feet[k]));
