@@ -24,6 +24,7 @@ constexpr double sampling_chord = 2e-3;  // of the edge in space, between sample
 constexpr int least_samples = 64;        // intervals
 constexpr double least_speed = 1e-5;     // of a derivative, as a share of the other one
 constexpr double least_sine = 1e-9;
+constexpr double least_distance = 1e-12;  // of the surface: nearer than by that is rounding
 constexpr double on_closing_line = 1e-4;  // fractions of the domain, as for edges along knot lines
 
 /// The B-spline surfaces of the faces at an edge. Errors: a face that cannot follow it.
@@ -75,6 +76,18 @@ Point normal_of(const Tangents& tangents) {
   if (!(std::min(u, v) > least_speed * std::max(u, v) && n.norm() > least_sine * u * v))
     return Point::Zero();
   return n.normalized();
+}
+
+/// The foot that was found, or that between its neighbours where it is nearer. A descent may leave
+/// a foot for another sheet of a folded surface that is almost as near.
+Vector2d nearer(const Surface& surface, const Point& p, const Vector2d& found,
+                const Vector2d& between) {
+  const auto distance = [&](const Vector2d& foot) {
+    const auto point = evaluate_point<2>(surface, parameters_at_foot(surface, foot));
+    return point ? (*point - p).norm() : std::numeric_limits<double>::infinity();
+  };
+  const double rest = least_distance * net_diagonal(surface.control_points());
+  return distance(between) + rest < distance(found) ? between : found;
 }
 
 /// The closed direction along whose closing line all feet lie.
@@ -132,7 +145,13 @@ struct SharedEdge::Data {
     std::vector<Point> points;
     for (const Sample& sample : samples) points.push_back(sample.point);
     const double within = on_surface * net_diagonal(s.surface.control_points());
-    const SurfaceFoot::Path path = search.along(points, within);
+    SurfaceFoot::Path path = search.along(points, within);
+    for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+      const double before = samples[k - 1].parameter, after = samples[k + 1].parameter;
+      const double share = (samples[k].parameter - before) / (after - before);
+      const Vector2d middle = (1 - share) * path.feet[k - 1] + share * path.feet[k + 1];
+      path.feet[k] = nearer(s.surface, points[k], path.feet[k], middle);
+    }
     gap = std::max(gap, path.distance);
     const auto closed = closed_across(path.feet, search.space());
     for (int end = 0; end < (closed ? 2 : 1); ++end) {
@@ -146,10 +165,6 @@ struct SharedEdge::Data {
       for (std::size_t k = 0; k < samples.size(); ++k)
         samples[k].feet.push_back(sided(path.feet[k], sides.back()));
     }
-  }
-  [[nodiscard]] double distance(std::size_t k, const Point& p, const Vector2d& foot) const {
-    const auto point = evaluate_point<2>(shapes[k], parameters_at_foot(shapes[k], foot));
-    return point ? (*point - p).norm() : std::numeric_limits<double>::infinity();
   }
   static Vector2d sided(Vector2d foot, const std::optional<ClosingSide>& side) {
     if (side) foot[side->direction] = side->end;
@@ -200,10 +215,7 @@ SharedEdge::Sample SharedEdge::at(double parameter) const {
   for (std::size_t k = 0; k < d.feet.size(); ++k) {
     const Vector2d hint = (1 - share) * a.feet[k] + share * after->feet[k];
     const Vector2d found = Data::sided(d.feet[k].beside(result.point, hint, d.near[k]), d.sides[k]);
-    // Where a surface is folded or a side of it hardly moves, a descent may leave the foot for
-    // another that is as near but for rounding.
-    const bool left = d.distance(k, result.point, hint) < d.distance(k, result.point, found);
-    result.feet.push_back(left ? hint : found);
+    result.feet.push_back(nearer(d.shapes[k], result.point, found, hint));
   }
   look_across(d.shapes, d.piece.curve.derivative(parameter), result);
   return result;
