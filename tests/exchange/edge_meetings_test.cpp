@@ -155,6 +155,45 @@ TEST(EdgeMeetings, PointsAndLinesAreNoFaces) {
   EXPECT_EQ(all.edges.size(), 6U) << "three sides of the fan, of which one meets the wall";
 }
 
+// The first wall ends, and the second begins, a little apart: between both the base has no partner
+// at the one point at which its partner changes.
+TEST(EdgeMeetings, EndsThatDoNotQuiteMeetLeaveNothingOpen) {
+  const auto all = measured(bare({patch({0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {4, 1, 0}),
+                                  wall(0, 1.53, 30), wall(1.53 + 2e-8, 4, 50)}));
+  EXPECT_NEAR(find(all, "#1.v1+#2.v0").length, 1.53, 1e-6);
+  EXPECT_NEAR(find(all, "#1.v1+#3.v0").length, 2.47, 1e-6);
+  for (const EdgeMeasures& edge : all.edges) EXPECT_NE(edge.id, "#1.v1");
+}
+
+/// A wall whose side has the height z(s) at x = 4 s³: one high and narrow bump where it begins, and
+/// one that is low and wide.
+TEST(EdgeMeetings, FindsTheLargestGapRightBesideAnEnd) {
+  constexpr int degree_of_side = 12;
+  const auto bernstein = [](int n, double s) {
+    double result = std::pow(1 - s, degree_of_side - n) * std::pow(s, n);
+    for (int k = 0; k < n; ++k) result *= double(degree_of_side - k) / (k + 1);
+    return result;
+  };
+  constexpr double height = 1e-4;
+  Points net(2 * (degree_of_side + 1), 3);
+  double largest = 0;
+  for (int k = 0; k <= degree_of_side; ++k) {
+    // s³ in the basis of degree 12.
+    const double x = 4.0 * k * (k - 1) * (k - 2) / (12 * 11 * 10);
+    const double z = k == 1 ? height : k == 6 ? 0.6 * height : 0;
+    net.row(2 * k) << x, 1, z;
+    net.row(2 * k + 1) << x, 2, z;
+  }
+  for (int k = 0; k <= 10000; ++k) {
+    const double s = k / 1e4;
+    largest = std::max(largest, height * (bernstein(1, s) + 0.6 * bernstein(6, s)));
+  }
+  const Surface side = *Surface::create(
+      {*KnotVector::clamped_uniform(degree_of_side, degree_of_side + 1), linear()}, net);
+  const auto all = measured(bare({patch({0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {4, 1, 0}), side}));
+  EXPECT_NEAR(find(all, "#1.v1+#2.v0").gap->value, largest, 0.01 * largest);
+}
+
 TEST(EdgeMeetings, PartsHaveCoordinatesOfTheirOwn) {
   Model model = bare({patch({0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {4, 1, 0}), wall(0, 4, 45)});
   EXPECT_EQ(count(measured(model), EdgeKind::sharp), 1U);

@@ -178,7 +178,7 @@ FaceFoot CheckedFace::spline_foot(const Point& p, const FaceFoot* near, const Po
   const CheckedSpline& spline = *spline_;
   FaceFoot result;
   if (side) {
-    result.at = along_side(p, *side);
+    result.at = along_side(p, *side, near);
   } else {
     // Beside a pole a descent may end in a minimum that is none of the whole surface: it is
     // believed where it is hardly farther away than the foot before.
@@ -206,10 +206,20 @@ FaceFoot CheckedFace::spline_foot(const Point& p, const FaceFoot* near, const Po
   return result;
 }
 
-/// The foot of p on one of the four sides of the domain, from that on the surface.
-Vector2d CheckedFace::along_side(const Point& p, const Side& side) const {
+// From the foot beside it, if that leads to one hardly farther away; else from that on the whole
+// surface, whose search is long where points of a sliver are all as near.
+Vector2d CheckedFace::along_side(const Point& p, const Side& side, const FaceFoot* near) const {
+  if (near != nullptr) {
+    const Vector2d at = slid_along(p, side, near->at);
+    const auto jet = jet_at(*spline_->surface, at);
+    const double enough = std::max(exact * spline_->size, believed * near->distance);
+    if (jet && (jet->point - p).norm() <= enough) return at;
+  }
+  return slid_along(p, side, spline_->feet.nearest(p, std::nullopt, 0).foot.parameters);
+}
+
+Vector2d CheckedFace::slid_along(const Point& p, const Side& side, Vector2d at) const {
   const int other = 1 - side.direction;
-  Vector2d at = spline_->feet.nearest(p, std::nullopt, 0).foot.parameters;
   at[side.direction] = side.end;
   for (int k = 0; k < 8; ++k) {
     const auto jet = jet_at(*spline_->surface, at);
@@ -232,11 +242,11 @@ std::optional<std::array<CheckedFace::Side, 2>> CheckedFace::seam_at(const Point
   for (int d = 0; d < 2; ++d) {
     std::array<Side, 2> both = {{{d, 0}, {d, 1}}};
     const bool meets = std::ranges::all_of(both, [&](const Side& side) {
-      const auto jet = jet_at(*spline_->surface, along_side(p, side));
+      const auto jet = jet_at(*spline_->surface, along_side(p, side, nullptr));
       return jet && (jet->point - p).norm() <= 3 * nearest + on_surface * spline_->size;
     });
     if (!meets) continue;
-    const auto jet = jet_at(*spline_->surface, along_side(p, both[0]));
+    const auto jet = jet_at(*spline_->surface, along_side(p, both[0], nullptr));
     if (jet && left_of(*jet, along)[d] < 0) std::swap(both[0], both[1]);
     return both;
   }

@@ -71,7 +71,13 @@ class CheckedFace {
   [[nodiscard]] FaceFoot spline_foot(const Point& p, const FaceFoot* near, const Point& along,
                                      const std::optional<Side>& side) const;
   [[nodiscard]] FaceFoot other_foot(const Point& p) const;
-  [[nodiscard]] Eigen::Vector2d along_side(const Point& p, const Side& side) const;
+  /// The foot of p on one of the four sides of the domain. `near`: that of a point beside it, or
+  /// null.
+  [[nodiscard]] Eigen::Vector2d along_side(const Point& p, const Side& side,
+                                           const FaceFoot* near) const;
+  /// By Newton's method from one of its points.
+  [[nodiscard]] Eigen::Vector2d slid_along(const Point& p, const Side& side,
+                                           Eigen::Vector2d at) const;
 
   std::shared_ptr<const CheckedSpline> spline_;  // of the file, or one that is the same
   std::shared_ptr<const FaceSurface> other_;     // null on a B-spline surface of the file
