@@ -163,10 +163,7 @@ TEST(Meetings, OfFacesWithoutACommonEdgeStayTogetherInAFile) {
   add_face(builder, faces, {0, 1, 0, 0.4});
   add_face(builder, faces, {0, 1, 0.4, 1});
   builder.entity("OPEN_SHELL('',(" + faces + "))");
-  const auto source =
-      open_source(knead::testing::step_text(knead::testing::unit_square_points() +
-                                            knead::testing::bilinear_patch() + builder.text()),
-                  "sheets.step");
+  const auto source = open_source(knead::testing::step_text(builder.text()), "sheets.step");
   ASSERT_TRUE(source) << source.error().message();
   const auto opened = brep::measure_edges(*(*source)->model());
   ASSERT_TRUE(opened);
