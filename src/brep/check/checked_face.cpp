@@ -16,6 +16,7 @@ using Eigen::Vector2d;
 constexpr double on_line = 1e-7;           // fractions: a foot so near a knot is on it
 constexpr double beside_line = 1e-9;       // fractions: where limits at a knot are taken
 constexpr double no_tangent_plane = 1e-9;  // |S_u × S_v| over |S_u|² + |S_v|²
+constexpr double least_speed = 1e-5;       // of the width of a surface: derivatives by fractions
 constexpr double exact = 1e-9;             // of the size: a foot so near is the foot
 constexpr double believed = 1.25;
 constexpr double beyond = 0.05;  // of its extent, by which a swept surface goes on past its face
@@ -85,7 +86,22 @@ Vector2d left_of(const Jet& jet, const Point& along) {
   return Vector2d(g * a - f * b, e * b - f * a) / det;
 }
 
-void bend(FaceFoot& foot, const Jet& jet) {
+/// How wide a surface is in each direction: the largest extent of a row of its net.
+std::array<double, 2> widths_of(const Surface& surface) {
+  const auto [m, n] = surface.net();
+  const Points& p = surface.control_points();
+  std::array<double, 2> result = {};
+  for (int j = 0; j < n; ++j)
+    result[0] = std::max(result[0], net_diagonal(p(Eigen::seqN(j, m, n), Eigen::all)));
+  for (int i = 0; i < m; ++i)
+    result[1] = std::max(result[1], net_diagonal(p(Eigen::seqN(i * n, n), Eigen::all)));
+  return result;
+}
+
+/// Beside poles and cusps, where a derivative is far smaller than the surface is wide, its
+/// direction is rounding.
+void bend(FaceFoot& foot, const Jet& jet, const std::array<double, 2>& widths) {
+  if (!(jet.u.norm() > least_speed * widths[0] && jet.v.norm() > least_speed * widths[1])) return;
   const Point normal = jet.u.cross(jet.v);
   if (!(normal.norm() > no_tangent_plane * (jet.u.squaredNorm() + jet.v.squaredNorm()))) return;
   foot.normal = normal.normalized();
@@ -128,7 +144,8 @@ Expected<std::shared_ptr<const CheckedSpline>> CheckedSpline::create(
     std::shared_ptr<const Surface> surface) {
   auto feet = SurfaceFoot::create(*surface);
   if (!feet) return std::unexpected(feet.error());
-  auto result = std::make_shared<CheckedSpline>(CheckedSpline{surface, *std::move(feet), 0, {}});
+  auto result = std::make_shared<CheckedSpline>(
+      CheckedSpline{surface, *std::move(feet), 0, {}, widths_of(*surface)});
   result->size = net_diagonal(surface->control_points());
   for (int d = 0; d < 2; ++d) {
     const KnotVector& knots = surface->knots(d);
@@ -202,7 +219,7 @@ FaceFoot CheckedFace::spline_foot(const Point& p, const FaceFoot* near, const Po
   result.distance = (p - jet->point).norm();
   const Vector2d seen = beside_lines(spline.lines, result.at, left_of(*jet, along));
   if (seen != result.at) jet = jet_at(*spline.surface, seen);
-  if (jet) bend(result, *jet);
+  if (jet) bend(result, *jet, spline.widths);
   return result;
 }
 

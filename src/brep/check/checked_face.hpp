@@ -22,6 +22,7 @@ struct CheckedSpline {
   SurfaceFoot feet;
   double size = 0;
   std::array<std::vector<Line>, 2> lines;  ///< ascending
+  std::array<double, 2> widths = {};       ///< in each direction
 
   [[nodiscard]] static Expected<std::shared_ptr<const CheckedSpline>> create(
       std::shared_ptr<const Surface> surface);
