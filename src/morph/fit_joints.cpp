@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/parallel_for.hpp"
@@ -185,6 +186,27 @@ Joint line_at(const Surface& s, int surface, int direction, double low, double h
   return result;
 }
 
+/// Whether the surface stands still at some points of a knot line, but not along all of it, as it
+/// comes to the line on one of its sides: no ratio of the derivatives on both sides is common then,
+/// and to ask for equal ones by length would leave the net hardly any displacements.
+bool stands_at_points(const Surface& s, int direction, double knot) {
+  constexpr double still = 1e-6;  // of the fastest
+  const detail::NetAcross net(s, direction);
+  const KnotVector& knots = s.knots(direction);
+  const int left = knots.find_span(knot, Side::left),
+            right = knots.find_span(knot, Side::right) - knots.degree();
+  for (const int row : {left - 1, right}) {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (int j = 0; j < net.columns(); ++j) {
+      const double step = (net.point(row + 1, j) - net.point(row, j)).norm();
+      least = std::min(least, step);
+      most = std::max(most, step);
+    }
+    if (least <= still * most) return true;
+  }
+  return false;
+}
+
 /// The length of the line in the polygon of its points, on the side that is first.
 Expected<double> line_length(const Surface& s, const Joint& joint) {
   Parameters<2> at(static_cast<Eigen::Index>(joint.points.size()), 2);
@@ -230,7 +252,8 @@ Expected<std::vector<Joint>> joints_of_lines(const FitNets& nets) {
       std::vector<std::array<double, 2>> lines;
       for (const int span : knots.spans()) {
         const double c = knots[span];
-        if (c > domain.lower && knots.multiplicity(c) >= knots.degree()) lines.push_back({c, c});
+        const bool line = c > domain.lower && knots.multiplicity(c) >= knots.degree();
+        if (line && !stands_at_points(s, d, c)) lines.push_back({c, c});
       }
       if (closed[static_cast<std::size_t>(d)]) lines.push_back({domain.upper, domain.lower});
       for (const auto& [low, high] : lines) {
