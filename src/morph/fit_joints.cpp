@@ -64,7 +64,7 @@ Vector2d in_parameters(const Surface& s, const Vector2d& across) {
 /// Leaves out directions across at points where a side is far slower than along most of the joint,
 /// as beside a cusp: derivatives by length have no bound there.
 void forget_cusps(Joint& joint) {
-  constexpr double most = 1e4;  // of the median
+  constexpr double most = 100;  // of the median
   for (std::size_t side = 0; side < 2; ++side) {
     std::vector<double> steps;
     for (const auto& feet : joint.points) {
@@ -186,18 +186,28 @@ Joint line_at(const Surface& s, int surface, int direction, double low, double h
   return result;
 }
 
-/// Whether the surface stands still at some points of a knot line, but not along all of it, as it
-/// comes to the line on one of its sides: no ratio of the derivatives on both sides is common then,
-/// and to ask for equal ones by length would leave the net hardly any displacements.
+/// Whether the surface stands still at some points of a knot line, poles aside, but not along all
+/// of it, as it comes to the line on one of its sides: no ratio of the derivatives on both sides is
+/// common then, and to ask for equal ones by length would leave the net hardly any displacements.
 bool stands_at_points(const Surface& s, int direction, double knot) {
   constexpr double still = 1e-6;  // of the fastest
   const detail::NetAcross net(s, direction);
   const KnotVector& knots = s.knots(direction);
   const int left = knots.find_span(knot, Side::left),
             right = knots.find_span(knot, Side::right) - knots.degree();
+  const auto longest_step = [&](int j) {
+    double length = 0;
+    for (int row = 0; row + 1 < net.rows(); ++row)
+      length = std::max(length, (net.point(row + 1, j) - net.point(row, j)).norm());
+    return length;
+  };
+  std::vector<double> lengths;
+  for (int j = 0; j < net.columns(); ++j) lengths.push_back(longest_step(j));
+  const double longest = *std::ranges::max_element(lengths);
   for (const int row : {left - 1, right}) {
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (int j = 0; j < net.columns(); ++j) {
+      if (lengths[static_cast<std::size_t>(j)] <= still * longest) continue;  // a pole
       const double step = (net.point(row + 1, j) - net.point(row, j)).norm();
       least = std::min(least, step);
       most = std::max(most, step);
