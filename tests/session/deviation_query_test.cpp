@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
+#include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
 #include "session/running.hpp"
 #include "support/made_files.hpp"
 
@@ -68,6 +71,19 @@ TEST(DeviationQuery, DistancesOfAScanAreAlongTheNormalAndTheOthersSayWhyTheyAreN
   EXPECT_NEAR(found.deviation.rms, std::sqrt((0.05 * 0.05 + 0.02 * 0.02) / 2), 1e-9);
   EXPECT_NEAR(found.deviation.largest, 0.05, 1e-9);
   EXPECT_EQ(*session.save(), before);
+}
+
+// Whatever the senses of its surfaces and faces: a map that blows a block up leads outward.
+TEST(DeviationQuery, DistancesArePositiveOutsideOfASolid) {
+  const auto source = open_source(testing::block_file(), "block.step");
+  ASSERT_TRUE(source) << source.error().message();
+  const Session session(Document::from(*source));
+  DeviationQuery query;
+  query.request.space = "0.01*(x-2); 0.01*(y-1); 0.01*(z-0.5)";
+  const DataDeviation found = answer(session, query);
+  ASSERT_GT(found.used, 0);
+  const auto distances = numbers(found.distances);
+  EXPECT_GT(std::ranges::min(distances), 0);
 }
 
 TEST(DeviationQuery, DisplacementsAreUnscaledInTheUnitOfTheModel) {

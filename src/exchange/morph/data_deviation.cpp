@@ -34,7 +34,8 @@ void describe(DataDeviation& d, Fields& fields) {
   fields.add(
       "wanted", d.wanted,
       {.help = "x, y, z of the displacements wanted there, unscaled; of a scan to the point"});
-  fields.add("distances", d.distances, {.help = "their parts along these normals: above 0 outside"});
+  fields.add("distances", d.distances,
+             {.help = "their parts along these normals: above 0 outside"});
   fields.add("states", d.states,
              {.help = "a byte of each point: 0 used, 1 farther than the reach, 2 beside the model, "
                       "3 facing another way"});
