@@ -64,7 +64,7 @@ Vector2d in_parameters(const Surface& s, const Vector2d& across) {
 /// Leaves out directions across at points where a side is far slower than along most of the joint,
 /// as beside a cusp: derivatives by length have no bound there.
 void forget_cusps(Joint& joint) {
-  constexpr double most = 100;  // of the median
+  constexpr double most = 1e4;  // of the median
   for (std::size_t side = 0; side < 2; ++side) {
     std::vector<double> steps;
     for (const auto& feet : joint.points) {
