@@ -325,7 +325,8 @@ TEST(SpaceMap, ABlockOfSpace) {
   EXPECT_EQ(map->at({2.1, 2, 4}).value(), Point(0, 0, 0)) << "outside of the block";
   // Around a model: with a margin of a half each side is as long as the diagonal and the box.
   const auto around = SpaceMap::parse(
-      R"(lattice:{"net":[2,2,2],"degree":[1,1,1],"margin":0.5,"moves":[{"which":[7],"by":[8,0,0]}]})",
+      R"(lattice:{"net":[2,2,2],"degree":[1,1,1],"margin":0.5,
+          "moves":[{"which":[7],"by":[8,0,0]}]})",
       {Point(0, 0, 0), Point(3, 4, 0)});
   ASSERT_TRUE(around) << around.error().message();
   EXPECT_NEAR(around->at({1.5, 2, 0}).value().x(), 1, 1e-14);
