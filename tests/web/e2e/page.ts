@@ -217,7 +217,7 @@ export const scene = (page: Page, name: string): Promise<void> => whenOpened(pag
 
 /** Opens a file. `choice`: of what the page asks about a script. */
 export const openFile = (page: Page, path: string, choice?: string): Promise<void> =>
-  whenOpened(page, () => page.locator('input[type=file]').setInputFiles(path), choice);
+  whenOpened(page, () => page.locator('input[aria-label="File to open"]').setInputFiles(path), choice);
 
 /** Numbers that come out of the page as the bytes of a Float64Array: thousands of them one by one take the browser long. */
 export const numbersOf = (bytes: Uint8Array): number[] => Array.from(new Float64Array(bytes.slice().buffer));

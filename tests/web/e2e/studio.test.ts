@@ -109,7 +109,7 @@ describe('the studio', () => {
     const { page } = studio;
     const before = await positions(page);
     const files: [string, string][] = [
-      ['broken.step', 'this is not STEP'], ['model.stl', 'solid x'], ['notes.knead', '{"knead": 7}'], ['old.knead', '{"knead": 2, "name": "old", "commands": []}'], ['empty.step', ''],
+      ['broken.step', 'this is not STEP'], ['model.dwg', 'AC1032'], ['notes.knead', '{"knead": 7}'], ['old.knead', '{"knead": 2, "name": "old", "commands": []}'], ['empty.step', ''],
       ['cut.step', readFileSync(join(root, 'samples/bonnet.step'), 'utf8').slice(0, 20_000)],
       ['wrong.knead', '{"knead": 2, "commands": [{"do": "melt"}]}'],
     ];
