@@ -13,7 +13,6 @@
 #include "knead/base/printable.hpp"
 #include "knead/brep/edge_measures.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/spline/evaluate.hpp"
 #include "morph_deviation.hpp"
 #include "morph_points.hpp"
 #include "moving_model.hpp"
@@ -23,7 +22,6 @@ namespace {
 
 using brep::EdgeKind;
 using brep::EdgeMeasures;
-using detail::deviation_of;
 using detail::MorphPoints;
 using detail::MovingModel;
 
