@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,7 +28,10 @@ struct MorphData {
   /// The displacement at every point: three formulas of x, y and z separated by ";"; or "lattice:"
   /// and a block of space of which control points are moved, as JSON (docs/morph.md).
   std::string space = {};
+  std::function<Expected<Point>(const Point&)> map = {};  ///< the same; null: `space` says it
   std::optional<MorphFile> scan = {};  ///< points or a mesh of where the visible faces should lie
+
+  [[nodiscard]] bool known_everywhere() const { return map || !space.empty(); }
 };
 
 /// How a model follows data. Lengths are in units of the model.

@@ -56,6 +56,7 @@ Expected<fields::SpaceMap> map_of(const MovingModel& model, const MorphData& dat
     box.extend(Point(net.colwise().minCoeff().transpose()));
     box.extend(Point(net.colwise().maxCoeff().transpose()));
   }
+  if (data.map) return fields::SpaceMap(data.map);
   auto map = fields::SpaceMap::parse(data.space, {box.min(), box.max()});
   if (!map) return std::unexpected(map.error().within("space"));
   return map;
@@ -273,7 +274,7 @@ Expected<morph::FitResult> follow_scan(const MovingModel& model, const MorphSett
 Expected<std::vector<morph::Datum>> points_between(const MovingModel& model, const MorphData& data,
                                                    const MorphSettings& settings) {
   std::vector<morph::Datum> result;
-  if (data.space.empty()) return result;
+  if (!data.known_everywhere()) return result;
   const auto map = map_of(model, data);
   if (!map) return std::unexpected(map.error());
   for (std::size_t k = 0; k < model.placed.size(); ++k) {
@@ -290,14 +291,14 @@ Expected<std::vector<morph::Datum>> points_between(const MovingModel& model, con
 Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
                                 const MorphSettings& settings) {
   const int kinds = (data.vectors ? 1 : 0) + (data.from && data.to ? 1 : 0) +
-                    (data.space.empty() ? 0 : 1) + (data.scan ? 1 : 0);
+                    (data.known_everywhere() ? 1 : 0) + (data.scan ? 1 : 0);
   if (kinds != 1 || data.from.has_value() != data.to.has_value())
     return input_error(
         "data are displacements, or a mesh before and after, or a scan, or a map of space", "data",
         "give one of them");
   if (settings.align && !data.scan)
     return input_error("only a scan can be aligned", "align", "leave it out");
-  if (settings.noise && !data.space.empty())
+  if (settings.noise && data.known_everywhere())
     return input_error("a map of space has no noise", "noise", "leave it out");
   const auto search = morph::VisibleSearch::create(model.placed, model.shown);
   if (!search) return std::unexpected(search.error());
@@ -318,7 +319,7 @@ Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
     result.first = *std::move(partners);
     return result;
   }
-  if (!data.space.empty()) {
+  if (data.known_everywhere()) {
     const auto map = map_of(model, data);
     if (!map) return std::unexpected(map.error());
     auto points = mapped_points(model, *map, settings);

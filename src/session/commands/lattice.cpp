@@ -4,8 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <span>
+#include <utility>
 
 #include "scene/lattice.hpp"
+#include "scene/trims.hpp"
+#include "session/acts/data_moving.hpp"
 #include "session/acts/limits.hpp"
 #include "session/acts/placing.hpp"
 #include "session/acts/refining.hpp"
@@ -67,11 +72,72 @@ Expected<Points> pressed(const Act& act, const LatticeCommand& c, const Lattice&
   return std::move(active.control_points);
 }
 
+/// Whether surfaces that are selected come together at an edge of their faces, and none of these
+/// edges is held in place or may open: then their points have to be moved alike, not their nets.
+Expected<bool> joined_at_edges(Act& act) {
+  std::map<std::string, int> sides;
+  for (const int k : act.state.selection()) {
+    const SceneSurface& s = std::as_const(act.state).surfaces[static_cast<std::size_t>(k)];
+    const auto region = act.regions.of(s.id);
+    if (!region) return std::unexpected(region.error());
+    const auto orders = trim_orders(s.constraints, *region);
+    for (std::size_t e = 0; e < orders.size(); ++e) {
+      const std::string& id = region->edges[e].id;
+      if (orders[e] >= 0 || may_open(s.constraints, id)) return false;
+      ++sides[id];
+    }
+  }
+  return std::ranges::any_of(sides, [](const auto& edge) { return edge.second > 1; });
+}
+
+/// Moves the points of the faces on the selected surfaces with the block, and their edges with
+/// them. \param before the shapes that the block was put round, in order of selection
+Expected<void> move_points(Act& act, const Lattice& lattice, const Points& after,
+                           std::span<const std::shared_ptr<const Surface>> before) {
+  MorphData data;
+  auto displacement = lattice.displacement(after);
+  if (!displacement) return std::unexpected(displacement.error());
+  data.map = *std::move(displacement);
+  MorphRequest request;
+  const auto selection = act.state.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
+    request.settings.faces.push_back(s.id);
+    auto shape = on_basis_of(*before[k], *s.current);
+    if (!shape) return std::unexpected(shape.error());
+    if (auto status = put<2>(s, std::make_shared<const Surface>(*std::move(shape))); !status)
+      return status;
+  }
+  if (act.state.permission == RefinePermission::never) request.settings.refinement = 1;
+  const auto report = move_after_data(act, std::move(data), std::move(request));
+  if (!report) return std::unexpected(report.error());
+  return {};
+}
+
+/// Moves the control points of the selected surfaces with the block. \param before as above
+Expected<void> move_nets(Act& act, const Lattice& lattice, const Points& after,
+                         std::span<const std::shared_ptr<const Surface>> before) {
+  const auto selection = act.state.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    const auto points = lattice.deformed(before[k]->control_points(), after);
+    if (!points) return std::unexpected(points.error());
+    auto moved = before[k]->with_control_points(*points);
+    if (!moved) return std::unexpected(moved.error());
+    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
+    auto current = std::make_shared<const Surface>(std::move(*moved));
+    if (auto status = put<2>(s, current); !status) return status;
+    s.rest = std::move(current);  // the block carries the energy, not they
+    s.velocity.resize(0, 3);
+  }
+  return {};
+}
+
 }  // namespace
 
 // Free-form deformation (Sederberg and Parry, SIGGRAPH 1986): control points of surfaces are moved
 // as points of the block, which deforms a surface as its net, not as its points. Finer nets come
-// closer to the latter.
+// closer to the latter. Points are moved where faces have common edges: on nets of their own these
+// would part.
 Expected<void> execute(const LatticeCommand& c, Act& act) {
   auto surface = selected(act);
   if (!surface) return std::unexpected(surface.error());
@@ -88,8 +154,10 @@ Expected<void> execute(const LatticeCommand& c, Act& act) {
     return input_error("the surfaces are not as a block of this kind has left them", "again",
                        "leave it out: a block is put round them as they are");
   }
+  const auto joined = joined_at_edges(act);
+  if (!joined) return std::unexpected(joined.error());
   // Two edges with the same knots are deformed alike.
-  if (on == nullptr && act.state.permission != RefinePermission::never) {
+  if (on == nullptr && !*joined && act.state.permission != RefinePermission::never) {
     if (auto united = refine_seams(act, false); !united) return united;
   }
   PulledLattice pulled{c.net, c.degree, c.margin, {}, act.state.selection(), {}, {}};
@@ -104,18 +172,11 @@ Expected<void> execute(const LatticeCommand& c, Act& act) {
       by_hand ? lattice->moved(on ? on->points : lattice->rest().control_points(), c.which, *c.by)
               : pressed(act, c, *lattice);
   if (!after) return std::unexpected(after.error());
-  for (std::size_t k = 0; k < pulled.surfaces.size(); ++k) {
-    const auto points = lattice->deformed(pulled.before[k]->control_points(), *after);
-    if (!points) return std::unexpected(points.error());
-    auto moved = pulled.before[k]->with_control_points(*points);
-    if (!moved) return std::unexpected(moved.error());
-    SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])];
-    auto current = std::make_shared<const Surface>(std::move(*moved));
-    if (auto status = put<2>(s, current); !status) return status;
-    s.rest = std::move(current);  // the block carries the energy, not they
-    s.velocity.resize(0, 3);
-    pulled.after.push_back(s.current);
-  }
+  const auto moved = *joined ? move_points(act, *lattice, *after, pulled.before)
+                             : move_nets(act, *lattice, *after, pulled.before);
+  if (!moved) return moved;
+  for (const int k : pulled.surfaces)
+    pulled.after.push_back(act.state.surfaces[static_cast<std::size_t>(k)].current);
   pulled.points = std::move(*after);
   act.state.lattice.reset();
   if (by_hand) act.state.lattice = std::move(pulled);

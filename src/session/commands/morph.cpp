@@ -6,12 +6,7 @@
 #include <utility>
 
 #include "exchange/fields/raw_numbers.hpp"
-#include "knead/exchange/file_io.hpp"
-#include "knead/spline/extremum.hpp"
-#include "session/acts/converting.hpp"
-#include "session/acts/placing.hpp"
-#include "session/acts/refining.hpp"
-#include "spline/onto_net.hpp"
+#include "session/acts/data_moving.hpp"
 
 namespace knead {
 
@@ -65,25 +60,6 @@ Expected<MorphData> data_of(const MorphCommand& c) {
   return data;
 }
 
-/// Puts a surface where it was fitted, on the net that this took: the new rest shape.
-Expected<void> follow(Act& act, SceneSurface& s, const std::shared_ptr<const Surface>& fitted) {
-  if (!same_basis(*s.current, *fitted)) {
-    const auto onto = [&](const Surface& shape) -> Expected<Surface> {
-      auto finer = onto_net(shape, *fitted);
-      if (!finer) return finer;
-      // With the same bits of knots and weights: shapes are compared by them.
-      const auto weights = fitted->weights();
-      return Surface::create(fitted->knots(), finer->control_points(),
-                             {weights.begin(), weights.end()});
-    };
-    if (auto changed = change_net(act, s, onto); !changed) return changed;
-  }
-  if (auto status = put<2>(s, fitted); !status) return status;
-  s.rest = s.current;
-  s.velocity.resize(0, 3);
-  return {};
-}
-
 std::string summary(const MorphReport& report) {
   const std::string unit = report.unit == "unknown" ? "" : " " + report.unit;
   return fmt::format(
@@ -95,48 +71,13 @@ std::string summary(const MorphReport& report) {
 
 }  // namespace
 
-// The surfaces of the file that `morph_file` writes become those of the scene, so that what is
-// saved next is that file. Everything at edges has been measured there, on the written file.
 Expected<void> execute(const MorphCommand& c, Act& act) {
   auto data = data_of(c);
   if (!data) return std::unexpected(data.error());
-  const auto source = saved_source(act.document, act.state);
-  if (!source) return std::unexpected(source.error());
-  MorphRequest request = c.request;
-  for (const SceneSurface& s : std::as_const(act.state).surfaces) {
-    if (s.locked) request.settings.keep.push_back(s.id);
-  }
-  const auto morphed = follow_data(*source, *std::move(data), request);
-  if (!morphed) return std::unexpected(morphed.error());
-  const auto file = open_source(morphed->bytes, (*source)->name());
-  if (!file) return std::unexpected(file.error());
-  if (!morphed->report.converted.empty()) {
-    if (auto made = convert_surfaces(act, morphed->report.converted, 0); !made) return made;
-  }
-  const bool fresh = act.document.is_fresh();  // then the file's ids are not those of the scene
-  const auto& fitted = (*file)->surfaces();
-  for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
-    const SceneSurface& present = std::as_const(act.state).surfaces[k];
-    const auto found = fresh ? fitted.begin() + static_cast<std::ptrdiff_t>(k)
-                             : std::ranges::find(fitted, present.id, &SourceSurface::id);
-    if (found == fitted.end() ||
-        (same_basis(*present.current, *found->surface) &&
-         present.current->control_points() == found->surface->control_points())) {
-      continue;
-    }
-    if (auto status = follow(act, act.state.surfaces[k], found->surface); !status) return status;
-  }
-  for (const std::string& id : morphed->edges) {
-    if (std::ranges::find(act.state.followed, id, &FollowedEdge::id) == act.state.followed.end())
-      act.state.followed.push_back({id, {}});
-  }
-  act.edges_measured = true;
-  const auto parted =
-      parted_edges(act.state.document ? *act.state.document : act.document, act.state);
-  if (!parted) return std::unexpected(parted.error());
-  if (auto none = check_parted(*parted); !none) return none;
-  act.state.notes.push_back(summary(morphed->report));
-  for (const MorphExcess& excess : morphed->report.above) {
+  const auto report = move_after_data(act, *std::move(data), c.request);
+  if (!report) return std::unexpected(report.error());
+  act.state.notes.push_back(summary(*report));
+  for (const MorphExcess& excess : report->above) {
     act.state.notes.push_back(fmt::format(
         "morph: {} {:.3g} of {}{} is above the {:.3g} that was wanted, at ({:.6g}, {:.6g}, {:.6g})",
         excess.measure, excess.found, excess.edge.empty() ? "" : excess.edge + " on ",

@@ -72,7 +72,7 @@ Expected<void> check_kinds(const MorphData& data) {
     return usage_error("a pair of meshes is \"from\" and \"to\"", data.from ? "to" : "from",
                        "give both");
   const int kinds = (data.vectors ? 1 : 0) + (data.from ? 1 : 0) + (data.scan ? 1 : 0) +
-                    (data.space.empty() ? 0 : 1);
+                    (data.known_everywhere() ? 1 : 0);
   if (kinds != 1)
     return usage_error(kinds == 0 ? "nothing says where the surfaces should go"
                                   : "several data say where the surfaces should go",

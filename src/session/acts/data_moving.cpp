@@ -1,0 +1,78 @@
+#include "data_moving.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "converting.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
+#include "placing.hpp"
+#include "refining.hpp"
+#include "spline/onto_net.hpp"
+
+namespace knead {
+
+Expected<Surface> on_basis_of(const Surface& shape, const Surface& like) {
+  auto finer = onto_net(shape, like);
+  if (!finer) return finer;
+  const auto weights = like.weights();
+  return Surface::create(like.knots(), finer->control_points(), {weights.begin(), weights.end()});
+}
+
+namespace {
+
+/// Puts a surface where it was fitted, on the net that this took: the new rest shape.
+Expected<void> follow(Act& act, SceneSurface& s, const std::shared_ptr<const Surface>& fitted) {
+  if (!same_basis(*s.current, *fitted)) {
+    const auto onto = [&](const Surface& shape) { return on_basis_of(shape, *fitted); };
+    if (auto changed = change_net(act, s, onto); !changed) return changed;
+  }
+  if (auto status = put<2>(s, fitted); !status) return status;
+  s.rest = s.current;
+  s.velocity.resize(0, 3);
+  return {};
+}
+
+}  // namespace
+
+Expected<MorphReport> move_after_data(Act& act, MorphData data, MorphRequest request) {
+  const auto source = saved_source(act.document, act.state);
+  if (!source) return std::unexpected(source.error());
+  for (const SceneSurface& s : std::as_const(act.state).surfaces) {
+    if (s.locked) request.settings.keep.push_back(s.id);
+  }
+  const auto morphed = follow_data(*source, std::move(data), request);
+  if (!morphed) return std::unexpected(morphed.error());
+  const auto file = open_source(morphed->bytes, (*source)->name());
+  if (!file) return std::unexpected(file.error());
+  if (!morphed->report.converted.empty()) {
+    if (auto made = convert_surfaces(act, morphed->report.converted, 0); !made)
+      return std::unexpected(made.error());
+  }
+  const bool fresh = act.document.is_fresh();  // then the file's ids are not those of the scene
+  const auto& fitted = (*file)->surfaces();
+  for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
+    const SceneSurface& present = std::as_const(act.state).surfaces[k];
+    const auto found = fresh ? fitted.begin() + static_cast<std::ptrdiff_t>(k)
+                             : std::ranges::find(fitted, present.id, &SourceSurface::id);
+    if (found == fitted.end() ||
+        (same_basis(*present.current, *found->surface) &&
+         present.current->control_points() == found->surface->control_points())) {
+      continue;
+    }
+    if (auto status = follow(act, act.state.surfaces[k], found->surface); !status)
+      return std::unexpected(status.error());
+  }
+  for (const std::string& id : morphed->edges) {
+    if (std::ranges::find(act.state.followed, id, &FollowedEdge::id) == act.state.followed.end())
+      act.state.followed.push_back({id, {}});
+  }
+  act.edges_measured = true;
+  const auto parted =
+      parted_edges(act.state.document ? *act.state.document : act.document, act.state);
+  if (!parted) return std::unexpected(parted.error());
+  if (auto none = check_parted(*parted); !none) return std::unexpected(none.error());
+  return morphed->report;
+}
+
+}  // namespace knead
