@@ -15,7 +15,7 @@ namespace knead::morph {
 namespace {
 
 constexpr int least_degree = 3;
-constexpr double default_tolerance = 1e-5, default_parting = 1e-6;  // of the size
+constexpr double default_tolerance = 1e-5, default_parting = 7e-7;  // of the size
 constexpr double affine_rest = 1e-13;  // of the size and the data: rounding of an affine map
 
 Expected<void> check(std::span<const FitSurface> surfaces, std::span<const FitEdge> edges,

@@ -25,6 +25,7 @@ struct FitProblem {
   /// By what factor each joint's positions and angles were too large when they last asked for finer
   /// nets; 0: finer nets did not help.
   std::vector<std::array<double, 2>> asked = {};
+  std::vector<std::array<double, 2>> pressed = {};  ///< likewise when they last got more weight
   std::vector<double> excess = {};  ///< of data with noise, of each surface, likewise
 
   [[nodiscard]] bool satisfied(const FitState& state) const {

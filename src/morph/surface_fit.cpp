@@ -26,6 +26,7 @@ constexpr double light_joint = 3;
 constexpr double again = 16;  // times the λ of the nets before
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double helped = 0.8;    // refinement that leaves more has not
+constexpr double eased = 0.9;     // more weight that leaves more has not helped
 constexpr double stalled = 0.97;  // a solve that leaves more than this is the last one
 
 /// The joints of the nets as they are.
@@ -87,6 +88,7 @@ Expected<Fit> fit_once(FitProblem& problem) {
   if (!joints) return std::unexpected(joints.error());
   problem.shares.resize(joints->size(), {1, 1});
   problem.asked.resize(joints->size(), {never, never});
+  problem.pressed.resize(joints->size(), {never, never});
   for (std::size_t j = 0; j < joints->size(); ++j) {
     (*joints)[j].position_share = problem.shares[j][0];
     (*joints)[j].slope_share = problem.shares[j][1];
@@ -182,9 +184,14 @@ bool reweigh(FitProblem& problem, const Fit& fit, bool last, bool joints_only) {
     if (!settled && !problem.nets.stays(sides[0]) && !problem.nets.stays(sides[1])) continue;
     const double angle = fit.angles[j].degrees / problem.settings.angle;
     const double most = last ? most_share_late : most_share;
-    raise(problem.shares[j][0],
-          std::max(angle, fit.system.parting(j, fit.state.x).distance / problem.parting), most);
-    raise(problem.shares[j][1], angle, most);
+    const double parting = fit.system.parting(j, fit.state.x).distance / problem.parting;
+    const std::array<double, 2> excess = {std::max(angle, parting), angle};
+    for (std::size_t measure = 0; measure < 2; ++measure) {
+      double& pressed = problem.pressed[j][measure];
+      if (excess[measure] > eased * pressed) continue;  // that would cost residuals in vain
+      if (excess[measure] > 1) pressed = excess[measure];
+      raise(problem.shares[j][measure], excess[measure], most);
+    }
   }
   return result;
 }
