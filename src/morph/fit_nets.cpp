@@ -107,6 +107,26 @@ void FitNets::number(std::span<const FitSurface> given) {
   }
 }
 
+Expected<void> FitNets::hold(std::span<const FitSurface> given) {
+  kept = ConstraintList(unknowns);
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    if (fixed[s] || !given[s].holds) continue;
+    auto own = given[s].holds->conditions(surfaces[s]);
+    if (!own) return std::unexpected(own.error());
+    const auto of = [&](int k) { return unknown[static_cast<std::size_t>(first[s] + k)]; };
+    for (int k = 0; k < surfaces[s].size(); ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (own->held[at]) kept.hold(of(k), own->held_by[at]);
+    }
+    for (LinearConstraint& condition : own->constraints) {
+      for (auto& [k, c] : condition.terms) k = of(k);
+      condition.value.setZero();
+      kept.constraints.push_back(std::move(condition));
+    }
+  }
+  return {};
+}
+
 Expected<void> FitNets::add_row(int surface, const std::array<double, 2>& at, Side side, int along,
                                 double factor, Terms& to) const {
   if (stays(surface) || factor == 0) return {};

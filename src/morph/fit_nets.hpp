@@ -17,6 +17,7 @@ struct FitNets {
   std::vector<int> first;    ///< number of the first control point of each surface, and the end
   std::vector<int> unknown;  ///< of each control point; −1: it is fixed
   int unknowns = 0;
+  ConstraintList kept{0};  ///< what surfaces keep, on the unknowns
 
   /// Whether a side of a joint stays: −1, or a fixed surface.
   [[nodiscard]] bool stays(int surface) const {
@@ -28,6 +29,9 @@ struct FitNets {
   /// of a surface that is a curve have one across it: poles stay points, closed surfaces closed and
   /// curves curves, exactly.
   void number(std::span<const FitSurface> given);
+  /// Makes `kept` for the unknowns as they are numbered. Errors: those of
+  /// `SurfaceHolds::conditions`.
+  [[nodiscard]] Expected<void> hold(std::span<const FitSurface> given);
 
   /// R at a point of a surface, or its derivative in a direction of its parameters (`along` 0 or
   /// 1), times `factor`, as terms of unknowns; those of fixed control points are left out. At a

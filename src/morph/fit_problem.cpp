@@ -138,11 +138,11 @@ Expected<void> place_data(std::span<const Datum> data, FitProblem& problem) {
   return {};
 }
 
-/// Takes the affine part from the data. With fixed surfaces or held edges there is none: it would
-/// move them.
+/// Takes the affine part from the data. Where something is fixed, held or kept there is none: it
+/// would move that.
 Expected<void> take_affine_part(FitProblem& problem) {
   if (!problem.settings.affine || std::ranges::any_of(problem.given, &FitSurface::fixed) ||
-      std::ranges::any_of(problem.edges, &FitEdge::held))
+      keeps_something(problem))
     return {};
   const auto n = static_cast<Eigen::Index>(problem.points.size());
   Points places(n, 3), displacements(n, 3);

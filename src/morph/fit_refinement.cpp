@@ -9,6 +9,7 @@
 namespace knead::morph {
 namespace {
 constexpr double least_span = 1e-3;  // of the domain
+constexpr double same_knot = 1e-9;   // likewise
 constexpr int most_parts = 4;
 constexpr double second_part = 0.8;  // of what is wanted, of the direction with the lesser part
 constexpr std::size_t least_points =
@@ -131,6 +132,33 @@ NewKnots knots_for(const Surface& s, const SurfaceRefinement& surface, int most)
   return size_with(s, all) <= most ? all : knots_in(s, asked, 2, most);
 }
 
+/// What is asked of spans is asked of their mirror images too.
+void mirror(const KnotVector& knots, std::map<int, SpanRefinement>& asked) {
+  const auto before = asked;
+  for (const auto& [span, refinement] : before) {
+    SpanRefinement& image = asked[knots.count() + knots.degree() - 1 - span];
+    image.parts = std::max(image.parts, refinement.parts);
+    image.urgency = std::max(image.urgency, refinement.urgency);
+  }
+}
+
+/// Takes away knots without a mirror image, and makes the others symmetric to the last bit.
+void make_symmetric(const Interval& domain, std::vector<double>& inserted) {
+  const std::vector<double> before = inserted;
+  const double sum = domain.lower + domain.upper;
+  std::vector<double> result;
+  for (const double u : before) {
+    const bool paired = std::ranges::any_of(before, [&](double other) {
+      return std::abs(other - (sum - u)) <= same_knot * domain.length();
+    });
+    if (!paired || u > sum / 2 + same_knot * domain.length()) continue;
+    result.push_back(u);
+    if (u < sum / 2 - same_knot * domain.length()) result.push_back(sum - u);
+  }
+  std::ranges::sort(result);
+  inserted = std::move(result);
+}
+
 }  // namespace
 
 void sort_by_cells(const FitNets& nets, std::vector<FitPoint>& points) {
@@ -198,7 +226,8 @@ void plan_for_joint(const FitNets& nets, const Joint& joint, std::size_t point, 
   }
 }
 
-Expected<int> refine(const RefinementPlan& plan, int most, FitNets& nets) {
+Expected<int> refine(RefinementPlan plan, int most, std::span<const FitSurface> given,
+                     FitNets& nets) {
   std::vector<std::size_t> order(plan.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return plan[k].urgency; });
@@ -206,7 +235,14 @@ Expected<int> refine(const RefinementPlan& plan, int most, FitNets& nets) {
   for (const Surface& s : nets.surfaces) total += s.size();
   for (const std::size_t k : order) {
     const Surface& s = nets.surfaces[k];
-    const NewKnots inserted = knots_for(s, plan[k], most - total + s.size());
+    const auto mirrored = given[k].holds ? given[k].holds->mirrored : std::array{false, false};
+    for (std::size_t d = 0; d < 2; ++d) {
+      if (mirrored[d]) mirror(s.knots(static_cast<int>(d)), plan[k].spans[d]);
+    }
+    NewKnots inserted = knots_for(s, plan[k], most - total + s.size());
+    for (std::size_t d = 0; d < 2; ++d) {
+      if (mirrored[d]) make_symmetric(s.knots(static_cast<int>(d)).domain(), inserted[d]);
+    }
     const int finer = size_with(s, inserted);
     if (finer == s.size()) continue;
     auto made = insert_knots<2>(s, inserted);

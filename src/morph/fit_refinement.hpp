@@ -47,7 +47,9 @@ void plan_for_joint(const FitNets& nets, const Joint& joint, std::size_t point, 
 /// Inserts the knots, the most urgent surfaces first, as long as all nets together have no more
 /// control points than `most`. Of a surface for which that is not enough spans are halved at most,
 /// the most urgent ones as far as it goes. Returns how many surfaces have got knots. Spans below a
-/// thousandth of the domain are not divided. Errors: those of `insert_knots`.
-[[nodiscard]] Expected<int> refine(const RefinementPlan& plan, int most, FitNets& nets);
+/// thousandth of the domain are not divided. Knots of a mirrored direction stay symmetric. Errors:
+/// those of `insert_knots`.
+[[nodiscard]] Expected<int> refine(RefinementPlan plan, int most, std::span<const FitSurface> given,
+                                   FitNets& nets);
 
 }  // namespace knead::morph

@@ -11,7 +11,6 @@
 #include "base/parallel_for.hpp"
 #include "knead/hold/constraints.hpp"
 #include "normal_equations.hpp"
-#include "solve/dissection.hpp"
 
 namespace knead::morph {
 namespace {
@@ -36,10 +35,6 @@ constexpr double pole_tolerance = 1e-9, flat_ring = 1e-6, pole_length = 0.1;
 // What is not known of a datum is guessed as zero, or what the displacement was before, with this
 // share of its weight: where nothing else is known points do not slide.
 constexpr double guessed = 1e-3;
-constexpr std::array<std::array<int, 2>, 6> components = {
-    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
-constexpr std::array<std::array<std::size_t, 3>, 3> block_of = {{{0, 3, 4}, {3, 1, 5}, {4, 5, 2}}};
-
 constexpr double row_work = 500;  // multiplications for a row of a bicubic net, allocations too
 
 /// The least index at which several threads have failed, whatever their order.
@@ -118,8 +113,6 @@ Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPo
     for (const Terms& row : rows) fit.add(row, slope_weight * share * size * size, Point::Zero());
   }
   result.right_ = fit.right();
-  result.m_ = fit.matrix();
-  result.make_across(nets.unknowns);
   NormalEquations energies(nets.unknowns);
   for (std::size_t s = 0; s < nets.surfaces.size(); ++s) {
     if (nets.fixed[s]) continue;
@@ -131,8 +124,10 @@ Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPo
         std::span(nets.unknown).subspan(from, static_cast<std::size_t>(nets.surfaces[s].size())),
         units[s].share);
   }
-  result.k_ = energies.matrix();
-  result.find_order();
+  auto matrix =
+      FitMatrix::create(fit.matrix(), energies.matrix(), result.across(nets.unknowns), nets.kept);
+  if (!matrix) return std::unexpected(matrix.error());
+  result.matrix_ = *std::move(matrix);
   return result;
 }
 
@@ -158,12 +153,13 @@ Expected<void> FitSystem::make_data(const FitNets& nets, std::span<const FitPoin
   return failure.any() ? row_of(failure.index(), again) : Expected<void>();
 }
 
-void FitSystem::make_across(int unknowns) {
-  if (std::ranges::all_of(along_, [](const Point& n) { return n.isZero(0); })) return;
-  across_.resize(components.size());
-  detail::parallel_for(std::ssize(across_), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+std::vector<SparseMatrix> FitSystem::across(int unknowns) const {
+  std::vector<SparseMatrix> result;
+  if (std::ranges::all_of(along_, [](const Point& n) { return n.isZero(0); })) return result;
+  result.resize(coordinate_blocks.size());
+  detail::parallel_for(std::ssize(result), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c) {
-      const auto [i, j] = components[c];
+      const auto [i, j] = coordinate_blocks[c];
       NormalEquations block(unknowns);
       for (std::size_t k = 0; k < data_.size(); ++k) {
         const Point& n = along_[k];
@@ -171,70 +167,9 @@ void FitSystem::make_across(int unknowns) {
         const double share = (i == j ? 1.0 : 0.0) - n[i] * n[j];
         block.add(data_[k], (1 - guessed) * weights_[k] * share, Point::Zero());
       }
-      across_[c] = block.matrix();
+      result[c] = block.matrix();
     }
   });
-}
-
-// For all λ at once. Coordinates of a control point stay together where they are coupled: the
-// order of the control points is as good for them, and found in a ninth of the entries.
-void FitSystem::find_order() {
-  const Eigen::VectorXi order = minimum_degree(m_ + k_).order;
-  if (across_.empty()) {
-    order_ = order;
-    return;
-  }
-  order_.resize(3 * order.size());
-  for (Eigen::Index k = 0; k < order.size(); ++k) {
-    for (int c = 0; c < 3; ++c) order_[3 * k + c] = 3 * order[k] + c;
-  }
-}
-
-Points FitSystem::times_m(const Points& x) const {
-  Points result = symmetric_product(m_, x);
-  for (std::size_t c = 0; c < across_.size(); ++c) {
-    const auto [i, j] = components[c];
-    result.col(i) -= across_[c] * x.col(j);
-    if (i != j) result.col(j) -= across_[c] * x.col(i);
-  }
-  return result;
-}
-
-// Unknowns of one control point follow each other: x, y, z.
-SparseMatrix FitSystem::coupled(const SparseMatrix& a) const {
-  SparseMatrix result(3 * a.rows(), 3 * a.cols());
-  result.reserve(9 * a.nonZeros());
-  for (int k = 0; k < a.outerSize(); ++k) {
-    for (int c = 0; c < 3; ++c) {
-      result.startVec(3 * k + c);
-      std::array<SparseMatrix::InnerIterator, 3> less = {
-          SparseMatrix::InnerIterator(across_[block_of[c][0]], k),
-          SparseMatrix::InnerIterator(across_[block_of[c][1]], k),
-          SparseMatrix::InnerIterator(across_[block_of[c][2]], k)};
-      for (SparseMatrix::InnerIterator at(a, k); at; ++at) {
-        for (int d = 0; d < 3; ++d) {
-          auto& block = less[static_cast<std::size_t>(d)];
-          double value = c == d ? at.value() : 0;
-          if (block && block.row() == at.row()) {
-            value -= block.value();
-            ++block;
-          }
-          if (value != 0 || c == d) result.insertBack(3 * at.row() + d, 3 * k + c) = value;
-        }
-      }
-    }
-  }
-  result.finalize();
-  return result;
-}
-
-Points FitSystem::solved(const SparseCholesky& factor, const Points& b) const {
-  if (across_.empty()) return factor.solve(b);
-  Eigen::VectorXd right(3 * b.rows());
-  for (Eigen::Index k = 0; k < b.rows(); ++k) right.segment<3>(3 * k) = b.row(k).transpose();
-  const Eigen::VectorXd x = factor.solve(right);
-  Points result(b.rows(), 3);
-  for (Eigen::Index k = 0; k < b.rows(); ++k) result.row(k) = x.segment<3>(3 * k).transpose();
   return result;
 }
 
@@ -344,42 +279,22 @@ double FitSystem::freedom(const SparseCholesky& factor) const {
     for (const auto& [unknown, value] : data_[k])
       right.row(unknown) += weights_[k] * value * probes.row(row);
   }
-  const Points x = solved(factor, right);
+  const Points x = matrix_.solved(factor, right);
   double result = 0;
   for (std::size_t k = 0; k < data_.size(); ++k)
     result += value_of(data_[k], x).dot(probes.row(static_cast<Eigen::Index>(k)).transpose());
   return result / 3;
 }
 
-// The diagonal is raised by a share that rounding takes anyway: with spans of very unequal lengths
-// M + λK is positive definite only up to it, and with slopes beside poles up to more. What is added
-// is part of the regularisation, whose influence the repeated solves remove, since the right side
-// has the exact M.
-Expected<SparseCholesky> FitSystem::factor(double lambda) const {
-  constexpr double least_raise = 1e-13, most_raise_of_diagonal = 1e-6;
-  for (double raise = least_raise;; raise *= 100) {
-    SparseMatrix a = m_ + lambda * k_;
-    if (!across_.empty()) a = coupled(a);
-    for (int k = 0; k < a.cols(); ++k) a.coeffRef(k, k) *= 1 + raise;
-    SparseMatrix lower(a.rows(), a.cols());
-    lower.selfadjointView<Eigen::Lower>() = a.selfadjointView<Eigen::Lower>().twistedBy(
-        Eigen::PermutationMatrix<Eigen::Dynamic>(order_));
-    SparseMatrix().swap(a);
-    auto result = SparseCholesky::factor_in_order(lower, {order_, {}});
-    if (Interruption::asked_for()) return interrupted_error();  // what it made means nothing
-    if (result || raise > most_raise_of_diagonal) return result;
-  }
-}
-
 Expected<FitState> FitSystem::solve(double lambda,
                                     const std::function<bool(const FitState&)>& enough,
                                     bool with_freedom) const {
-  const auto factor = this->factor(lambda);
+  const auto factor = matrix_.factor(lambda);
   if (!factor) return std::unexpected(factor.error());
   FitState state{.x = Points::Zero(right_.rows(), 3)};
   do {
     if (Interruption::asked_for()) return interrupted_error();
-    state.x += solved(*factor, right_ - times_m(state.x));
+    state.x += matrix_.solved(*factor, right_ - matrix_.times_m(state.x));
     ++state.rounds;
     measure(state);
   } while (!enough(state));

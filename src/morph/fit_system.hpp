@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "fit_joints.hpp"
+#include "fit_matrix.hpp"
 #include "knead/energy/domain_scaling.hpp"
-#include "knead/solve/sparse_cholesky.hpp"
 
 namespace knead::morph {
 
@@ -71,18 +71,11 @@ class FitSystem {
  private:
   FitSystem() = default;
   Expected<void> make_data(const FitNets& nets, std::span<const FitPoint> points);
-  void make_across(int unknowns);
-  void find_order();
+  /// What M has too much where data are known along a direction n alone, (1 − τ) Σ w r rᵀ (I − n
+  /// nᵀ)_cd for the blocks (c, d) of coordinates; empty: all are known.
+  [[nodiscard]] std::vector<SparseMatrix> across(int unknowns) const;
   Expected<void> make_poles(const FitNets& nets);
   Expected<void> make_joints(const FitNets& nets, std::span<const Joint> joints);
-  [[nodiscard]] Expected<SparseCholesky> factor(double lambda) const;
-  /// M X, with the blocks of data that are known along a direction alone.
-  [[nodiscard]] Points times_m(const Points& x) const;
-  /// M + λK with the coordinates coupled by data that are known along a direction alone. \param a
-  /// without them
-  [[nodiscard]] SparseMatrix coupled(const SparseMatrix& a) const;
-  /// (M + λK)⁻¹ B by its factor.
-  [[nodiscard]] Points solved(const SparseCholesky& factor, const Points& b) const;
   void measure(FitState& state) const;
   [[nodiscard]] double freedom(const SparseCholesky& factor) const;
 
@@ -91,11 +84,7 @@ class FitSystem {
   std::vector<double> weights_;
   std::vector<std::vector<Terms>> apart_, slopes_;  ///< by joint and point
   std::vector<std::vector<Terms>> poles_;           ///< by surface
-  SparseMatrix m_, k_;
-  /// What M has too much where data are known along a direction n alone, (1 − τ) Σ w r rᵀ (I − n
-  /// nᵀ)_cd for (c, d) = (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2); empty: all are known.
-  std::vector<SparseMatrix> across_;
-  Eigen::VectorXi order_;  ///< of elimination
+  FitMatrix matrix_;
   Points right_;
 };
 

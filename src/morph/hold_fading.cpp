@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "base/parallel_for.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -27,26 +28,136 @@ struct Hold {
   double length = 0, largest = 0;  ///< of `jumps`
 };
 
+/// The polygon through the places of these parameters.
+Expected<Hold> hold_through(const Surface& s, const std::vector<std::array<double, 2>>& corners) {
+  Parameters<2> at(std::ssize(corners), 2);
+  for (Eigen::Index k = 0; k < at.rows(); ++k) {
+    const auto& corner = corners[static_cast<std::size_t>(k)];
+    at.row(k) << corner[0], corner[1];
+  }
+  const auto places = evaluate<2>(s, at);
+  if (!places) return std::unexpected(places.error());
+  Hold result;
+  for (Eigen::Index k = 0; k < at.rows(); ++k) {
+    result.points.emplace_back(places->points().row(k).transpose());
+    result.box.extend(result.points.back());
+    const auto j = static_cast<std::size_t>(k);
+    if (j > 0) result.length += (result.points[j] - result.points[j - 1]).norm();
+  }
+  result.jumps.assign(result.points.size(), 0);
+  return result;
+}
+
 Expected<Hold> hold_of(const FitEdge& edge, const FitProblem& problem) {
   const auto& samples = edge.course ? edge.course->samples() : edge.samples;
   std::size_t k = 0;
   while (!edge.held && problem.nets.fixed[static_cast<std::size_t>(edge.surfaces[k])]) ++k;
   const Surface& s = problem.nets.surfaces[static_cast<std::size_t>(edge.surfaces[k])];
   const std::size_t count = std::min(samples.size() - 1, most_segments);
-  Parameters<2> at(static_cast<Eigen::Index>(count + 1), 2);
-  for (std::size_t j = 0; j <= count; ++j) {
-    const auto u = parameters_at_foot(s, samples[j * (samples.size() - 1) / count].feet[k]);
-    at.row(static_cast<Eigen::Index>(j)) << u[0], u[1];
+  std::vector<std::array<double, 2>> corners;
+  for (std::size_t j = 0; j <= count; ++j)
+    corners.push_back(parameters_at_foot(s, samples[j * (samples.size() - 1) / count].feet[k]));
+  return hold_through(s, corners);
+}
+
+/// The cells of knots of a surface in which nothing moves: all control points that count there are
+/// held.
+class HeldCells {
+ public:
+  HeldCells(const Surface& s, const std::vector<bool>& held) : surface_(s) {
+    for (std::size_t d = 0; d < 2; ++d) spans_[d] = s.knots(static_cast<int>(d)).spans();
+    const int n = s.net()[1];
+    const auto holds = [&](int a, int b) {
+      for (int i = a - s.knots(0).degree(); i <= a; ++i) {
+        for (int j = b - s.knots(1).degree(); j <= b; ++j) {
+          if (!held[static_cast<std::size_t>(i * n + j)]) return false;
+        }
+      }
+      return true;
+    };
+    for (const int a : spans_[0]) {
+      for (const int b : spans_[1]) {
+        if (holds(a, b)) cells_.insert({a, b});
+      }
+    }
   }
-  const auto places = evaluate<2>(s, at);
-  if (!places) return std::unexpected(places.error());
-  Hold result;
-  for (std::size_t j = 0; j <= count; ++j) {
-    result.points.emplace_back(places->points().row(static_cast<Eigen::Index>(j)).transpose());
-    result.box.extend(result.points.back());
-    if (j > 0) result.length += (result.points[j] - result.points[j - 1]).norm();
+
+  [[nodiscard]] bool contain(const std::array<double, 2>& at) const {
+    return !cells_.empty() && cells_.contains({surface_.knots(0).find_span(at[0]),
+                                               surface_.knots(1).find_span(at[1])});
   }
-  result.jumps.assign(count + 1, 0);
+
+  /// The sides of cells beyond which there is none, each as a polygon of parameters.
+  [[nodiscard]] std::vector<std::vector<std::array<double, 2>>> outline() const {
+    std::vector<std::vector<std::array<double, 2>>> result;
+    for (const auto& cell : cells_) {
+      for (std::size_t d = 0; d < 2; ++d) {
+        for (const int step : {-1, 1}) {
+          if (!cells_.contains(beside(cell, d, step))) result.push_back(side(cell, d, step));
+        }
+      }
+    }
+    return result;
+  }
+
+ private:
+  using Cell = std::array<int, 2>;
+
+  [[nodiscard]] Cell beside(Cell cell, std::size_t d, int step) const {
+    const auto at = std::ranges::find(spans_[d], cell[d]) - spans_[d].begin() + step;
+    cell[d] = at < 0 || at >= std::ssize(spans_[d]) ? -1 : spans_[d][static_cast<std::size_t>(at)];
+    return cell;
+  }
+  [[nodiscard]] std::vector<std::array<double, 2>> side(const Cell& cell, std::size_t d,
+                                                        int step) const {
+    constexpr int parts = 4;
+    const KnotVector &across = surface_.knots(static_cast<int>(d)),
+                     &along = surface_.knots(static_cast<int>(1 - d));
+    const double from = along[cell[1 - d]], to = along[cell[1 - d] + 1];
+    std::vector<std::array<double, 2>> result(parts + 1);
+    for (int k = 0; k <= parts; ++k) {
+      auto& corner = result[static_cast<std::size_t>(k)];
+      corner[d] = across[step < 0 ? cell[d] : cell[d] + 1];
+      corner[1 - d] = k == parts ? to : from + (to - from) * k / parts;
+    }
+    return result;
+  }
+
+  const Surface& surface_;
+  std::array<std::vector<int>, 2> spans_;
+  std::set<Cell> cells_;
+};
+
+/// What surfaces keep of themselves: lines and points, and the outlines of where nothing moves.
+Expected<void> add_kept_places(const FitProblem& problem, const std::vector<HeldCells>& cells,
+                               std::vector<Hold>& holds) {
+  for (std::size_t s = 0; s < problem.given.size(); ++s) {
+    if (!problem.given[s].holds || problem.nets.fixed[s]) continue;
+    auto lines = cells[s].outline();
+    const auto& places = problem.given[s].holds->places;
+    lines.insert(lines.end(), places.begin(), places.end());
+    for (const auto& line : lines) {
+      auto hold = hold_through(problem.nets.surfaces[s], line);
+      if (!hold) return std::unexpected(hold.error());
+      holds.push_back(*std::move(hold));
+    }
+  }
+  return {};
+}
+
+/// Of each surface; none where nothing is kept.
+Expected<std::vector<HeldCells>> held_cells(const FitProblem& problem) {
+  std::vector<HeldCells> result;
+  for (std::size_t s = 0; s < problem.given.size(); ++s) {
+    const Surface& shape = problem.nets.surfaces[s];
+    std::vector<bool> held(static_cast<std::size_t>(shape.size()));
+    if (problem.given[s].holds && !problem.nets.fixed[s]) {
+      auto kept = problem.given[s].holds->conditions(shape);
+      if (!kept) return std::unexpected(kept.error());
+      held = std::move(kept->held);
+    }
+    result.emplace_back(shape, held);
+  }
   return result;
 }
 
@@ -78,16 +189,26 @@ double potential(const Point& a, const Point& b, const Point& x) {
   return (to / std::sqrt(square + to * to) - from / std::sqrt(square + from * from)) / square;
 }
 
+/// w² |x − y|⁻² of a point alone.
+double potential(const Point& y, const Point& x) {
+  return 1 / std::max((x - y).squaredNorm(), std::numeric_limits<double>::min());
+}
+
 /// φ at a point, or less if no datum there can fade out.
 double nearness(std::span<const Hold> holds, const Point& x) {
   double most = 0;
   for (const Hold& hold : holds) {
     const double distance = hold.box.exteriorDistance(x), wide = width * hold.largest;
-    most += distance > 0 ? wide * wide * hold.length / (2 * distance * distance * distance) : 2;
+    const double by_length = hold.points.size() > 1 ? hold.length / (2 * distance) : 1;
+    most += distance > 0 ? wide * wide * by_length / (distance * distance) : 2;
   }
   if (most <= 1) return 0;
   double result = 0;
   for (const Hold& hold : holds) {
+    if (hold.points.size() == 1) {
+      const double wide = width * hold.largest;
+      result += wide * wide * potential(hold.points[0], x);
+    }
     for (std::size_t j = 1; j < hold.points.size(); ++j) {
       const double wide = width * (hold.jumps[j - 1] + hold.jumps[j]) / 2;
       if (wide > 0) result += wide * wide / 2 * potential(hold.points[j - 1], hold.points[j], x);
@@ -96,12 +217,18 @@ double nearness(std::span<const Hold> holds, const Point& x) {
   return result;
 }
 
-double faded(double nearness) {
+double left_of(double nearness) {
   const double t = 1 / std::sqrt(nearness);
   return t * t * t * (10 + t * (6 * t - 15));
 }
 
 }  // namespace
+
+bool keeps_something(const FitProblem& problem) {
+  const auto held = [&](const FitEdge& edge) { return is_held(edge, problem.nets.fixed); };
+  return std::ranges::any_of(problem.edges, held) ||
+         std::ranges::any_of(problem.given, [](const FitSurface& s) { return s.holds != nullptr; });
+}
 
 bool is_held(const FitEdge& edge, const std::vector<bool>& fixed) {
   const auto is_fixed = [&](int s) { return fixed[static_cast<std::size_t>(s)]; };
@@ -110,7 +237,11 @@ bool is_held(const FitEdge& edge, const std::vector<bool>& fixed) {
 }
 
 Expected<void> fade_at_holds(FitProblem& problem) {
+  if (!keeps_something(problem)) return {};
+  const auto cells = held_cells(problem);
+  if (!cells) return std::unexpected(cells.error());
   std::vector<Hold> holds;
+  if (auto added = add_kept_places(problem, *cells, holds); !added) return added;
   for (const FitEdge& edge : problem.edges) {
     if (!is_held(edge, problem.nets.fixed)) continue;
     auto hold = hold_of(edge, problem);
@@ -124,14 +255,15 @@ Expected<void> fade_at_holds(FitProblem& problem) {
       find_jumps(problem.points, margin, holds[k]);
   });
   std::erase_if(holds, [](const Hold& hold) { return hold.largest == 0; });
-  if (holds.empty()) return {};
   std::vector<double> left(problem.points.size(), 1);
   const auto count = std::ssize(left);
   detail::parallel_for(
       count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-          const double near = nearness(holds, problem.points[k].place);
-          if (near > 1) left[k] = faded(near);
+          const FitPoint& datum = problem.points[k];
+          const double near = nearness(holds, datum.place);
+          if (near > 1) left[k] = left_of(near);
+          if ((*cells)[static_cast<std::size_t>(datum.surface)].contain(datum.at)) left[k] = 0;
         }
       });
   std::map<int, FitExcess> worst;
@@ -139,7 +271,7 @@ Expected<void> fade_at_holds(FitProblem& problem) {
     FitPoint& datum = problem.points[k];
     const double found = (1 - left[k]) * datum.wanted.norm();
     datum.wanted *= left[k];
-    datum.faded = left[k] < 1;
+    datum.faded = left[k] < 1;  // where nothing moves at all too
     if (found <= problem.tolerance) continue;
     FitExcess& excess = worst[datum.surface];
     const int number = excess.count + (excess.found > 0 ? 1 : 0);

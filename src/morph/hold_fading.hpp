@@ -10,6 +10,9 @@ namespace knead::morph {
 /// Whether an edge is held: it says so itself, or some of its surfaces are fixed, not all.
 [[nodiscard]] bool is_held(const FitEdge& edge, const std::vector<bool>& fixed);
 
+/// Whether an edge is held, or a surface keeps something of itself.
+[[nodiscard]] bool keeps_something(const FitProblem& problem);
+
 /// Fades out data that contradict held edges, where displacements are zero: d becomes β(t) d, so
 /// that what is left can be followed together with the holds by nets of moderate size.
 ///
@@ -21,6 +24,9 @@ namespace knead::morph {
 /// edge, and analytic elsewhere, between two edges and beyond their ends too, where the nearest
 /// distance has kinks that only very fine nets could follow. β(t) = t³ (10 − 15 t + 6 t²) up to
 /// t = 1, which keeps tangent planes at the hold as well. Data for which φ <= 1 are not changed.
+///
+/// Likewise beside lines and points that surfaces keep of themselves, of a point alone φ = w² |x −
+/// y|⁻², and beside the cells of knots of which all control points are held. Within these d = 0.
 ///
 /// Appends to `contradicted` the worst datum of each surface whose data have changed by more than
 /// the tolerance. Errors: those of evaluation. Cost: held segments times data.

@@ -83,6 +83,7 @@ Expected<FitState> solve_noisy(const FitProblem& problem, const FitSystem& syste
 
 Expected<Fit> fit_once(FitProblem& problem) {
   problem.nets.number(problem.given);
+  if (auto kept = problem.nets.hold(problem.given); !kept) return std::unexpected(kept.error());
   sort_by_cells(problem.nets, problem.points);
   auto joints = joints_of(problem);
   if (!joints) return std::unexpected(joints.error());
@@ -255,8 +256,7 @@ Expected<FitResult> fit_and_refine(FitProblem& problem) {
   const double allowed =
       std::max(problem.parting, problem.settings.allowed_parting.value_or(problem.parting));
   // Without holds residuals settle, and joints need not press before.
-  const bool holds = std::ranges::any_of(
-      problem.edges, [&](const FitEdge& edge) { return is_held(edge, problem.nets.fixed); });
+  const bool holds = keeps_something(problem);
   const int late_from = holds ? late : most_solves;
   FitResult result{.size = problem.size};
   auto fit = fit_once(problem);
@@ -265,10 +265,11 @@ Expected<FitResult> fit_and_refine(FitProblem& problem) {
     if (joints_only && fit->state.largest_parting <= allowed) break;
     for (FitPoint& point : problem.points)
       point.share = joints_only ? std::max(1.0, point.share / 4) : point.share;
-    const RefinementPlan plan = plan_for(problem, *fit);
+    RefinementPlan plan = plan_for(problem, *fit);
     const auto refined = joints_only
                              ? Expected<int>(0)
-                             : refine(plan, static_cast<int>(std::min(most, 1e9)), problem.nets);
+                             : refine(std::move(plan), static_cast<int>(std::min(most, 1e9)),
+                                      problem.given, problem.nets);
     if (!refined) return std::unexpected(refined.error());
     // With a number of rounds that is given the fit is linear in the data: weights stay.
     const bool reweighed = !problem.settings.rounds &&

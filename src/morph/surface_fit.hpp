@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "brep/shared_edge.hpp"
+#include "knead/hold/constraints.hpp"
 
 namespace knead::morph {
 
@@ -21,11 +23,25 @@ struct Datum {
   Point along = Point::Zero();
 };
 
+/// What a surface keeps, exactly.
+struct SurfaceHolds {
+  /// Conditions on the displacements of the control points of a net, whose surface is the one that
+  /// was given; their right sides do not count: displacements are zero, or perpendicular to a
+  /// normal. Control points that are held keep their bits.
+  std::function<Expected<ConstraintList>(const Surface& net)> conditions = {};
+  /// Lines and points of it that keep their place, as parameters, beside those whose control points
+  /// are all held. Between its corners a line is one of parameters, or short.
+  std::vector<std::vector<std::array<double, 2>>> places = {};
+  /// By direction: its knots stay symmetric, as they are.
+  std::array<bool, 2> mirrored = {false, false};
+};
+
 /// A surface of the model and what its faces show of it.
 struct FitSurface {
   std::shared_ptr<const Surface> surface;
   VisibleRegion region = {};
   bool fixed = false;  ///< keeps its control points, and holds its neighbours' edges
+  std::shared_ptr<const SurfaceHolds> holds = {};  ///< null: nothing else is kept
 };
 
 /// An edge at which surfaces stay together.
@@ -111,7 +127,8 @@ struct FitResult {
 /// discrepancy principle; then knots are inserted where residual, parting or angle ask for it.
 /// Poles stay points and closed surfaces closed, exactly. docs/design/morph.md.
 ///
-/// Data that contradict what is fixed or held are faded out towards it (`fade_at_holds`), and
+/// What surfaces keep (`SurfaceHolds`) is eliminated from the unknowns, and so exact to rounding.
+/// Data that contradict what is fixed, held or kept are faded out towards it (`fade_at_holds`), and
 /// listed.
 ///
 /// Data that are zero give the surfaces as they are, bit for bit; an affine map gives its image on
@@ -119,8 +136,8 @@ struct FitResult {
 ///
 /// Errors (input): a number that is not finite, parameters outside the domain, an index out of
 /// range, no datum on a surface that is free; (numerical) a denominator that is not positive; those
-/// of an `Interruption`. Cost: a few sparse factorisations and about twenty solves on each; 300
-/// bytes of memory per datum.
+/// of `SurfaceHolds::conditions`; those of an `Interruption`. Cost: a few sparse factorisations and
+/// about twenty solves on each; 300 bytes of memory per datum.
 [[nodiscard]] Expected<FitResult> fit_surfaces(std::span<const FitSurface> surfaces,
                                                std::span<const FitEdge> edges,
                                                std::span<const Datum> data,

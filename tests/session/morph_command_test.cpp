@@ -115,16 +115,7 @@ TEST(MorphCommand, SurfacesWithoutAFileFollowToo) {
   EXPECT_GT(session.largest_displacement(0), 0.01);
 }
 
-TEST(MorphCommand, WhatIsHeldOnPurposeStaysOrRefusesIt) {
-  Session session = opened(two_sheets());
-  const Surface before = *session.state().surfaces[0].current;
-  ASSERT_TRUE(run_on(session, R"({"do":"select","surface":"#10"},
-      {"do":"freeze","region":[[0,0.5],[0,1]]})"));
-  const auto frozen = run_on(session, bulge);
-  ASSERT_FALSE(frozen);
-  EXPECT_NE(frozen.error().what.find("frozen"), std::string::npos) << frozen.error().message();
-  EXPECT_EQ(session.largest_displacement(1), 0);
-  // A surface that is locked is one that stays, as does what meets it there.
+TEST(MorphCommand, SurfacesThatAreLockedStay) {
   Session locked = opened(two_sheets());
   ASSERT_TRUE(run_on(locked, R"({"do":"lock","surfaces":["#10"]})"));
   const auto status = run_on(locked, R"({"do":"morph","space":"0; 0; 0.01*max(x-1,0)^2"})");

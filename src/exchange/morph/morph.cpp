@@ -248,6 +248,12 @@ Expected<brep::ModelMeasures> measures_after(const std::string& bytes, const Sou
 
 Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, const MorphData& data,
                                  const MorphSettings& settings) {
+  return detail::morph_file(source, data, settings, {});
+}
+
+Expected<MorphedFile> detail::morph_file(const std::shared_ptr<const Source>& source,
+                                         const MorphData& data, const MorphSettings& settings,
+                                         const MorphHolds& holds) {
   if (auto right = detail::check_settings(settings); !right) return std::unexpected(right.error());
   Stopwatch watch;
   MorphedFile result;
@@ -258,7 +264,7 @@ Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, co
   auto opened = source->save(as_opened);
   if (!opened) return std::unexpected(opened.error());
   report.bytes_before = static_cast<double>(opened->size());
-  auto model = detail::moving_model(source, settings);
+  auto model = detail::moving_model(source, settings, holds);
   if (!model) return std::unexpected(model.error());
   report.unit = model->unit();
   report.time_model = watch.lap();

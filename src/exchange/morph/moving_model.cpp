@@ -132,7 +132,8 @@ void convert(const std::shared_ptr<const Source>& source, const Choice& choice,
 }
 
 /// Which surface of the converted file each face of the file as opened lies on, if one.
-void add_surfaces(const Model& opened, const Choice& choice, bool convert, MovingModel& result) {
+void add_surfaces(const Model& opened, const Choice& choice, bool convert, const MorphHolds& holds,
+                  MovingModel& result) {
   const Model& model = *result.model;
   std::map<std::string, const brep::Support*> support_of_face;  // as opened
   for (const brep::Face& face : opened.faces) {
@@ -156,6 +157,8 @@ void add_surfaces(const Model& opened, const Choice& choice, bool convert, Movin
   }
   for (std::size_t k = 0; k < count; ++k) {
     morph::FitSurface surface{result.source->surfaces()[k].surface, {}, !moves[k]};
+    const auto kept = holds.find(result.source->surfaces()[k].id);
+    if (kept != holds.end()) surface.holds = kept->second;
     result.surfaces.push_back(std::move(surface));
   }
 }
@@ -305,11 +308,30 @@ SurfacePlace place_of(const brep::Part& part, const std::vector<std::string>& as
   return result;
 }
 
+/// What a surface keeps in its part, of its image in the model.
+morph::SurfaceHolds moved_by(const Eigen::Affine3d& move, morph::SurfaceHolds holds) {
+  holds.conditions =
+      [move, own = std::move(holds.conditions)](const Surface& net) -> Expected<ConstraintList> {
+    const auto in_part = image_of(net, move.inverse());
+    if (!in_part) return std::unexpected(in_part.error());
+    auto list = own(*in_part);
+    if (!list) return list;
+    for (LinearConstraint& condition : list->constraints) {
+      if (condition.normal) *condition.normal = move.linear() * *condition.normal;
+    }
+    return list;
+  };
+  return holds;
+}
+
 /// A surface with its edges as they stand in the model.
 Expected<morph::FitSurface> moved_by(const Eigen::Affine3d& move, morph::FitSurface surface) {
   auto moved = image_of(*surface.surface, move);
   if (!moved) return std::unexpected(moved.error());
   surface.surface = std::make_shared<const Surface>(*std::move(moved));
+  if (surface.holds) {
+    surface.holds = std::make_shared<const morph::SurfaceHolds>(moved_by(move, *surface.holds));
+  }
   for (TrimEdge& edge : surface.region.edges) {
     for (Point& p : edge.points) p = move * p;
   }
@@ -358,7 +380,7 @@ Expected<Surface> image_of(const Surface& surface, const Eigen::Affine3d& map) {
 }
 
 Expected<MovingModel> moving_model(const std::shared_ptr<const Source>& source,
-                                   const MorphSettings& settings) {
+                                   const MorphSettings& settings, const MorphHolds& holds) {
   MovingModel result;
   const auto opened = source->model();
   if (!opened) {
@@ -372,7 +394,7 @@ Expected<MovingModel> moving_model(const std::shared_ptr<const Source>& source,
   if (result.source->surfaces().empty())
     return input_error("there is no B-spline surface that could move", source->name(),
                        "let others be converted");
-  add_surfaces(*opened, *choice, settings.convert, result);
+  add_surfaces(*opened, *choice, settings.convert, holds, result);
   add_regions(result);
   add_edges(result);
   add_meetings(result);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,9 +37,18 @@ struct MovingModel {
 /// The surface moved by an affine map. Errors: coordinates that are not finite then.
 [[nodiscard]] Expected<Surface> image_of(const Surface& surface, const Eigen::Affine3d& map);
 
+/// What surfaces keep exactly, by their ids.
+using MorphHolds = std::map<std::string, std::shared_ptr<const morph::SurfaceHolds>>;
+
+/// `morph_file` with what surfaces keep beside `MorphSettings::keep`.
+[[nodiscard]] Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source,
+                                               const MorphData& data, const MorphSettings& settings,
+                                               const MorphHolds& holds);
+
 /// Converts what is to move, follows the visible parts of all surfaces and all edges, by threads.
 /// Errors: those of `morph_file`.
 [[nodiscard]] Expected<MovingModel> moving_model(const std::shared_ptr<const Source>& source,
-                                                 const MorphSettings& settings);
+                                                 const MorphSettings& settings,
+                                                 const MorphHolds& holds = {});
 
 }  // namespace knead::detail

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "converting.hpp"
+#include "data_holds.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "placing.hpp"
@@ -38,8 +39,19 @@ Expected<void> follow(Act& act, SceneSurface& s, const std::shared_ptr<const Sur
 Expected<MorphReport> move_after_data(Act& act, MorphData data, MorphRequest request) {
   const auto source = saved_source(act.document, act.state);
   if (!source) return std::unexpected(source.error());
-  for (const SceneSurface& s : std::as_const(act.state).surfaces) {
+  const bool fresh = act.document.is_fresh();  // then the file's ids are not those of the scene
+  const auto& surfaces = std::as_const(act.state).surfaces;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    SceneSurface s = surfaces[k];
     if (s.locked) request.settings.keep.push_back(s.id);
+    if (holds_edge_by_name(s) && !s.visible) {
+      auto region = act.regions.of(s.id);
+      if (!region) return std::unexpected(region.error());
+      s.visible = std::make_shared<const VisibleRegion>(*std::move(region));
+    }
+    auto holds = data_holds(s);
+    if (!holds) return std::unexpected(holds.error());
+    if (*holds) request.holds[fresh ? (*source)->surfaces()[k].id : s.id] = *std::move(holds);
   }
   const auto morphed = follow_data(*source, std::move(data), request);
   if (!morphed) return std::unexpected(morphed.error());
@@ -49,7 +61,6 @@ Expected<MorphReport> move_after_data(Act& act, MorphData data, MorphRequest req
     if (auto made = convert_surfaces(act, morphed->report.converted, 0); !made)
       return std::unexpected(made.error());
   }
-  const bool fresh = act.document.is_fresh();  // then the file's ids are not those of the scene
   const auto& fitted = (*file)->surfaces();
   for (std::size_t k = 0; k < act.state.surfaces.size(); ++k) {
     const SceneSurface& present = std::as_const(act.state).surfaces[k];

@@ -99,7 +99,7 @@ Expected<MorphedFile> follow_data(const std::shared_ptr<const Source>& source, M
   if (auto right = check_kinds(data); !right) return std::unexpected(std::move(right.error()));
   MorphSettings settings = request.settings;
   settings.along_normal = request.along.has_value();
-  auto morphed = morph_file(source, data, settings);
+  auto morphed = detail::morph_file(source, data, settings, request.holds);
   if (!morphed) {
     Error error = std::move(morphed.error());
     if (error.where == "refinement") error.where = "refine";

@@ -5,6 +5,7 @@
 
 #include "describe/bytes.hpp"
 #include "describe/describe.hpp"
+#include "exchange/morph/moving_model.hpp"
 #include "knead/exchange/morph.hpp"
 
 namespace knead {
@@ -15,6 +16,7 @@ struct MorphRequest {
   MorphSettings settings;
   std::optional<std::string> along;  ///< "normal"
   bool strict = false;               ///< what is above what was wanted is an error
+  detail::MorphHolds holds = {};     ///< what surfaces of the scene keep
 };
 
 /// The data as a query is asked: files; empty: none.
