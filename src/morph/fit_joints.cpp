@@ -25,27 +25,30 @@ int points_per_span(const KnotVector& knots) {
   return std::max(order, order * order / 4);
 }
 
-/// A sample between two others at this share of the way.
-Sample between(const FitEdge& edge, const Sample& a, const Sample& b, double share) {
+/// A sample between two others at this share of the way. Directions across an edge without a course
+/// are those of the surfaces there: by parameters they are far longer beside a pole.
+Sample between(const FitEdge& edge, std::span<const Surface> surfaces, const Sample& a,
+               const Sample& b, double share) {
   if (edge.course) return edge.course->at(std::lerp(a.parameter, b.parameter, share));
   Sample result{
       std::lerp(a.parameter, b.parameter, share), (1 - share) * a.point + share * b.point, {}};
   for (std::size_t k = 0; k < a.feet.size(); ++k)
     result.feet.emplace_back((1 - share) * a.feet[k] + share * b.feet[k]);
-  if (a.across.size() == b.across.size()) {
-    for (std::size_t k = 0; k < a.across.size(); ++k)
-      result.across.emplace_back((1 - share) * a.across[k] + share * b.across[k]);
-  }
+  if (!a.across.empty() || !b.across.empty()) look_across(surfaces, b.point - a.point, result);
   return result;
 }
 
 /// The samples of an edge, as many in every span that it crosses as it has coefficients.
 std::vector<Sample> samples_for(const FitEdge& edge, const FitNets& nets) {
   std::vector<const Surface*> surfaces;
-  for (const int s : edge.surfaces) surfaces.push_back(&nets.surfaces[static_cast<std::size_t>(s)]);
+  std::vector<Surface> shapes;
+  for (const int s : edge.surfaces) {
+    surfaces.push_back(&nets.surfaces[static_cast<std::size_t>(s)]);
+    if (!edge.course) shapes.push_back(*surfaces.back());
+  }
   return finer_samples(edge.course ? edge.course->samples() : edge.samples, surfaces,
                        {points_per_span, [&](const Sample& a, const Sample& b, double share) {
-                          return between(edge, a, b, share);
+                          return between(edge, shapes, a, b, share);
                         }});
 }
 
@@ -138,8 +141,8 @@ Point normal(const LineTangents& t, std::size_t point) {
   return n.normalized();
 }
 
-/// Gives a line of constant parameter its directions across, if the tangent planes of both sides
-/// are common: the unit vector in the first side's plane perpendicular to the line, in parameters
+/// Gives a line of constant parameter its directions across, where the tangent planes of both sides
+/// are common; nothing where there is a crease. Returns whether it is smooth anywhere. The unit vector in the first side's plane perpendicular to the line, in parameters
 /// of each side by least squares.
 Expected<bool> look_across(const Surface& s, int direction, Joint& joint) {
   const auto low = tangents(s, joint, 0), high = tangents(s, joint, 1);
@@ -149,7 +152,7 @@ Expected<bool> look_across(const Surface& s, int direction, Joint& joint) {
   for (std::size_t k = 0; k < joint.points.size(); ++k) {
     const Point n = normal(*low, k), m = normal(*high, k);
     if (n.isZero() || m.isZero()) continue;
-    if (angle_between_planes(n, m) > smooth_angle || n.dot(m) < 0) return false;
+    if (angle_between_planes(n, m) > smooth_angle || n.dot(m) < 0) continue;  // a crease there
     const auto row = static_cast<Eigen::Index>(k);
     const Point along = (direction == 0 ? low->v : low->u).row(row).transpose();
     const Point across = n.cross(along).normalized();

@@ -10,6 +10,7 @@ namespace knead::morph {
 namespace {
 
 constexpr double same_point = 1e-9;   // of the diagonal of the net, as for `closed_directions`
+constexpr double flat_ring = 1e-6;    // rings are flat whose singular values are below this share
 constexpr double same_weight = 1e-9;  // relative
 
 /// Sets of control points that move as one: a forest, of which the least member is the root.
@@ -84,6 +85,26 @@ void join_ends(const Surface& surface, const VisibleRegion& region, int first, J
   }
 }
 
+/// A side that starts with no speed, as control points there coincide, still does: with S its first
+/// derivatives vanish those of D ∘ S, whatever D is. Else the tangent plane there would be by chance.
+void join_still_corners(const Surface& surface, int first, Joined& joined) {
+  const Points& p = surface.control_points();
+  const double near = same_point * (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
+  for (int d = 0; d < 2; ++d) {
+    const detail::NetAcross net(surface, d);
+    if (!net.knots().clamped()) continue;
+    for (const int j : {0, net.columns() - 1}) {
+      for (const int step : {1, -1}) {
+        const int end = step > 0 ? 0 : net.rows() - 1;
+        for (int k = 1; k <= std::min(net.knots().degree(), net.rows() - 1); ++k) {
+          if ((net.point(end + k * step, j) - net.point(end, j)).norm() > near) break;
+          joined.join(first + net.index(end, j), first + net.index(end + k * step, j));
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void FitNets::number(std::span<const FitSurface> given) {
@@ -94,6 +115,7 @@ void FitNets::number(std::span<const FitSurface> given) {
     if (fixed[s]) continue;
     join_ends(surfaces[s], given[s].region, first[s], joined);
     join_collapsed(surfaces[s], first[s], joined);
+    join_still_corners(surfaces[s], first[s], joined);
   }
   unknown.assign(static_cast<std::size_t>(first.back()), -1);
   unknowns = 0;
@@ -110,9 +132,14 @@ void FitNets::number(std::span<const FitSurface> given) {
 Expected<void> FitNets::hold(std::span<const FitSurface> given) {
   kept = ConstraintList(unknowns);
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    if (fixed[s] || !given[s].holds) continue;
-    auto own = given[s].holds->conditions(surfaces[s]);
+    if (fixed[s]) continue;
+    Expected<ConstraintList> own = ConstraintList(surfaces[s].size());
+    if (given[s].holds) own = given[s].holds->conditions(surfaces[s]);
     if (!own) return std::unexpected(own.error());
+    const Points& p = surfaces[s].control_points();
+    const double size = (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
+    const auto poles = keep_poles(surfaces[s], same_point * size, flat_ring, *own);
+    if (!poles) return std::unexpected(poles.error());
     const auto of = [&](int k) { return unknown[static_cast<std::size_t>(first[s] + k)]; };
     for (int k = 0; k < surfaces[s].size(); ++k) {
       const auto at = static_cast<std::size_t>(k);

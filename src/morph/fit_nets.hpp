@@ -26,11 +26,12 @@ struct FitNets {
 
   /// Makes `first`, `unknown` and `unknowns` for the surfaces as they are. Control points of a pole
   /// have one unknown, and so have both ends of a closed surface whose weights there agree; those
-  /// of a surface that is a curve have one across it: poles stay points, closed surfaces closed and
-  /// curves curves, exactly.
+  /// of a surface that is a curve have one across it, and those that coincide at a corner along a
+  /// side have one: poles stay points, closed surfaces closed, curves curves, and corners without
+  /// speed so, exactly.
   void number(std::span<const FitSurface> given);
-  /// Makes `kept` for the unknowns as they are numbered. Errors: those of
-  /// `SurfaceHolds::conditions`.
+  /// Makes `kept` for the unknowns as they are numbered: what surfaces keep, and the tangent planes
+  /// of their poles (`keep_poles`). Errors: those of `SurfaceHolds::conditions`.
   [[nodiscard]] Expected<void> hold(std::span<const FitSurface> given);
 
   /// R at a point of a surface, or its derivative in a direction of its parameters (`along` 0 or

@@ -25,7 +25,12 @@ struct FitProblem {
   /// By what factor each joint's positions and angles were too large when they last asked for finer
   /// nets; 0: finer nets did not help.
   std::vector<std::array<double, 2>> asked = {};
-  std::vector<std::array<double, 2>> pressed = {};  ///< likewise when they last got more weight
+  /// By what factor a measure of a joint was too large when more weight last helped, and the share
+  /// that it had then.
+  struct Pressed {
+    double excess = std::numeric_limits<double>::infinity(), share = 1;
+  };
+  std::vector<std::array<Pressed, 2>> pressed = {};
   std::vector<double> excess = {};  ///< of data with noise, of each surface, likewise
 
   [[nodiscard]] bool satisfied(const FitState& state) const {

@@ -9,7 +9,6 @@
 
 #include "base/interruption.hpp"
 #include "base/parallel_for.hpp"
-#include "knead/hold/constraints.hpp"
 #include "normal_equations.hpp"
 
 namespace knead::morph {
@@ -27,10 +26,6 @@ constexpr double least_length = 1e-3;  // of the size: shorter edges weigh as mu
 constexpr double bend = 1, stretch = 1;
 // The whole surface's displacement costs this: a surface that neither data nor edges move stays.
 constexpr double least_energy = 1e-6;
-
-// Control points within this of the size of their net are one, and rings flat whose singular values
-// are below this share. All conditions at the poles of a surface weigh as an edge of this length.
-constexpr double pole_tolerance = 1e-9, flat_ring = 1e-6, pole_length = 0.1;
 
 // What is not known of a datum is guessed as zero, or what the displacement was before, with this
 // share of its weight: where nothing else is known points do not slide.
@@ -106,11 +101,6 @@ Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPo
     const double slope = slope_weight * joints[j].slope_share * share * size * size;
     for (const Terms& row : result.apart_[j]) fit.add(row, position, Point::Zero());
     for (const Terms& row : result.slopes_[j]) fit.add(row, slope, Point::Zero());
-  }
-  if (auto made = result.make_poles(nets); !made) return std::unexpected(made.error());
-  for (const std::vector<Terms>& rows : result.poles_) {
-    const double share = pole_length / static_cast<double>(std::max<std::size_t>(rows.size(), 1));
-    for (const Terms& row : rows) fit.add(row, slope_weight * share * size * size, Point::Zero());
   }
   result.right_ = fit.right();
   NormalEquations energies(nets.unknowns);
@@ -204,32 +194,6 @@ Expected<void> FitSystem::make_joints(const FitNets& nets, std::span<const Joint
   return failure.any() ? rows_of(failure.index()) : Expected<void>();
 }
 
-// At a pole a tangent plane stays one if the first ring of control points moves as an affine image
-// of itself (`keep_poles`). A row over the length of the ring's vectors is a slope.
-Expected<void> FitSystem::make_poles(const FitNets& nets) {
-  poles_.resize(nets.surfaces.size());
-  for (std::size_t s = 0; s < nets.surfaces.size(); ++s) {
-    if (nets.fixed[s]) continue;
-    const Points& p = nets.surfaces[s].control_points();
-    const double size = (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
-    ConstraintList list(nets.surfaces[s].size());
-    const auto kept = keep_poles(nets.surfaces[s], pole_tolerance * size, flat_ring, list);
-    if (!kept) return std::unexpected(kept.error());
-    for (const LinearConstraint& constraint : list.constraints) {
-      double length = 0;
-      for (const auto& [k, c] : constraint.terms)
-        length = std::max(length, (p.row(k) - p.row(constraint.terms[0].first)).norm());
-      if (length <= pole_tolerance * size) continue;  // of control points that are one unknown
-      Terms row;
-      for (const auto& [k, c] : constraint.terms) {
-        row.emplace_back(nets.unknown[static_cast<std::size_t>(nets.first[s] + k)], c / length);
-      }
-      poles_[s].push_back(std::move(row));
-    }
-  }
-  return {};
-}
-
 FitSystem::Parting FitSystem::parting(std::size_t joint, const Points& x) const {
   Parting result;
   for (std::size_t k = 0; k < apart_[joint].size(); ++k) {
@@ -255,10 +219,6 @@ void FitSystem::measure(FitState& state) const {
   for (std::size_t j = 0; j < apart_.size(); ++j) {
     state.largest_parting = std::max(state.largest_parting, parting(j, state.x).distance);
     for (const Terms& row : slopes_[j])
-      state.largest_slope = std::max(state.largest_slope, value_of(row, state.x).norm());
-  }
-  for (const std::vector<Terms>& rows : poles_) {
-    for (const Terms& row : rows)
       state.largest_slope = std::max(state.largest_slope, value_of(row, state.x).norm());
   }
 }

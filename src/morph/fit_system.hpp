@@ -74,7 +74,6 @@ class FitSystem {
   /// What M has too much where data are known along a direction n alone, (1 − τ) Σ w r rᵀ (I − n
   /// nᵀ)_cd for the blocks (c, d) of coordinates; empty: all are known.
   [[nodiscard]] std::vector<SparseMatrix> across(int unknowns) const;
-  Expected<void> make_poles(const FitNets& nets);
   Expected<void> make_joints(const FitNets& nets, std::span<const Joint> joints);
   void measure(FitState& state) const;
   [[nodiscard]] double freedom(const SparseCholesky& factor) const;
@@ -83,7 +82,6 @@ class FitSystem {
   std::vector<Point> wanted_, along_;
   std::vector<double> weights_;
   std::vector<std::vector<Terms>> apart_, slopes_;  ///< by joint and point
-  std::vector<std::vector<Terms>> poles_;           ///< by surface
   FitMatrix matrix_;
   Points right_;
 };

@@ -26,7 +26,8 @@ constexpr double light_joint = 3;
 constexpr double again = 16;  // times the λ of the nets before
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double helped = 0.8;    // refinement that leaves more has not
-constexpr double eased = 0.9;     // more weight that leaves more has not helped
+constexpr double eased = 0.9;     // more weight that leaves more has not helped,
+constexpr double in_vain = 16;    // and after so many times the weight is not given any more
 constexpr double stalled = 0.97;  // a solve that leaves more than this is the last one
 
 /// The joints of the nets as they are.
@@ -89,7 +90,7 @@ Expected<Fit> fit_once(FitProblem& problem) {
   if (!joints) return std::unexpected(joints.error());
   problem.shares.resize(joints->size(), {1, 1});
   problem.asked.resize(joints->size(), {never, never});
-  problem.pressed.resize(joints->size(), {never, never});
+  problem.pressed.resize(joints->size());
   for (std::size_t j = 0; j < joints->size(); ++j) {
     (*joints)[j].position_share = problem.shares[j][0];
     (*joints)[j].slope_share = problem.shares[j][1];
@@ -188,9 +189,13 @@ bool reweigh(FitProblem& problem, const Fit& fit, bool last, bool joints_only) {
     const double parting = fit.system.parting(j, fit.state.x).distance / problem.parting;
     const std::array<double, 2> excess = {std::max(angle, parting), angle};
     for (std::size_t measure = 0; measure < 2; ++measure) {
-      double& pressed = problem.pressed[j][measure];
-      if (excess[measure] > eased * pressed) continue;  // that would cost residuals in vain
-      if (excess[measure] > 1) pressed = excess[measure];
+      auto& [least, share] = problem.pressed[j][measure];
+      if (excess[measure] <= eased * least) {
+        least = excess[measure];
+        share = problem.shares[j][measure];
+      } else if (problem.shares[j][measure] > in_vain * share) {
+        continue;  // that would cost residuals
+      }
       raise(problem.shares[j][measure], excess[measure], most);
     }
   }
