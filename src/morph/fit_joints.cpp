@@ -64,10 +64,12 @@ Vector2d in_parameters(const Surface& s, const Vector2d& across) {
   return {s.knots(0).domain().length() * across.x(), s.knots(1).domain().length() * across.y()};
 }
 
-/// Leaves out directions across at points where a side is far slower than along most of the joint,
-/// as beside a cusp: derivatives by length have no bound there.
-void forget_cusps(Joint& joint) {
-  constexpr double most = 1e4;  // of the median
+/// Derivatives by length have no bound where a side is far slower than along most of the joint, as
+/// beside a cusp: rows there would drown all others. They count less, as if the derivative were by
+/// a longer way, and from some ratio on nothing.
+void calm_cusps(Joint& joint) {
+  constexpr double calm = 30, most = 1e3;  // of the median
+  std::array<double, 2> middles = {};
   for (std::size_t side = 0; side < 2; ++side) {
     std::vector<double> steps;
     for (const auto& feet : joint.points) {
@@ -76,8 +78,18 @@ void forget_cusps(Joint& joint) {
     if (steps.empty()) continue;
     const auto middle = steps.begin() + std::ssize(steps) / 2;
     std::ranges::nth_element(steps, middle);
-    for (auto& feet : joint.points) {
-      if (feet[side].across.norm() > most * *middle) feet[side].across.setZero();
+    middles[side] = *middle;
+  }
+  for (auto& feet : joint.points) {
+    double ratio = 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (middles[side] > 0) ratio = std::max(ratio, feet[side].across.norm() / middles[side]);
+    }
+    for (Joint::Foot& foot : feet) {
+      if (ratio > most)
+        foot.across.setZero();
+      else if (ratio > calm)
+        foot.across *= calm / ratio;
     }
   }
 }
@@ -108,7 +120,7 @@ std::vector<Joint> joints_of(const FitEdge& edge, const FitNets& nets) {
       }
       joint.points.push_back(feet);
     }
-    forget_cusps(joint);
+    calm_cusps(joint);
     result.push_back(std::move(joint));
   }
   return result;
@@ -142,8 +154,9 @@ Point normal(const LineTangents& t, std::size_t point) {
 }
 
 /// Gives a line of constant parameter its directions across, where the tangent planes of both sides
-/// are common; nothing where there is a crease. Returns whether it is smooth anywhere. The unit vector in the first side's plane perpendicular to the line, in parameters
-/// of each side by least squares.
+/// are common; nothing where there is a crease. Returns whether it is smooth anywhere. The unit
+/// vector in the first side's plane perpendicular to the line, in parameters of each side by least
+/// squares.
 Expected<bool> look_across(const Surface& s, int direction, Joint& joint) {
   const auto low = tangents(s, joint, 0), high = tangents(s, joint, 1);
   if (!low) return std::unexpected(low.error());
@@ -275,6 +288,7 @@ Expected<std::vector<Joint>> joints_of_lines(const FitNets& nets) {
         const auto smooth = look_across(s, d, line);
         if (!smooth) return std::unexpected(smooth.error());
         if (!*smooth) continue;
+        calm_cusps(line);
         const auto length = line_length(s, line);
         if (!length) return std::unexpected(length.error());
         line.length = *length;

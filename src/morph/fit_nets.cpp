@@ -85,21 +85,24 @@ void join_ends(const Surface& surface, const VisibleRegion& region, int first, J
   }
 }
 
-/// A side that starts with no speed, as control points there coincide, still does: with S its first
-/// derivatives vanish those of D ∘ S, whatever D is. Else the tangent plane there would be by chance.
-void join_still_corners(const Surface& surface, int first, Joined& joined) {
+/// A side that has no speed at its ends or in whole spans, as control points there coincide, still
+/// has none: where derivatives of S along it vanish so do those of D ∘ S, whatever D is. Else
+/// tangent planes there would be by chance, and faces that meet there come apart.
+void join_still_sides(const Surface& surface, int first, Joined& joined) {
   const Points& p = surface.control_points();
   const double near = same_point * (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
   for (int d = 0; d < 2; ++d) {
     const detail::NetAcross net(surface, d);
-    if (!net.knots().clamped()) continue;
+    const bool clamped = net.knots().clamped();
     for (const int j : {0, net.columns() - 1}) {
-      for (const int step : {1, -1}) {
-        const int end = step > 0 ? 0 : net.rows() - 1;
-        for (int k = 1; k <= std::min(net.knots().degree(), net.rows() - 1); ++k) {
-          if ((net.point(end + k * step, j) - net.point(end, j)).norm() > near) break;
-          joined.join(first + net.index(end, j), first + net.index(end + k * step, j));
+      for (int begin = 0, end = 0; begin < net.rows(); begin = end) {
+        for (end = begin + 1; end < net.rows(); ++end) {
+          if ((net.point(end, j) - net.point(begin, j)).norm() > near) break;
         }
+        const bool at_end = clamped && (begin == 0 || end == net.rows());
+        if (!at_end && end - begin <= net.knots().degree()) continue;
+        for (int row = begin + 1; row < end; ++row)
+          joined.join(first + net.index(begin, j), first + net.index(row, j));
       }
     }
   }
@@ -115,7 +118,7 @@ void FitNets::number(std::span<const FitSurface> given) {
     if (fixed[s]) continue;
     join_ends(surfaces[s], given[s].region, first[s], joined);
     join_collapsed(surfaces[s], first[s], joined);
-    join_still_corners(surfaces[s], first[s], joined);
+    join_still_sides(surfaces[s], first[s], joined);
   }
   unknown.assign(static_cast<std::size_t>(first.back()), -1);
   unknowns = 0;

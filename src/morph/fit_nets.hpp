@@ -26,9 +26,9 @@ struct FitNets {
 
   /// Makes `first`, `unknown` and `unknowns` for the surfaces as they are. Control points of a pole
   /// have one unknown, and so have both ends of a closed surface whose weights there agree; those
-  /// of a surface that is a curve have one across it, and those that coincide at a corner along a
-  /// side have one: poles stay points, closed surfaces closed, curves curves, and corners without
-  /// speed so, exactly.
+  /// of a surface that is a curve have one across it, and those of a side that stands
+  /// still at an end or over spans have one: poles stay points, closed surfaces closed, curves
+  /// curves, and what stands still does, exactly.
   void number(std::span<const FitSurface> given);
   /// Makes `kept` for the unknowns as they are numbered: what surfaces keep, and the tangent planes
   /// of their poles (`keep_poles`). Errors: those of `SurfaceHolds::conditions`.

@@ -111,5 +111,48 @@ TEST(SurfaceFit, MovesASurfaceWithoutDataWithItsNeighbours) {
   }
 }
 
+/// A sheet of which a corner starts without speed, and another side stands still over a span.
+TEST(SurfaceFit, LeavesSidesThatStandStillStill) {
+  const KnotVector u = *KnotVector::clamped_uniform(3, 7), v = *KnotVector::clamped_uniform(3, 6);
+  const Surface flat = wave(u, v, -1, 1);
+  Points points = flat.control_points();
+  points.row(1 * 6 + 0) = points.row(0 * 6 + 0);  // S_u = 0 at (0, 0)
+  for (int i = 2; i <= 4; ++i)
+    points.row(i * 6 + 5) = points.row(1 * 6 + 5);  // v = 1, u 0.25 to 0.5
+  const Model model = model_of({*flat.with_control_points(points)});
+  const Map map = bulge(0.05);
+  const FitResult result = fit(model, data_on(model, map, 40));
+  EXPECT_LT(errors_of(model, result, map).largest, 1e-4 * model.size);
+  const Surface& moved = result.surfaces[0];
+  ASSERT_GT(moved.net()[0], 7) << "and finer nets";
+  for (int k = 0; k <= 20; ++k)
+    EXPECT_LT((at(moved, 0.25 + k / 80.0, 1) - at(moved, 0.25, 1)).norm(), 1e-15);
+  EXPECT_EQ((moved.control_points().row(0) - moved.control_points().row(moved.net()[1])).norm(), 0);
+}
+
+/// Two sheets in one, with a crease across that runs out: where there is none there stays none.
+TEST(SurfaceFit, KeepsALineOfKnotsSmoothWhereItIs) {
+  const KnotVector u = clamped_knots(3, {0, 0.5, 1}, {4, 3, 4}),
+                   v = *KnotVector::clamped_uniform(3, 9);
+  const Surface flat = wave(u, v, -1, 1);
+  Points points = flat.control_points();
+  for (int i = 4; i < 7; ++i) {
+    for (int j = 5; j < 9; ++j)  // up behind the line, the more the farther along it
+      points(i * 9 + j, 2) += 0.1 * (i - 3) * (j - 4);
+  }
+  const Model model = model_of({*flat.with_control_points(points)});
+  const FitResult result = fit(model, data_on(model, bulge(0.1), 40));
+  const Surface& moved = result.surfaces[0];
+  for (int k = 0; k <= 16; ++k) {
+    Parameters<2> place(1, 2);
+    place << 0.5, k / 64.0;
+    const auto left = unit_normals(moved, place, Side::left),
+               right = unit_normals(moved, place, Side::right);
+    ASSERT_TRUE(left && right);
+    EXPECT_LT(angle_between_planes(left->row(0), right->row(0)) * 180 / std::numbers::pi, 0.02)
+        << place(0, 1);
+  }
+}
+
 }  // namespace
 }  // namespace knead::morph::testing

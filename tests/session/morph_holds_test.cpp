@@ -106,14 +106,14 @@ TEST(MorphKeeps, DataThatKeepASymmetryKeepItOnFinerNets) {
   const auto status = run_on(session, finer + R"x({"do":"symmetry","mirror":"v"},
       {"do":"morph","space":"0; 0; 0.1*sin(9*x)*cos(12*(y-0.5))"})x");
   ASSERT_TRUE(status) << status.error().message();
-for (int i = 0; i <= 8; ++i) {
-  for (int j = 0; j <= 8; ++j) {
-    const Point a = place(session, 0, i / 8.0, j / 16.0),
-                b = place(session, 0, i / 8.0, 1 - j / 16.0);
-    EXPECT_LE((Point(a.x(), 1 - a.y(), a.z()) - b).norm(), 10 * rounding);
+  for (int i = 0; i <= 8; ++i) {
+    for (int j = 0; j <= 8; ++j) {
+      const Point a = place(session, 0, i / 8.0, j / 16.0),
+                  b = place(session, 0, i / 8.0, 1 - j / 16.0);
+      EXPECT_LE((Point(a.x(), 1 - a.y(), a.z()) - b).norm(), 10 * rounding);
+    }
   }
-}
-EXPECT_GT(session.state().surfaces[0].current->net()[0], 8) << "which data ask for";
+  EXPECT_GT(session.state().surfaces[0].current->net()[0], 8) << "which data ask for";
 }
 
 TEST(MorphKeeps, AnEdgeInAPlaneStaysInIt) {
