@@ -105,9 +105,9 @@ describe('what may have changed a shape', () => {
     acts.gap();
     expect(acts.shapes).toBe(1);
     const counts: number[] = [];
-    acts.onShapes = () => counts.push(acts.shapes);
+    acts.onShapes.push(() => counts.push(acts.shapes), () => counts.push(-acts.shapes));
     acts.settled(execute('#1'), true);
     acts.settled({ kind: 'execute', commands: [{ do: 'undo' }], join: false }, true);
-    expect(counts).toEqual([2]);
+    expect(counts).toEqual([2, -2]);
   });
 });

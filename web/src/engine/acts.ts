@@ -20,7 +20,7 @@ export class Acts {
   /** Counts what may have changed a shape. */
   shapes = 0;
   /** Something was done that may have changed a shape; it was drawn before. */
-  onShapes: () => void = () => {};
+  readonly onShapes: (() => void)[] = [];
   private since: { mark: number; act: Act | null }[] = [];
   private lost: typeof this.since | null = null;
 
@@ -30,7 +30,7 @@ export class Acts {
     if (shaping) ++this.shapes;
     if (request.kind === 'execute') this.since.push({ mark: ++this.mark, act: request });
     else if (done && ['open', 'fresh', 'restore'].includes(request.kind)) this.since = []; // another session
-    if (shaping) this.onShapes();
+    if (shaping) for (const tell of this.onShapes) tell();
   }
 
   gap(): void {

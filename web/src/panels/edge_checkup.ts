@@ -1,13 +1,7 @@
 import type { EdgeCheck, EdgeFault, EdgeMeasures } from '@knead/generated';
 import { type EdgeOrder, isAbove, type Judging, type Measure, mostOf, ramp, rejudged, requestAgainst, requestOf, shareOf, thresholdsOf } from '../document/edge_checks';
-import { adviceOn } from '../document/words';
-import { Checker } from '../engine/checker';
-import { KneadError } from '../engine/session_types';
 import { type DrawnEdge, EdgeLines } from '../view/edge_lines';
-import type { App } from './app';
-
-const quick = 1500; // milliseconds: what took no longer is measured again by itself …
-const rest = 1200; // … after so long without a change
+import { MeasuredBeside } from './measured_beside';
 
 /** Between amber and violet; `share` from 0 to 1. */
 function colourAt(share: number): string {
@@ -17,141 +11,43 @@ function colourAt(share: number): string {
 }
 
 /** The edges of the whole document as it would be saved: measured beside the session, drawn in its views. */
-export class EdgeCheckup {
+export class EdgeCheckup extends MeasuredBeside {
   report: EdgeCheck | null = null;
   /** What is worse than as opened; null as long as that is not known. */
   worse: readonly EdgeFault[] | null = null;
-  failed = '';
-  busy = false;
   judging: Judging = { grade: 'b', gap: null, angle: null, curvature: null, unit: 'mm' };
   order: EdgeOrder = 'worst';
   kind = 'all';
   chosen: string | null = null;
   /** What colours the edges; null: nothing. */
   colour: Measure | null = 'gap';
-  /** Counts what panels show. */
-  version = 0;
+  readonly lines = new EdgeLines(this.app.viewer);
 
-  private open = false;
-  private session = -1;
-  /** The document as it was saved to be measured, and how many shapes the session had had by then. */
-  private saved: Uint8Array | null = null;
-  private shapes = -1;
-  private took = Infinity;
-  private timer: ReturnType<typeof setTimeout> | undefined;
-  private run = {};
-  private readonly checker = new Checker(() => new Worker(new URL('../engine/check_worker.ts', import.meta.url), { type: 'module' }));
-  readonly lines: EdgeLines;
-
-  constructor(private readonly app: App) {
-    this.lines = new EdgeLines(app.viewer);
-    app.onChange.push(() => this.follow());
-    app.client.acts.onShapes = () => {
-      if (this.open) app.changed();
-    };
+  protected get found(): boolean {
+    return this.report !== null;
+  }
+  protected drop(): void {
+    this.report = this.worse = null;
+  }
+  protected override close(): void {
+    this.mark(null);
+  }
+  protected override leave(): void {
+    this.chosen = null;
+    this.lines.mark(null);
+    this.kind = 'all';
   }
 
-  private get fresh(): boolean {
-    return this.shapes === this.app.client.acts.shapes;
+  protected async find(stands: () => boolean): Promise<void> {
+    const report = await this.ask('check', requestOf(this.judging, this.app.viewer.unit), stands);
+    if (report) this.show(report);
   }
-
-  /** The shapes are others than those that were measured. */
-  get stale(): boolean {
-    return (this.report !== null || this.failed !== '') && !this.fresh;
-  }
-
-  set shown(open: boolean) {
-    if (open === this.open) return;
-    this.open = open;
-    if (!open) {
-      this.stop();
-      this.mark(null);
-      if (this.stale) this.forget();
-    }
-    this.draw();
-  }
-  get shown(): boolean {
-    return this.open;
-  }
-
-  /** What is under way is of no use any more. */
-  private stop(): void {
-    clearTimeout(this.timer);
-    this.timer = undefined;
-    this.busy = false;
-    this.run = {};
-    this.checker.end();
-  }
-
-  private forget(): void {
-    Object.assign(this, { report: null, worse: null, failed: '', saved: null, shapes: -1, took: Infinity });
-    ++this.version;
-    this.draw();
-  }
-
-  private tell(): void {
-    ++this.version;
-    this.draw();
-    this.app.changed();
-  }
-
-  private follow(): void {
-    const { app } = this;
-    if (this.session !== app.documents.sessions) {
-      this.session = app.documents.sessions;
-      this.stop();
-      this.chosen = null;
-      this.lines.mark(null);
-      this.kind = 'all';
-      this.forget();
-    }
-    if (!this.open || this.busy || this.timer !== undefined || !app.state) return;
-    const first = !this.report && !this.failed;
-    if (!first && !(this.stale && this.took < quick)) return;
-    const { shapes } = app.client.acts;
-    this.timer = setTimeout(() => {
-      this.timer = undefined;
-      if (!this.open) return;
-      if (app.hand.active || app.playing() || shapes !== app.client.acts.shapes) this.follow();
-      else void this.measure();
-    }, first ? 0 : rest);
-  }
-
-  /** Of the document as it is now. */
-  async measure(): Promise<void> {
-    const { app, checker, session } = this;
-    if (this.busy) this.stop();
-    this.busy = true;
-    this.failed = '';
-    const run = (this.run = {});
-    const stands = () => run === this.run && session === app.documents.sessions;
-    this.tell();
-    try {
-      if (!this.saved || !this.fresh) {
-        this.saved = null;
-        const { file } = await app.client.query('save').finally(() => stands() && (this.shapes = app.client.acts.shapes));
-        if (!stands()) return;
-        this.saved = file;
-      }
-      const saved = this.saved!;
-      const start = performance.now();
-      const name = app.documents.file?.kind === 'step' ? app.documents.file.name : app.documents.name;
-      const report = await checker.check(saved, name, requestOf(this.judging, app.viewer.unit));
-      if (!stands()) return;
-      this.took = performance.now() - start;
-      this.show(report);
-      const opened = app.state?.undo && report.edges.length > 0 ? await app.documents.opened() : null;
-      const worse = opened && (await checker.check(saved, name, requestAgainst(report, opened))).faults;
-      if (!stands()) return;
-      this.worse = worse;
-    } catch (error) {
-      if (!stands()) return;
-      this.report = this.worse = null;
-      const advice = error instanceof KneadError ? adviceOn(error.info) : { text: error instanceof Error ? error.message : String(error) };
-      this.failed = [advice.text, 'remedy' in advice ? advice.remedy : ''].filter(Boolean).join(' ');
-    }
-    this.busy = false;
-    this.tell();
+  protected override async findMore(stands: () => boolean): Promise<void> {
+    const { app, report } = this;
+    const opened = app.state?.undo && report!.edges.length > 0 ? await app.documents.opened() : null;
+    if (!opened || !stands()) return;
+    const check = await this.ask('check', requestAgainst(report!, opened), stands);
+    if (check) this.worse = check.faults;
   }
 
   private show(report: EdgeCheck): void {
@@ -198,13 +94,12 @@ export class EdgeCheckup {
     this.tell();
   }
 
-  private drawn: unknown[] = [];
-  private draw(): void {
+  protected get look(): unknown[] {
+    return [this.shown && this.report, this.colour];
+  }
+  protected paint(): void {
     const { report, colour, lines } = this;
-    const now = [this.open && report, colour];
-    if (now.every((x, k) => x === this.drawn[k])) return;
-    this.drawn = now;
-    if (!this.open || !report || !colour) return lines.show([]);
+    if (!this.shown || !report || !colour) return lines.show([]);
     const most = mostOf(report, colour);
     lines.show(report.edges.filter((e) => e.kind !== 'unknown').map((e) => {
       const share = shareOf(report, e, colour, most);

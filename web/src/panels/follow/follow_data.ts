@@ -1,14 +1,10 @@
 import type { DeviationRequest, MorphCommand } from '@knead/generated';
 import { byField, type DataFile, dataFile, type DataKind, textOf, withFile } from '../../document/data_files';
 import { blended, colourAt, type Deviations, deviationsOf, distancesAt, type Grid, placesAt, sampledAt, shortAbove, sorted, targetsOf } from '../../document/deviations';
-import { adviceOn } from '../../document/words';
-import { Checker } from '../../engine/checker';
-import { type Command, KneadError, type Picture } from '../../engine/session_types';
+import type { Command, Picture } from '../../engine/session_types';
 import { DataPoints } from '../../view/data_points';
-import type { App } from '../app';
+import { MeasuredBeside } from '../measured_beside';
 
-const quick = 1500; // milliseconds: what took no longer is compared again by itself …
-const rest = 1200; // … after so long without a change
 const leftOut = [0.5, 0.5, 0.5] as const; // the colour of points without a partner
 
 /** How data are understood. */
@@ -41,14 +37,12 @@ interface Followed {
 }
 
 /** Data that the faces of the document follow: compared with it beside the session, drawn in its views, followed by a command. */
-export class FollowData {
+export class FollowData extends MeasuredBeside {
   files: readonly DataFile[] = [];
   kind: DataKind = 'scan';
   settings = { ...usual };
   /** Of the document before it follows. */
   deviations: Deviations | null = null;
-  failed = '';
-  busy = false;
   morphing = false;
   /** Of the displacements. */
   scale = 1;
@@ -57,38 +51,21 @@ export class FollowData {
   /** Where the colours end; null: at 95 % of the points. */
   limit: number | null = null;
   followed: Followed | null = null;
-  /** Counts what panels show. */
-  version = 0;
   /** Opens the panel. */
   reveal: () => void = () => {};
 
   private most = 0; // the usual end of the colours
-  private open = false;
-  private session = -1;
   private deaths = 0;
-  private shapes = -1;
-  private took = Infinity;
-  private timer: ReturnType<typeof setTimeout> | undefined;
-  private run = {};
-  private readonly checker = new Checker(() => new Worker(new URL('../../engine/check_worker.ts', import.meta.url), { type: 'module' }));
-  private readonly points: DataPoints;
+  private readonly points = new DataPoints(this.app.viewer);
 
-  constructor(private readonly app: App) {
-    this.points = new DataPoints(app.viewer);
-    app.onChange.push(() => this.keepUp());
-    const { acts } = app.client, told = acts.onShapes;
-    acts.onShapes = () => {
-      told();
-      if (this.open) app.changed();
-    };
+  protected get found(): boolean {
+    return this.deviations !== null;
   }
-
-  get fresh(): boolean {
-    return this.shapes === this.app.client.acts.shapes;
+  protected override get ready(): boolean {
+    return !this.morphing && this.files.length > 0 && !this.waits;
   }
-  /** The shapes are others than those that were compared. */
-  get stale(): boolean {
-    return (this.deviations !== null || this.failed !== '') && !this.fresh && !this.done;
+  override get stale(): boolean {
+    return super.stale && !this.done;
   }
   /** The document has followed the data, and is as it was then. */
   get done(): Followed | null {
@@ -99,56 +76,14 @@ export class FollowData {
     return this.files.length > 0 && byField(this.files, this.kind, (b) => b) === null;
   }
 
-  set shown(open: boolean) {
-    if (open === this.open) return;
-    this.open = open;
-    if (!open) this.stop();
-    this.draw();
+  protected drop(): void {
+    Object.assign(this, { deviations: null, followed: null, part: 1 });
   }
-  get shown(): boolean {
-    return this.open;
-  }
-
-  private stop(): void {
-    clearTimeout(this.timer);
-    this.timer = undefined;
-    this.busy = false;
-    this.run = {};
-    this.checker.end();
-  }
-
-  private forget(): void {
-    Object.assign(this, { deviations: null, failed: '', shapes: -1, took: Infinity, followed: null, part: 1 });
-  }
-
-  private tell(): void {
-    ++this.version;
-    this.draw();
-    this.app.changed();
-  }
-
-  private keepUp(): void {
-    const { app } = this;
-    if (this.session !== app.documents.sessions) {
-      this.session = app.documents.sessions;
-      this.stop();
-      this.forget();
-      // Where the engine has stopped, the session is the same one in another engine: the data stay.
-      if (this.deaths === app.client.deaths) Object.assign(this, { files: [], scale: 1, limit: null, settings: { ...usual } });
-      this.deaths = app.client.deaths;
-      ++this.version;
-    }
-    this.draw(); // frames draw the faces where they are
-    if (!this.open || this.busy || this.morphing || this.timer !== undefined || this.files.length === 0 || this.waits || !app.state) return;
-    const first = !this.deviations && !this.failed;
-    if (!first && !(this.stale && this.took < quick)) return;
-    const { shapes } = app.client.acts;
-    this.timer = setTimeout(() => {
-      this.timer = undefined;
-      if (!this.open) return;
-      if (app.hand.active || app.playing() || shapes !== app.client.acts.shapes) this.keepUp();
-      else void this.compare();
-    }, first ? 0 : rest);
+  protected override leave(): void {
+    const { deaths } = this.app.client;
+    // Where the engine has stopped, the session is the same one in another engine: the data stay.
+    if (this.deaths === deaths) Object.assign(this, { files: [], scale: 1, limit: null, settings: { ...usual } });
+    this.deaths = deaths;
   }
 
   /** A file of data, dropped or chosen. */
@@ -180,12 +115,6 @@ export class FollowData {
     this.tell();
   }
 
-  private again(): void {
-    this.stop();
-    this.forget();
-    this.tell();
-  }
-
   private get asked(): Omit<DeviationRequest, 'scan' | 'vectors' | 'from' | 'to'> {
     const { align, reach, unit, normal, field, columns, place } = this.settings;
     const list = (text: string) => text.split(/[,;]/).map((name) => name.trim());
@@ -195,46 +124,17 @@ export class FollowData {
     };
   }
 
-  /** What the engine answers of the document as it is now; null if that is of no use any more. */
-  private async ask(request: DeviationRequest): Promise<Deviations | null> {
-    const { app, session } = this;
-    const run = (this.run = {});
-    const stands = () => run === this.run && session === app.documents.sessions;
-    try {
-      const { file } = await app.client.query('save').finally(() => stands() && (this.shapes = app.client.acts.shapes));
-      if (!stands()) return null;
-      const name = app.documents.file?.kind === 'step' ? app.documents.file.name : app.documents.name;
-      const answer = await this.checker.ask('deviation', file, name, request);
-      return stands() ? deviationsOf(answer) : null;
-    } catch (error) {
-      if (!stands()) return null;
-      throw error;
-    }
-  }
-
-  /** Of the document as it is now. */
-  async compare(): Promise<void> {
-    const data = byField(this.files, this.kind, (bytes) => bytes);
-    if (!data) return;
-    if (this.busy) this.stop();
-    this.busy = true;
-    this.failed = '';
+  override async measure(): Promise<void> {
+    if (!this.ready) return;
     this.followed = null;
     this.part = 1;
-    this.tell();
-    const start = performance.now();
-    try {
-      const found = await this.ask({ ...data, ...this.asked });
-      if (!found) return;
-      this.deviations = found;
-      this.most = shortAbove(found.info.deviation.of_95);
-      this.took = performance.now() - start;
-    } catch (error) {
-      this.deviations = null;
-      this.failed = wordsOf(error);
-    }
-    this.busy = false;
-    this.tell();
+    await super.measure();
+  }
+  protected async find(stands: () => boolean): Promise<void> {
+    const answer = await this.ask('deviation', { ...byField(this.files, this.kind, (bytes) => bytes), ...this.asked }, stands);
+    if (!answer) return;
+    this.deviations = deviationsOf(answer);
+    this.most = shortAbove(answer.deviation.of_95);
   }
 
   /** The faces follow: one entry of the history. At another scale than before the last one is taken back. */
@@ -255,7 +155,7 @@ export class FollowData {
     const command: MorphCommand = { do: 'morph', ...data, ...this.asked, ...(noise === null ? {} : { noise }), ...(scale === 1 ? {} : { scale }) };
     const ended = await app.execute([command as Command]);
     this.followed = ended && { scale, shapes: app.client.acts.shapes, before, left: null };
-    if (!ended) this.shapes = app.client.acts.shapes; // what was taken back is the document that was compared
+    if (!ended) this.refresh(); // what was taken back is the document that was compared
     this.part = 1;
     if (this.followed) await app.attempt(() => this.complete(this.followed!, deviations));
     this.morphing = false;
@@ -293,8 +193,8 @@ export class FollowData {
     this.tell();
     const { text, numbers } = targetsOf(of, followed.scale);
     const { place } = this.asked;
-    const later = await this.ask({ scan: new TextEncoder().encode(text), reach: of.info.reach, ...(place ? { place } : {}) });
-    if (later) followed.left = sorted(later, numbers, of.states.length);
+    const later = await this.ask('deviation', { scan: new TextEncoder().encode(text), reach: of.info.reach, ...(place ? { place } : {}) });
+    if (later) followed.left = sorted(deviationsOf(later), numbers, of.states.length);
   }
 
   /** Of the points with a partner, as they are shown; NaN of the others. */
@@ -309,15 +209,17 @@ export class FollowData {
     return this.limit ?? (this.deviations ? this.most : 0);
   }
 
-  private drawn: unknown[] = [];
-  private draw(): void {
-    this.blend();
+  protected override draw(): void {
+    this.blend(); // frames draw the faces where they are
+    super.draw();
+  }
+  protected get look(): unknown[] {
     const { deviations, scale, part, ends, done } = this;
-    const visible = this.open && deviations !== null && this.files.length > 0;
-    const now = [visible && deviations, scale, part, ends, done?.left, this.app.viewer.origin.join()];
-    if (now.every((x, k) => x === this.drawn[k])) return;
-    this.drawn = now;
-    if (!visible) return this.points.show(null);
+    return [this.shown && this.files.length > 0 && deviations, scale, part, ends, done?.left, this.app.viewer.origin.join()];
+  }
+  protected paint(): void {
+    const { deviations, scale, ends } = this;
+    if (!this.shown || this.files.length === 0 || !deviations) return this.points.show(null);
     const distances = this.distances;
     const colours = new Float32Array(3 * distances.length);
     distances.forEach((d, k) => colours.set(Number.isNaN(d) ? leftOut : colourAt(d, ends), 3 * k));
@@ -333,7 +235,7 @@ export class FollowData {
     const { app, done } = this;
     const { frame } = app;
     const share = done ? (this.part * this.scale) / done.scale : 1;
-    const away = this.open && done !== null && share !== 1 ? [frame, share, done.before.size] : null;
+    const away = this.shown && done !== null && share !== 1 ? [frame, share, done.before.size] : null;
     if (!frame || away?.every((x, k) => x === this.blends?.[k]) || (!away && !this.blends)) return;
     this.blends = away;
     frame.pictures.forEach((picture, k) => {
@@ -346,10 +248,4 @@ export class FollowData {
     });
     app.viewer.redraw();
   }
-}
-
-function wordsOf(error: unknown): string {
-  if (!(error instanceof KneadError)) return error instanceof Error ? error.message : String(error);
-  const { text, remedy } = adviceOn(error.info);
-  return [text, remedy].filter(Boolean).join(' ');
 }

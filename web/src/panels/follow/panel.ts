@@ -44,7 +44,7 @@ function followPanel(app: App, following: FollowData): HTMLDetailsElement {
   const element = panel(app, 'Follow data', key, () => [
     live,
     row(h('button', { class: 'button small', type: 'button', disabled: following.morphing, onclick: () => picker.click() }, following.waits ? 'Choose the mesh after …' : 'Choose data …'),
-      following.stale || following.failed ? h('button', { class: 'button small', type: 'button', disabled: following.busy, onclick: () => void following.compare() }, 'Compare again') : null),
+      following.stale || following.failed ? h('button', { class: 'button small', type: 'button', disabled: following.busy, onclick: () => void following.measure() }, 'Compare again') : null),
     picker,
     ...(following.files.length > 0 ? dataFields(app, following) : []),
     ...(following.deviations ? [figures, ...followFields(app, following, element)] : []),
