@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "describe/text.hpp"
+#include "knead/exchange/morph.hpp"
 #include "queries.hpp"
 #include "session/commands.hpp"
 
@@ -60,6 +61,13 @@ void declare_commands(TypeScript& types) {
       "/** Of each command the field that may stand alone; empty: it has none. */\nexport const "
       "firstFields = {\n" +
       table + "} as const;\n\n";
+  std::string phases;
+  for (const std::string_view phase : morph_phases)
+    phases += fmt::format("{}'{}'", phases.empty() ? "" : ", ", phase);
+  types.text +=
+      "/** What `morph` does, in this order; each has as many of the steps that it tells of. */\n"
+      "export const morphPhases = [" +
+      phases + "] as const;\n\n";
 }
 
 void declare_queries(TypeScript& types) {

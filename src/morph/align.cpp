@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/decompositions.hpp"
+#include "base/interruption.hpp"
 #include "base/parallel_for.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "robust_weights.hpp"
@@ -290,6 +291,7 @@ Expected<Alignment> align(const Scan& scan, const VisibleSearch& search,
   std::ranges::stable_sort(found, {}, &Start::rms);
   std::optional<Start> best;
   for (std::size_t k = 0; k < std::min(finalists, found.size()); ++k) {
+    if (Interruption::asked_for()) return interrupted_error();
     const auto start = settled(found[k].motion, few, short_run, search, surfaces, size);
     if (!start) return std::unexpected(start.error());
     if (!best || start->rms < best->rms) best = *start;

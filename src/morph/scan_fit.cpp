@@ -240,6 +240,8 @@ Expected<ScanFit> fit_scan(const Scan& scan, std::span<const FitSurface> surface
   if (auto right = settings.check ? settings.check(*data) : Expected<void>(); !right)
     return std::unexpected(right.error());
   for (;;) {
+    if (auto on = settings.told ? settings.told(result.turns, most_turns) : Expected<void>(); !on)
+      return std::unexpected(on.error());
     // Feet are as wrong as the model is off: what is followed more closely at first is not there.
     const double coarseness =
         result.noise > 0 ? std::max(1.0, approach * data->rms / result.noise) : 1;

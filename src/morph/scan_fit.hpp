@@ -22,6 +22,8 @@ struct ScanSettings {
   bool along_normal = false;
   /// Asked of the partners on the model as given, before anything is fitted.
   std::function<Expected<void>(const ScanPartners&)> check = {};
+  /// Told before each turn how many have been made, of how many at most. An error ends the fit.
+  std::function<Expected<void>(int, int)> told = {};
 };
 
 /// What has become of a point of a scan.

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "knead/brep/edge_measures.hpp"
 #include "session/queries/morph.hpp"
 #include "session/running.hpp"
@@ -138,6 +141,60 @@ TEST(MorphCommand, ErrorsNameTheField) {
     EXPECT_EQ(status.error().kind, ErrorKind::input) << status.error().message();
     EXPECT_NE(status.error().message().find(field), std::string::npos) << status.error().message();
     EXPECT_FALSE(session.can_undo());
+  }
+}
+
+/// A scan of the bulge, in which its edges lie.
+std::string scan_of_bulge() {
+  std::string points;
+  for (int i = 0; i <= 40; ++i) {
+    for (int j = 0; j <= 20; ++j) {
+      const double x = i / 20.0, y = j / 20.0;
+      points += fmt::format("{} {} {}\\n", x, y, 0.1 * std::sin(3 * x) * y);
+    }
+  }
+  return R"({"do":"morph","reach":1,"noise":0.001,"scan":")" + points + "\"}";
+}
+
+TEST(MorphCommand, TellsItsPhasesAndEndsWhereItIsStopped) {
+  for (const std::string& text : {bulge, scan_of_bulge()}) {
+    const auto command = parse_command(text);
+    ASSERT_TRUE(command) << command.error().message();
+    std::vector<int> told;
+    long long asked = 0;
+    Session whole = opened(two_sheets());
+    const auto status = whole.execute(
+        *command,
+        [&](int done, int of) {
+          EXPECT_EQ(of, 48);
+          told.push_back(done);
+          return true;
+        },
+        [&] { return ++asked > 0; });
+    ASSERT_TRUE(status) << status.error().message();
+    EXPECT_TRUE(std::ranges::is_sorted(told));
+    for (const int phase : {0, 8, 16, 24, 32, 40}) EXPECT_TRUE(std::ranges::count(told, phase) > 0);
+    // Turns of the scan.
+    EXPECT_EQ(std::ranges::count_if(told, [](int k) { return k > 16 && k < 24; }) > 0,
+              text != bulge);
+    EXPECT_GT(asked, 20);
+    for (const double share : {0.0, 0.3, 0.6, 0.95}) {
+      const auto until = static_cast<long long>(share * static_cast<double>(asked));
+      const auto parts = static_cast<int>(share * static_cast<double>(told.size()));
+      long long again = 0;
+      int count = 0;
+      Session session = opened(two_sheets());
+      const auto ended = session.execute(*command, {}, [&] { return again++ < until; });
+      ASSERT_FALSE(ended) << share;
+      EXPECT_NE(ended.error().what.find("stopped"), std::string::npos) << ended.error().message();
+      EXPECT_EQ(again, until + 1) << "nobody asks again";
+      const auto refused = session.execute(*command, [&](int, int) { return count++ < parts; });
+      ASSERT_FALSE(refused) << share;
+      EXPECT_NE(refused.error().what.find("stopped"), std::string::npos);
+      EXPECT_EQ(count, parts + 1);
+      EXPECT_FALSE(session.can_undo());
+      EXPECT_EQ(*session.save(), two_sheets().text);
+    }
   }
 }
 

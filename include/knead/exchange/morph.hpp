@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -175,6 +176,14 @@ struct MorphedFile {
   std::vector<MorphedPoint> points = {};
 };
 
+/// What `morph_file` does, in this order.
+inline constexpr std::array<std::string_view, 6> morph_phases = {
+    "Preparing the model",  "Seeking partners on the faces", "Fitting the faces",
+    "Measuring deviations", "Writing faces and edges",       "Checking edges"};
+
+/// Told how many parts are done, of how many; each phase has as many of them. An error ends it.
+using MorphTold = std::function<Expected<void>(int, int)>;
+
 /// Moves the faces of a file so that they follow data, with every edge and vertex written anew, and
 /// everything else as it was. Every point of the data stands for its nearest visible point; one
 /// least-squares fit moves all surfaces together (docs/morph.md). Planes and other forms become
@@ -187,10 +196,12 @@ struct MorphedFile {
 /// Errors (input): a file without B-spline surfaces; not one kind of data; those of the readers; no
 /// point within reach of a face; the boxes of data and model differ by more than five times, and no
 /// unit was said; an id that is neither a face nor a surface; a part in several places that has
-/// data; (numerical) those of the fit. Cost: a minute or less for a thousand faces.
+/// data; (numerical) those of the fit; those of `told`, and of an `Interruption`. Cost: a minute or
+/// less for a thousand faces.
 [[nodiscard]] Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source,
                                                const MorphData& data,
-                                               const MorphSettings& settings = {});
+                                               const MorphSettings& settings = {},
+                                               const MorphTold& told = {});
 
 /// A report as JSON, over several lines, and the schema of that.
 [[nodiscard]] std::string morph_json(const MorphReport& report);

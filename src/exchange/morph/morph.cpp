@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/interruption.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/brep/edge_measures.hpp"
 #include "knead/exchange/format.hpp"
@@ -244,18 +245,49 @@ Expected<brep::ModelMeasures> measures_after(const std::string& bytes, const Sou
   return brep::measure_edges(*(*opened)->model());
 }
 
+/// Tells of phases and their parts, and measures their times.
+class Progress {
+ public:
+  explicit Progress(const MorphTold& told) : told_(told) {}
+
+  /// Another phase begins. \param spent of time by what was before
+  Expected<void> next(double& spent) {
+    spent = lap();
+    return tell(++phase_ * parts);
+  }
+  /// Seconds since another phase began, or since this was called.
+  double lap() { return watch_.lap(); }
+  /// So much of the present one is done.
+  MorphTold within() {
+    return [this](int done, int of) { return tell(phase_ * parts + done * parts / of); };
+  }
+
+ private:
+  static constexpr int parts = 8;  // as many as a scan has turns
+
+  Expected<void> tell(int done) const {
+    if (Interruption::asked_for()) return interrupted_error();
+    return told_ ? told_(done, parts * static_cast<int>(morph_phases.size())) : Expected<void>();
+  }
+
+  const MorphTold& told_;
+  Stopwatch watch_;
+  int phase_ = 0;
+};
+
 }  // namespace
 
 Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source, const MorphData& data,
-                                 const MorphSettings& settings) {
-  return detail::morph_file(source, data, settings, {});
+                                 const MorphSettings& settings, const MorphTold& told) {
+  return detail::morph_file(source, data, settings, {}, told);
 }
 
 Expected<MorphedFile> detail::morph_file(const std::shared_ptr<const Source>& source,
                                          const MorphData& data, const MorphSettings& settings,
-                                         const MorphHolds& holds) {
+                                         const MorphHolds& holds, const MorphTold& told) {
   if (auto right = detail::check_settings(settings); !right) return std::unexpected(right.error());
-  Stopwatch watch;
+  Progress progress(told);
+  if (auto on = progress.within()(0, 1); !on) return std::unexpected(on.error());
   MorphedFile result;
   MorphReport& report = result.report;
   describe_task(*source, data, settings, report);
@@ -267,12 +299,11 @@ Expected<MorphedFile> detail::morph_file(const std::shared_ptr<const Source>& so
   auto model = detail::moving_model(source, settings, holds);
   if (!model) return std::unexpected(model.error());
   report.unit = model->unit();
-  report.time_model = watch.lap();
-
+  if (auto on = progress.next(report.time_model); !on) return std::unexpected(on.error());
   auto points = detail::points_of(*model, data, settings);
   if (!points) return std::unexpected(points.error());
   describe_points(*points, report);
-  report.time_data = watch.lap();
+  report.time_data = progress.lap();
   if (settings.scale == 0) {
     result.bytes = *std::move(opened);
     report.bytes_after = report.bytes_before;
@@ -281,27 +312,26 @@ Expected<MorphedFile> detail::morph_file(const std::shared_ptr<const Source>& so
 
   const auto before = brep::measure_edges(*source->model());
   if (!before) return std::unexpected(before.error());
-  report.time_check = watch.lap();
   report.tolerance = settings.tolerance.value_or(1e-5 * points->size);
-  auto fit = points->scan ? detail::follow_scan(*model, settings, *points, report)
-                          : morph::fit_surfaces(model->placed, model->edges, points->found.data,
-                                                {.tolerance = report.tolerance,
-                                                 .noise = noise_of(settings),
-                                                 .allowed_parting = allowed_parting(*before),
-                                                 .refinement = settings.refinement});
+  if (auto on = progress.next(report.time_check); !on) return std::unexpected(on.error());
+  auto fit = points->scan
+                 ? detail::follow_scan(*model, settings, *points, report, progress.within())
+                 : morph::fit_surfaces(model->placed, model->edges, points->found.data,
+                                       {.tolerance = report.tolerance,
+                                        .noise = noise_of(settings),
+                                        .allowed_parting = allowed_parting(*before),
+                                        .refinement = settings.refinement});
   if (!fit) return std::unexpected(fit.error());
   if (points->scan) describe_points(*points, report);
   describe_fit(*model, *fit, report);
-  report.time_fit = watch.lap();
-
+  if (auto on = progress.next(report.time_fit); !on) return std::unexpected(on.error());
   const auto between = detail::points_between(*model, data, settings);
   if (!between) return std::unexpected(between.error());
   if (auto added =
           detail::add_deviations(*model, points->found.data, *between, fit->surfaces, result);
       !added)
     return std::unexpected(added.error());
-  report.time_deviation = watch.lap();
-
+  if (auto on = progress.next(report.time_deviation); !on) return std::unexpected(on.error());
   result.edges = moving_edges(*model);
   auto bytes = saved(*model, std::move(fit->surfaces), result.edges);
   if (!bytes) return std::unexpected(bytes.error());
@@ -310,13 +340,12 @@ Expected<MorphedFile> detail::morph_file(const std::shared_ptr<const Source>& so
   report.converted = std::move(model->converted);
   report.fixed = std::move(model->fixed);
   report.unknown_edges = std::move(model->unknown_edges);
-  report.time_save = watch.lap();
-
+  if (auto on = progress.next(report.time_save); !on) return std::unexpected(on.error());
   const auto after = measures_after(result.bytes, *source);
   if (!after) return std::unexpected(after.error());
   if (auto right = check_edges(*model, *before, *after, report); !right)
     return std::unexpected(right.error());
-  report.time_check += watch.lap();
+  report.time_check += progress.lap();
   return result;
 }
 

@@ -248,8 +248,10 @@ MorphAlignment as_reported(const morph::Alignment& alignment) {
 }
 
 Expected<morph::FitResult> follow_scan(const MovingModel& model, const MorphSettings& settings,
-                                       MorphPoints& points, MorphReport& report) {
+                                       MorphPoints& points, MorphReport& report,
+                                       const MorphTold& told) {
   auto with = scan_settings(settings, points);
+  with.told = told;
   with.check = [&](const morph::ScanPartners& first) {
     return check_partners(model, points, first);
   };

@@ -34,10 +34,11 @@ struct MorphPoints {
 
 /// Fits a model to `points.scan`, and makes `points.found` the data that were followed at last, and
 /// the report on the scan. Errors: no point has a partner; a part in
-/// several places that has data (input); those of `fit_scan`.
+/// several places that has data (input); those of `fit_scan` and of `told`, the turns.
 [[nodiscard]] Expected<morph::FitResult> follow_scan(const MovingModel& model,
                                                      const MorphSettings& settings,
-                                                     MorphPoints& points, MorphReport& report);
+                                                     MorphPoints& points, MorphReport& report,
+                                                     const MorphTold& told);
 
 /// The points that they are about. Errors: those of `morph_file`.
 [[nodiscard]] Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,

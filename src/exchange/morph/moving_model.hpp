@@ -43,7 +43,7 @@ using MorphHolds = std::map<std::string, std::shared_ptr<const morph::SurfaceHol
 /// `morph_file` with what surfaces keep beside `MorphSettings::keep`.
 [[nodiscard]] Expected<MorphedFile> morph_file(const std::shared_ptr<const Source>& source,
                                                const MorphData& data, const MorphSettings& settings,
-                                               const MorphHolds& holds);
+                                               const MorphHolds& holds, const MorphTold& told);
 
 /// Converts what is to move, follows the visible parts of all surfaces and all edges, by threads.
 /// Errors: those of `morph_file`.

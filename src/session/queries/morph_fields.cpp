@@ -94,12 +94,12 @@ MorphData data_of(const AskedData& asked, const std::string& space) {
 }
 
 Expected<MorphedFile> follow_data(const std::shared_ptr<const Source>& source, MorphData data,
-                                  const MorphRequest& request) {
+                                  const MorphRequest& request, const MorphTold& told) {
   data.space = request.space;
   if (auto right = check_kinds(data); !right) return std::unexpected(std::move(right.error()));
   MorphSettings settings = request.settings;
   settings.along_normal = request.along.has_value();
-  auto morphed = detail::morph_file(source, data, settings, request.holds);
+  auto morphed = detail::morph_file(source, data, settings, request.holds, told);
   if (!morphed) {
     Error error = std::move(morphed.error());
     if (error.where == "refinement") error.where = "refine";

@@ -42,6 +42,7 @@ void describe_following(MorphRequest& request, Fields& fields);
 /// `morph_file` of a file by one kind of data. Errors: (usage) not one kind of data; (numerical)
 /// something above what was wanted, if `strict`; those of `morph_file`.
 [[nodiscard]] Expected<MorphedFile> follow_data(const std::shared_ptr<const Source>& source,
-                                                MorphData data, const MorphRequest& request);
+                                                MorphData data, const MorphRequest& request,
+                                                const MorphTold& told = {});
 
 }  // namespace knead
