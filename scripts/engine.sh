@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh studio
 scripts/configure.sh wasm
 cmake --build build/wasm --target knead_studio knead_types "$@"
-node web/scripts/types.mjs build/wasm/bindings/wasm/knead_types.wasm bindings/npm/src/generated.ts
+node web/scripts/types.mjs build/wasm/bindings/wasm/knead_types.wasm bindings/npm/src/generated.ts web/src/panels/help/generated.ts
 
 cd web
 # What the lock file names, and again only when it changes.

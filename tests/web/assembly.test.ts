@@ -5,7 +5,7 @@ import * as THREE from 'three';
 
 import { cannotFollow, type MeasuredPoint } from '@studio/document/readings';
 import { Engine } from '@knead/engine';
-import { type AssemblyNode, assemblyTree } from '@studio/panels/assembly_tree';
+import { type AssemblyNode, assemblyTree, placeNames } from '@studio/panels/assembly_tree';
 import { inModel } from '@studio/tools/measure';
 import { ContextView } from '@studio/view/context_view';
 import { boxOf, type DrawnBody, drawnBodies, nearestChord } from '@studio/view/near';
@@ -15,7 +15,7 @@ import { mostDrawn, placedPoints, Placing, planeOf, still } from '@studio/view/p
 import { cutOfPicture } from '@studio/view/section_lines';
 import { nearestOn, scenePoint } from '@studio/view/surface_pick';
 
-import { assemblyStep } from './assembly_step';
+import { assemblyStep, nestedStep } from './assembly_step';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const wasm = readFileSync(here('../../web/src/engine/knead_studio.wasm'));
@@ -179,6 +179,21 @@ describe('parts of an assembly', () => {
     const many = new Placing();
     many.open({ ...all, parts: [{ ...all.parts[0]!, places: Array.from({ length: mostDrawn + 7 }, () => all.parts[0]!.places[0]!) }] }, engine.query('origin'));
     expect([many.of(plate).length, many.left]).toEqual([mostDrawn, 7]);
+  });
+
+  it('have names for their places, as commands do', async () => {
+    const nested = await Engine.load(wasm);
+    nested.query('open', { file: nestedStep(), name: 'door.step' });
+    const pin = nested.query('assembly')!.parts.find(({ name }) => name === 'pin')!;
+    const names = placeNames(pin);
+    expect(new Set(names).size).toBe(7);
+    names.forEach((name, k) => {
+      const [x, y] = [3, 7].map((d) => pin.places[k]!.matrix[d]!) as [number, number];
+      const scan = new TextEncoder().encode(Array.from({ length: 25 }, (_, l) => `${(l % 5) - 2 + x} ${Math.floor(l / 5) - 2 + y} 0.1`).join('\n'));
+      expect(nested.query('deviation', { scan, unit: 'mm', place: [name] }).used).toBe(25);
+      expect(() => nested.query('deviation', { scan, unit: 'mm', place: [names[(k + 1) % 7]!] })).toThrow(/none of 25 points/);
+    });
+    expect(placeNames({ ...pin, places: ['a', 'b', 'a', 'a'].map((path) => ({ path, matrix: [] })) })).toEqual(['a', 'b', 'a:2', 'a:3']);
   });
 });
 

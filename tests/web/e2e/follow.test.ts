@@ -2,6 +2,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
+import { nestedStep } from '../assembly_step';
 import { commands, directoryOfFile, engineOf, execute, handled, native, openFile, question, root, saveAs, scene, settled, studioOfFile } from './page';
 
 /** Data that the faces follow: dropped, aligned, seen as colours, followed, compared with before, checked and saved. */
@@ -15,8 +16,10 @@ const panel = () => studio.page.locator('.panel[data-panel="Follow data"]');
 const status = () => panel().locator('.verdict');
 const state = () => status().getAttribute('data-state');
 const choose = (name: string, value: string) => panel().locator(`select[aria-label="${name}"]`).selectOption(value);
+const openMore = () => panel().locator('details.more').evaluateAll((all) => all.forEach((e) => ((e as HTMLDetailsElement).open = true)));
 const fill = async (name: string, value: string) => {
   const field = panel().locator(`input[aria-label="${name}"]`);
+  await openMore();
   await field.fill(value);
   await field.blur();
 };
@@ -238,6 +241,57 @@ it('opens a document and its data that are dropped together', async () => {
   await expect.poll(() => status().textContent(), { timeout: 60_000 }).toMatch(/few\.xyz|cannot be compared/);
 });
 
+it('offers the places of a part, and takes the data for those of one', async () => {
+  const { page } = studio;
+  const path = join(directory, 'door.step');
+  writeFileSync(path, nestedStep());
+  await openFile(page, path);
+  const about = (x: number, y: number) => lines(Array.from({ length: 81 }, (_, k) => [(k % 9) - 4 + x, Math.floor(k / 9) - 4 + y, 0.1]));
+  await drop(['pin.xyz', about(20, 0)]);
+  await choose('Unit of the data', 'mm');
+  await expect.poll(() => status().textContent(), { timeout: 60_000 }).toContain('stands in 7 places');
+  expect(await status().textContent()).toContain('“Place”');
+  expect(await panel().locator('select[aria-label^="Place of"]').count()).toBe(2);
+  const place = panel().locator('select[aria-label="Place of pin"]');
+  const names = await place.locator('option').allTextContents();
+  expect(names.length).toBe(8);
+  await place.selectOption('door/pin');
+  await expect.poll(() => status().textContent(), { timeout: 60_000 }).toContain('None of 81 points');
+  await drop(['pin.xyz', about(0, 40)]);
+  await expect.poll(() => status().textContent(), { timeout: 60_000 }).toContain('81 of 81 points compared');
+  expect(await place.inputValue()).toBe('door/pin');
+  expect((await figures())[1]).toBeCloseTo(0.1, 6);
+});
+
+it('has further settings, told by the engine', async () => {
+  const { page } = studio;
+  await openFile(page, bonnet);
+  const rows = (await pointsOn(bonnet, 100)).map(([x, y, z]) => [x, y, z, 0, 0, 8 * Math.sin(x / 400) * Math.cos(y / 300)]);
+  await drop(['springback.txt', lines(rows)]);
+  await expect.poll(state, { timeout: 60_000 }).toBe('compared');
+  const tolerance = panel().locator('input[aria-label="Tolerance"]');
+  const more = panel().locator('details.more');
+  if ((await more.getAttribute('open')) === null) await more.locator('summary').click();
+  expect(await panel().locator('.field', { has: page.locator('input[aria-label="Tolerance"]') }).getAttribute('title')).toBe("Largest residual wanted, in the file's unit");
+  await fill('Tolerance', '0.02 mm');
+  await fill('Finer up to, times', '4');
+  expect(await state()).toBe('compared'); // these change nothing of it
+  await fill('Finer up to, times', '0.5');
+  expect(await panel().locator('.refusal').textContent()).toContain('from 1 to 1000');
+  await fill('Finer up to, times', '4');
+  await execute(page, { do: 'select', surface: '#285' });
+  await panel().locator('button[aria-label="Fixed faces: those that are selected"]').click();
+  await expect.poll(() => panel().locator('[data-faces=keep]').textContent()).not.toBe('None');
+  await expect.poll(state, { timeout: 60_000 }).toBe('compared');
+  expect(await tolerance.isVisible()).toBe(true);
+  expect(await panel().locator('[data-faces=faces]').textContent()).toBe('All');
+  await button('Morph').click();
+  await expect.poll(state, { timeout: 120_000 }).toBe('followed');
+  expect((await commands(page)).at(-1)).toMatchObject({ do: 'morph', tolerance: 0.02, refine: 4, keep: ['#285'] });
+  await panel().locator('button[aria-label="Fixed faces: none"]').click();
+  await expect.poll(() => panel().locator('[data-faces=keep]').textContent()).toBe('None');
+});
+
 it('takes a mesh before and after', async () => {
   const triangle = (dz: number) => `v 0 0 ${dz}\nv 100 0 ${dz}\nv 0 100 ${dz}\nv 100 100 ${dz}\nf 1 2 3\nf 2 4 3\n`;
   await scene(studio.page, 'Clay sheet');
@@ -255,6 +309,7 @@ it.each([[1440, 900], [1024, 768], [390, 844]])('fits a page of %i × %i', async
   const { page } = studio;
   await page.setViewportSize({ width, height });
   await settled(page);
+  await openMore();
   const parts = await panel().locator('button, select, input:not([hidden]), svg').all();
   expect(parts.length).toBeGreaterThan(8);
   for (const part of parts) {
@@ -284,6 +339,6 @@ it('is worked by keys, and has names for what is in it', async () => {
     const name = (await control.getAttribute('aria-label')) ?? (await control.textContent());
     expect(name?.trim(), await control.evaluate((e) => e.outerHTML)).toBeTruthy();
   }
-  await panel().locator('summary').click();
+  await panel().locator('summary').first().click();
   await expect.poll(points).toEqual({ count: 0, colours: 0 });
 });

@@ -102,7 +102,7 @@ function actionsFor(fixes: readonly Fix[]): Advice['actions'] {
 }
 
 /** Options of the program that are fields of a panel. */
-const options = ['unit', 'align', 'reach', 'noise'];
+const options = ['unit', 'align', 'reach', 'noise', 'place'];
 
 /** With the signs of a page instead of those of a terminal. */
 function typeset(text: string): string {

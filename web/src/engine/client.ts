@@ -26,6 +26,8 @@ export class Client {
   onDeath: (end: End) => void = () => {};
   /** So many steps of the command under way are done. */
   onProgress: (done: number, total: number) => void = () => {};
+  /** What the command under way does, one after the other: each is as many of its steps. None: they have no names. */
+  phases: readonly string[] = [];
   /** Of the present engine. */
   ready: Promise<void>;
   /** How many engines there were before; how many of these the user has stopped. */

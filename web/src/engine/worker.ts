@@ -90,13 +90,14 @@ function newToolPictures(engine: Engine, tools: readonly ToolInfo[]): Record<str
   return pictures;
 }
 
-const between = 200; // milliseconds from one report to the next
+const between = 200; // milliseconds from one report of many steps to the next
+const many = 100;
 let told = 0;
 
 /** How far the command is: from within it, while nothing else can be said. */
 function tellProgress(done: number, total: number): void {
   const now = performance.now();
-  if (now - told < between) return;
+  if (total > many && now - told < between) return;
   told = now;
   post({ kind: 'progress', done, total });
 }

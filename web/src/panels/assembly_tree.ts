@@ -1,4 +1,4 @@
-import type { Assembly } from '../engine/context';
+import type { Assembly, Part } from '../engine/context';
 
 /** A product of an assembly. Products of one name within the same one are one node, which counts them. */
 export interface AssemblyNode {
@@ -9,6 +9,16 @@ export interface AssemblyNode {
 }
 
 const node = (name: string): AssemblyNode => ({ name, within: new Map(), places: [] });
+
+/** The names of a part's places, as commands and `knead info` have them: those that are equal are counted from the second on. */
+export function placeNames({ places }: Part): string[] {
+  const known = new Map<string, number>();
+  return places.map(({ path }) => {
+    const count = (known.get(path) ?? 0) + 1;
+    known.set(path, count);
+    return count === 1 ? path : `${path}:${count}`;
+  });
+}
 
 /** The product tree, from the paths of all places. */
 export function assemblyTree({ parts }: Assembly): AssemblyNode {

@@ -20,7 +20,8 @@ export function busyBar(app: App): HTMLElement {
     element.hidden = !long;
     if (!long) return;
     const at = reported?.since === since ? reported : null; // not of a request before
-    text.textContent = at ? `Step ${at.done.toLocaleString('en')} of ${at.total.toLocaleString('en')}` : 'Working …';
+    const phase = at && client.phases[Math.floor((at.done * client.phases.length) / at.total)];
+    text.textContent = phase ? `${phase} …` : at ? `Step ${at.done.toLocaleString('en')} of ${at.total.toLocaleString('en')}` : 'Working …';
     if (at && at.total > 0) bar.value = at.done / at.total;
     else bar.removeAttribute('value');
   };

@@ -1,4 +1,4 @@
-import type { DeviationRequest, MorphCommand } from '@knead/generated';
+import { type DeviationRequest, type MorphCommand, morphPhases } from '@knead/generated';
 import { byField, type DataFile, dataFile, type DataKind, textOf, withFile } from '../../document/data_files';
 import { blended, colourAt, type Deviations, deviationsOf, distancesAt, type Grid, placesAt, sampledAt, shortAbove, sorted, targetsOf } from '../../document/deviations';
 import type { Command, Picture } from '../../engine/session_types';
@@ -13,17 +13,28 @@ export interface FollowSettings {
   /** Lengths of the file; null: what the engine takes. */
   reach: number | null;
   noise: number | null;
+  tolerance: number | null;
+  /** Times the control points, at most. */
+  refine: number | null;
+  /** Ids of surfaces: these alone move, none: all; these stay. */
+  faces: readonly string[];
+  keep: readonly string[];
   /** Of the data; empty: that of the file. */
   unit: string;
   /** Only the part of displacements along the normal. */
   normal: boolean;
-  /** Of VTK: the vector field; of CSV: six columns; of an assembly: which places the data are about. Empty: what the engine takes. */
+  /** Of VTK: the vector field; of CSV: six columns. Empty: what the engine takes. */
   field: string;
   columns: string;
-  place: string;
+  /** Of parts in several places, by their numbers: the one that the data are about; empty: nobody has said. */
+  place: Readonly<Record<number, string>>;
 }
 
-const usual: FollowSettings = { align: false, reach: null, noise: null, unit: '', normal: false, field: '', columns: '', place: '' };
+const usual: FollowSettings = {
+  align: false, reach: null, noise: null, tolerance: null, refine: null, faces: [], keep: [], unit: '', normal: false, field: '', columns: '', place: {},
+};
+/** How faces follow: the comparison is the same. */
+const later = ['noise', 'tolerance', 'refine'] as const;
 
 /** The document before and after it has followed the data. */
 interface Followed {
@@ -90,7 +101,7 @@ export class FollowData extends MeasuredBeside {
   async add(file: File): Promise<void> {
     const next = dataFile(file.name, new Uint8Array(await file.arrayBuffer()));
     Object.assign(this, withFile(this.files, this.kind, next), { limit: null, scale: 1 });
-    Object.assign(this.settings, { align: this.settings.align && this.kind === 'scan', field: '', columns: '', noise: null });
+    Object.assign(this.settings, { align: this.settings.align && this.kind === 'scan', field: '', columns: '', noise: null, tolerance: null });
     this.again();
     this.reveal();
   }
@@ -105,7 +116,7 @@ export class FollowData extends MeasuredBeside {
 
   set(change: Partial<FollowSettings>): void {
     Object.assign(this.settings, change);
-    if (Object.keys(change).some((name) => name !== 'noise')) this.again();
+    if (Object.keys(change).some((name) => !(later as readonly string[]).includes(name))) this.again();
     else this.tell();
   }
 
@@ -116,11 +127,12 @@ export class FollowData extends MeasuredBeside {
   }
 
   private get asked(): Omit<DeviationRequest, 'scan' | 'vectors' | 'from' | 'to'> {
-    const { align, reach, unit, normal, field, columns, place } = this.settings;
-    const list = (text: string) => text.split(/[,;]/).map((name) => name.trim());
+    const { align, reach, unit, normal, field, columns, faces, keep } = this.settings;
+    const place = Object.values(this.settings.place).filter(Boolean);
     return {
       ...(align ? { align } : {}), ...(reach === null ? {} : { reach }), ...(unit ? { unit } : {}), ...(normal ? { along: 'normal' as const } : {}),
-      ...(field ? { field } : {}), ...(columns ? { columns: list(columns) } : {}), ...(place ? { place: list(place) } : {}),
+      ...(field ? { field } : {}), ...(columns ? { columns: columns.split(/[,;]/).map((name) => name.trim()) } : {}),
+      ...(place.length > 0 ? { place } : {}), ...(faces.length > 0 ? { faces: [...faces] } : {}), ...(keep.length > 0 ? { keep: [...keep] } : {}),
     };
   }
 
@@ -151,9 +163,10 @@ export class FollowData extends MeasuredBeside {
       return this.tell();
     }
     const before = done?.before ?? this.grids();
-    const { noise } = this.settings;
-    const command: MorphCommand = { do: 'morph', ...data, ...this.asked, ...(noise === null ? {} : { noise }), ...(scale === 1 ? {} : { scale }) };
-    const ended = await app.execute([command as Command]);
+    const how = Object.fromEntries(later.flatMap((name) => (this.settings[name] === null ? [] : [[name, this.settings[name]]])));
+    const command: MorphCommand = { do: 'morph', ...data, ...this.asked, ...how, ...(scale === 1 ? {} : { scale }) };
+    app.client.phases = morphPhases;
+    const ended = await app.execute([command as Command]).finally(() => (app.client.phases = []));
     this.followed = ended && { scale, shapes: app.client.acts.shapes, before, left: null };
     if (!ended) this.refresh(); // what was taken back is the document that was compared
     this.part = 1;
@@ -192,9 +205,9 @@ export class FollowData extends MeasuredBeside {
     }
     this.tell();
     const { text, numbers } = targetsOf(of, followed.scale);
-    const { place } = this.asked;
-    const later = await this.ask('deviation', { scan: new TextEncoder().encode(text), reach: of.info.reach, ...(place ? { place } : {}) });
-    if (later) followed.left = sorted(deviationsOf(later), numbers, of.states.length);
+    const { place, faces, keep } = this.asked;
+    const after = await this.ask('deviation', { scan: new TextEncoder().encode(text), reach: of.info.reach, place, faces, keep });
+    if (after) followed.left = sorted(deviationsOf(after), numbers, of.states.length);
   }
 
   /** Of the points with a partner, as they are shown; NaN of the others. */

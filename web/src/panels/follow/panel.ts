@@ -1,8 +1,10 @@
 import { dataEndings, type DataKind } from '../../document/data_files';
 import { coverage, type Histogram, histogram, measuresOf, ramp } from '../../document/deviations';
-import { format, parseLength } from '../../document/units';
+import { format, parseLength, parseNumber } from '../../document/units';
 import type { App } from '../app';
-import { field, h, select, slider, toggle } from '../dom';
+import { placeNames } from '../assembly_tree';
+import { field, h, select, slider, title, toggle } from '../dom';
+import { morphHelp } from '../help/generated';
 import { FollowData } from './follow_data';
 import { deviationLegend } from './legend';
 import { numberInput } from '../number_input';
@@ -40,7 +42,7 @@ function followPanel(app: App, following: FollowData): HTMLDetailsElement {
   });
   const live = h('p', { class: 'note verdict', role: 'status', data: { state: '' } }), figures = h('div', { class: 'follow-figures' });
   const key = () => [following.files.map(({ name }) => name), following.kind, following.settings, following.deviations !== null, following.failed, following.busy,
-    following.morphing, following.waits, following.stale, following.done?.scale, following.done?.left != null, app.viewer.unit];
+    following.morphing, following.waits, following.stale, following.done?.scale, following.done?.left != null, app.viewer.unit, selectedFaces(app)];
   const element = panel(app, 'Follow data', key, () => [
     live,
     row(h('button', { class: 'button small', type: 'button', disabled: following.morphing, onclick: () => picker.click() }, following.waits ? 'Choose the mesh after …' : 'Choose data …'),
@@ -103,29 +105,75 @@ function named(label: string, value: string, placeholder: string, change: (value
   return input;
 }
 
-/** What the data are. */
+const said = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+let more = false; // the further fields are open
+
+/** What the data are, and how the faces follow them. */
 function dataFields(app: App, following: FollowData): (Node | null)[] {
-  const { unit } = app.viewer;
   const { settings, kind, files } = following;
   const is = (ending: RegExp) => kind === 'vectors' && ending.test(files[0]!.name);
-  const repeated = app.viewer.placing.assembly?.parts.some(({ places }) => places.length > 1) ?? false;
-  const length = (text: string) => (text.trim() === '' ? none : parseLength(text, unit));
-  const optional = (name: 'reach' | 'noise') => (x: number) => {
-    if (!(x > 0)) return 'A length above 0, or nothing';
-    return void following.set({ [name]: x === none ? null : x });
-  };
+  const further = h('details', { class: 'more', open: more }, h('summary', {}, 'More'), ...moreFields(app, following).filter((f): f is HTMLElement => f !== null));
+  further.addEventListener('toggle', () => (more = further.open));
   return [
     field('Data are', select('What the data are', kinds, kind, (to) => following.be(to)), 'A scan says where faces should lie, displacements where points go'),
-    field('Unit', select('Unit of the data', units, settings.unit, (to) => following.set({ unit: to })), 'Of the coordinates of the data'),
-    kind === 'scan' ? row(toggle('Align', settings.align, (align) => following.set({ align }), 'Lays the scan onto the model, by a rigid motion'))
-      : row(toggle('Along normals', settings.normal, (normal) => following.set({ normal }), 'Only the part of each displacement along the normal of the face')),
-    is(/\.vt[kup]$/i) ? field('Field', named('Vector field', settings.field, 'the only one', (to) => following.set({ field: to })), 'The vectors at points that are the displacements') : null,
-    is(/\.csv$/i) ? field('Columns', named('Columns of the table', settings.columns, 'x,y,z,dx,dy,dz', (to) => following.set({ columns: to })), 'Those of point and displacement, by name') : null,
-    repeated ? field('Place', named('Place of the data', settings.place, 'part/part', (to) => following.set({ place: to })), 'Of parts that stand in several places: which of them the data are about') : null,
-    field('Reach', numberInput('Reach', settings.reach, optional('reach'), length, '1 % of the model'), 'Farthest that a point may be from a face'),
-    field('Noise', numberInput('Noise', settings.noise, optional('noise'), length, kind === 'scan' ? 'estimated' : 'none'), 'Standard deviation of each coordinate of the data'),
+    field('Unit', select('Unit of the data', units, settings.unit, (to) => following.set({ unit: to })), said(morphHelp.unit)),
+    kind === 'scan' ? row(toggle('Align', settings.align, (align) => following.set({ align }), said(morphHelp.align))) : null,
+    is(/\.vt[kup]$/i) ? field('Field', named('Vector field', settings.field, 'the only one', (to) => following.set({ field: to })), said(morphHelp.field)) : null,
+    is(/\.csv$/i) ? field('Columns', named('Columns of the table', settings.columns, 'x,y,z,dx,dy,dz', (to) => following.set({ columns: to })), said(morphHelp.columns)) : null,
+    ...placeFields(app, following),
+    further,
   ];
 }
+
+/** Of every part that stands in several places: which of them the data are about. */
+function placeFields(app: App, following: FollowData): Node[] {
+  const parts = [...(app.viewer.placing.assembly?.parts.entries() ?? [])].filter(([, { places, surfaces }]) => places.length > 1 && surfaces.length > 0);
+  if (parts.length === 0) return [];
+  const { place } = following.settings;
+  return [
+    note('Parts that stand in several places: where are their data?'),
+    ...parts.map(([k, part]) => field(part.name || 'A part', select(`Place of ${part.name || `part ${k + 1}`}`,
+      [['', 'Not said'], ...placeNames(part).map((name): [string, string] => [name, name])], place[k] ?? '',
+      (to) => following.set({ place: { ...place, [k]: to } })), said(morphHelp.place))),
+  ];
+}
+
+function moreFields(app: App, following: FollowData): (HTMLElement | null)[] {
+  const { unit } = app.viewer;
+  const { settings, kind } = following;
+  const length = (text: string) => (text.trim() === '' ? none : parseLength(text, unit));
+  const optional = (name: 'reach' | 'noise' | 'tolerance', absent: string) => field(title(name), numberInput(title(name), settings[name], (x) => {
+    if (!(x > 0)) return 'A length above 0, or nothing';
+    return void following.set({ [name]: x === none ? null : x });
+  }, length, absent), said(morphHelp[name]));
+  const refine = numberInput('Finer up to, times', settings.refine, (x) => {
+    if (x !== none && !(x >= 1 && x <= 1000)) return 'A number from 1 to 1000, or nothing';
+    return void following.set({ refine: x === none ? null : x });
+  }, (text) => (text.trim() === '' ? none : parseNumber(text)), '8');
+  return [
+    optional('reach', '1 % of the model'),
+    optional('noise', kind === 'scan' ? 'estimated' : 'none'),
+    optional('tolerance', kind === 'scan' ? 'the noise' : '1e-5 of the size'),
+    field('Finer up to ×', refine, said(morphHelp.refine)),
+    kind === 'scan' ? null : row(toggle('Along normals', settings.normal, (normal) => following.set({ normal }), said(morphHelp.along))),
+    facesField(app, following, 'faces', 'Moving faces', 'All'),
+    facesField(app, following, 'keep', 'Fixed faces', 'None'),
+  ];
+}
+
+/** Faces that alone move, or stay: those that are selected when the button is pressed. */
+function facesField(app: App, following: FollowData, name: 'faces' | 'keep', label: string, absent: string): HTMLElement {
+  const chosen = following.settings[name], ids = selectedFaces(app);
+  const names = chosen.map((id) => app.state?.surfaces.find((s) => s.id === id)?.name || id);
+  const take = h('button', { class: 'button small', type: 'button', disabled: ids.length === 0 || ids.join() === chosen.join(), title: said(morphHelp[name]),
+    aria: { label: `${label}: those that are selected` }, onclick: () => following.set({ [name]: ids }) }, 'Take selected');
+  const clear = h('button', { class: 'button small', type: 'button', aria: { label: `${label}: ${absent.toLowerCase()}` }, onclick: () => following.set({ [name]: [] }) }, absent);
+  const words = chosen.length === 0 ? absent : chosen.length > 3 ? `${names.slice(0, 2).join(', ')} and ${chosen.length - 2} more` : names.join(', ');
+  return h('div', { class: 'field', title: said(morphHelp[name]) }, h('span', { class: 'field-label' }, label),
+    row(h('small', { data: { faces: name } }, words), take, chosen.length > 0 ? clear : null));
+}
+
+const selectedFaces = ({ state }: App): string[] => (state?.body === null ? state.selection.map((k) => state.surfaces[k]!.id) : []);
 
 /** Limits, scale, and what is done with them. */
 function followFields(app: App, following: FollowData, element: HTMLElement): (Node | null)[] {
