@@ -1,5 +1,5 @@
 import type { DataDeviation } from '@knead/generated';
-import { blended, colourAt, coverage, type Deviations, distancesAt, histogram, measuresOf, placesAt, sampledAt, share, shortAbove, sorted, targetsOf } from '@studio/document/deviations';
+import { blended, colourAt, coloursAt, coverage, type Deviations, distancesAt, histogram, measuresOf, placesAt, sampledAt, share, shortAbove, sorted, targetsOf } from '@studio/document/deviations';
 
 /** Three points over z = 0, of which the middle one has no partner. */
 const three: Deviations = {
@@ -12,6 +12,7 @@ describe('points of data', () => {
   it('lie where displacements lead, and stay without a partner', () => {
     expect([...placesAt(three, 1)]).toEqual([...three.places]);
     expect([...placesAt(three, -2)]).toEqual([0, 0, -4, 5, 5, 9, 1, 0, 2]);
+    expect([...placesAt(three, 1, [1, 2, 3])]).toEqual([-1, -2, -1, 4, 3, 6, 0, -2, -4]);
   });
 
   it('have distances that are linear in the scale and in the share of a morph', () => {
@@ -25,8 +26,9 @@ describe('points of data', () => {
   });
 
   it('are a scan of where they lead, and what is left of it goes back to them', () => {
-    const { text, numbers } = targetsOf(three, 2);
-    expect(text).toBe('0 0 4 0 0 1\n1 0 -2 0 0 1\n');
+    const { scan, numbers } = targetsOf(three, 2);
+    expect(new TextDecoder().decode(scan)).toMatch(/^ply\nformat binary_little_endian 1\.0\nelement vertex 2\n(property double \w+\n){6}end_header\n/);
+    expect([...new Float64Array(scan.slice(-96).buffer)]).toEqual([0, 0, 4, 0, 0, 1, 1, 0, -2, 0, 0, 1]);
     expect([...numbers]).toEqual([0, 2]);
     const later = { distances: Float64Array.of(0.5, 0.25), states: Uint8Array.of(0, 2) } as Deviations;
     expect([...sorted(later, numbers, 3)]).toEqual([0.5, NaN, NaN]);
@@ -48,6 +50,14 @@ describe('distances', () => {
     expect(measuresOf(new Float64Array())).toEqual({ rms: 0, of95: 0, largest: 0 });
   });
 
+  it('are as large as sorting them says', () => {
+    for (const length of [1, 2, 7, 1000]) {
+      const many = Float64Array.from({ length }, (_, k) => ((k * 7919) % 101) - 50); // many are equal
+      const sizes = many.map(Math.abs).sort();
+      for (const part of [0.01, 0.3, 0.5, 0.95, 1]) expect(share(many, part)).toBe(sizes[Math.ceil(part * length) - 1]);
+    }
+  });
+
   it('are counted within limits and beyond', () => {
     const { counts, below, inside, above, extent } = histogram(distances, 1, 6);
     expect([below, inside, above]).toEqual([1, 5, 1]);
@@ -66,6 +76,10 @@ describe('distances', () => {
     expect(colourAt(1, 1)[0]).toBeGreaterThan(colourAt(1, 1)[2]);
     expect(colourAt(-1, 1)[2]).toBeGreaterThan(colourAt(-1, 1)[0]);
     expect(colourAt(0.5, 1)[0]).toBeCloseTo((0xde + 0xc7) / 2 / 255, 12);
+    const bytes = coloursAt(Float64Array.of(-9, -1, 0, 0.5, 1, 9, NaN), 1);
+    [-1, -1, 0, 0.5, 1, 1].forEach((d, k) => expect([...bytes.subarray(3 * k, 3 * k + 3)]).toEqual(colourAt(d, 1).map((x) => Math.round(255 * x))));
+    expect([...bytes.subarray(18)]).toEqual([128, 128, 128]);
+    expect([...coloursAt(Float64Array.of(1), 0)]).toEqual(colourAt(1, 1).map((x) => Math.round(255 * x)));
   });
 });
 

@@ -49,17 +49,29 @@ export function isTableOfPoints(bytes: Uint8Array): boolean {
   return columns.length === 6 || (columns.length === 3 && !lines.slice(0, last).includes(''));
 }
 
-const count = (text: string, pattern: RegExp): number => text.match(pattern)?.length ?? 0;
+/** How many lines begin with a word, blanks before it aside. */
+function countLines(bytes: Uint8Array, word: string): number {
+  const letters = new TextEncoder().encode(word);
+  const blank = (byte: number | undefined) => byte === 32 || byte === 9;
+  let found = 0;
+  for (let at = 0; at < bytes.length;) {
+    while (blank(bytes[at])) ++at;
+    if (letters.every((letter, k) => bytes[at + k] === letter) && blank(bytes[at + letters.length])) ++found;
+    const end = bytes.indexOf(10, at);
+    at = end < 0 ? bytes.length : end + 1;
+  }
+  return found;
+}
 
 /** Points of a mesh, where its text says so. */
 function pointsOf(bytes: Uint8Array, name: string): number | null {
   const start = startOf(bytes);
   const said = /element vertex (\d+)/.exec(start) ?? /^POINTS\s+(\d+)/m.exec(start) ?? /NumberOfPoints="(\d+)"/.exec(start);
   if (said) return Number(said[1]);
-  if (/\.obj$/i.test(name)) return count(new TextDecoder('latin1').decode(bytes), /^v\s/gm);
+  if (/\.obj$/i.test(name)) return countLines(bytes, 'v');
   if (/\.stl$/i.test(name)) { // corners of triangles: of two meshes alike there are as many
     const triangles = bytes.length >= 84 ? new DataView(bytes.buffer, bytes.byteOffset).getUint32(80, true) : 0;
-    return bytes.length === 84 + 50 * triangles ? 3 * triangles : count(new TextDecoder('latin1').decode(bytes), /^\s*vertex\s/gm);
+    return bytes.length === 84 + 50 * triangles ? 3 * triangles : countLines(bytes, 'vertex');
   }
   return null;
 }

@@ -22,20 +22,31 @@ export function deviationsOf(info: DataDeviation): Deviations {
   return { info, places: numbers(places), feet: numbers(feet), normals: numbers(normals), wanted: numbers(wanted), distances: numbers(distances), states };
 }
 
-/** Where points are shown at a scale: those with a partner where the data lead it, the others where they are. */
-export function placesAt({ places, feet, wanted, states }: Deviations, scale: number): Float64Array {
-  return Float64Array.from(places, (x, k) => (states[Math.floor(k / 3)] === 0 ? feet[k]! + scale * wanted[k]! : x));
+// A scan has a million points: what goes over all of them are loops, which make nothing for each.
+
+/** Where points are shown at a scale, from an origin: those with a partner where the data lead it, the others where they are. */
+export function placesAt({ places, feet, wanted, states }: Deviations, scale: number, origin: readonly number[] = [0, 0, 0]): Float32Array {
+  const result = new Float32Array(places.length);
+  for (let k = 0; k < states.length; ++k) {
+    for (let d = 0; d < 3; ++d) {
+      const at = 3 * k + d;
+      result[at] = (states[k] === 0 ? feet[at]! + scale * wanted[at]! : places[at]!) - origin[d]!;
+    }
+  }
+  return result;
 }
 
 /**
  * How far the model is from where the data lead at a scale, along its normals; NaN without a partner. `after`: what was left by a
  * morph at the scale `made`, of which the share `part` is shown. All of it is linear.
  */
-export function distancesAt(before: Deviations, scale: number, after: Float64Array | null, made: number, part: number): Float64Array {
-  return Float64Array.from(before.distances, (d, k) => {
-    if (before.states[k] !== 0) return NaN;
-    return after ? scale * ((1 - part) * d + (part * after[k]!) / made) : scale * d;
-  });
+export function distancesAt({ distances, states }: Deviations, scale: number, after: Float64Array | null, made: number, part: number): Float64Array {
+  const result = new Float64Array(distances.length);
+  for (let k = 0; k < result.length; ++k) {
+    const d = distances[k]!;
+    result[k] = states[k] !== 0 ? NaN : scale * (after ? (1 - part) * d + (part * after[k]!) / made : d);
+  }
+  return result;
 }
 
 /** The distances after a morph at the points of the data before it. `numbers`: of these, where each point of the later data comes from. */
@@ -49,19 +60,54 @@ export function sorted(later: Deviations, numbers: Uint32Array, points: number):
 
 const mostTargets = 200_000;
 
-/** Where data have led at a scale, as a scan with the normals that the faces had there: a line for each, and its number. */
-export function targetsOf({ feet, wanted, normals, states }: Deviations, scale: number): { text: string; numbers: Uint32Array } {
+/** Where data have led at a scale, as a scan (PLY) with the normals that the faces had there; and the numbers of its points. */
+export function targetsOf({ feet, wanted, normals, states }: Deviations, scale: number): { scan: Uint8Array; numbers: Uint32Array } {
   const used = Uint32Array.from(states.keys()).filter((k) => states[k] === 0);
   const step = Math.ceil(used.length / mostTargets);
   const numbers = used.filter((_, k) => k % step === 0);
-  const lines = Array.from(numbers, (k) => [0, 1, 2].map((d) => feet[3 * k + d]! + scale * wanted[3 * k + d]!).concat([0, 1, 2].map((d) => normals[3 * k + d]!)).join(' '));
-  return { text: `${lines.join('\n')}\n`, numbers };
+  const rows = new Float64Array(6 * numbers.length);
+  numbers.forEach((number, k) => {
+    for (let d = 0; d < 3; ++d) {
+      rows[6 * k + d] = feet[3 * number + d]! + scale * wanted[3 * number + d]!;
+      rows[6 * k + 3 + d] = normals[3 * number + d]!;
+    }
+  });
+  const head = new TextEncoder().encode(['ply', 'format binary_little_endian 1.0', `element vertex ${numbers.length}`,
+    ...['x', 'y', 'z', 'nx', 'ny', 'nz'].map((name) => `property double ${name}`), 'end_header', ''].join('\n'));
+  const scan = new Uint8Array(head.length + rows.byteLength);
+  scan.set(head);
+  scan.set(new Uint8Array(rows.buffer), head.length);
+  return { scan, numbers };
+}
+
+/** The number that stands at a place of the order; the numbers change theirs (Hoare's quickselect). */
+function selected(numbers: Float64Array, place: number): number {
+  for (let low = 0, high = numbers.length - 1; low < high;) {
+    const pivot = numbers[(low + high) >> 1]!;
+    let [i, j] = [low, high];
+    while (i <= j) {
+      while (numbers[i]! < pivot) ++i;
+      while (numbers[j]! > pivot) --j;
+      if (i > j) break;
+      const swapped = numbers[i]!;
+      numbers[i++] = numbers[j]!;
+      numbers[j--] = swapped;
+    }
+    if (place <= j) high = j;
+    else if (place >= i) low = i;
+    else break;
+  }
+  return numbers[place]!;
 }
 
 /** What a share of the sizes does not exceed. */
 export function share(distances: Float64Array, part: number): number {
-  const sizes = distances.filter((d) => !Number.isNaN(d)).map(Math.abs).sort();
-  return sizes.length === 0 ? 0 : sizes[Math.ceil(part * sizes.length) - 1]!;
+  const sizes = new Float64Array(distances.length);
+  let count = 0;
+  for (let k = 0; k < distances.length; ++k) {
+    if (!Number.isNaN(distances[k]!)) sizes[count++] = Math.abs(distances[k]!);
+  }
+  return count === 0 ? 0 : selected(sizes.subarray(0, count), Math.ceil(part * count) - 1);
 }
 
 export interface Measures {
@@ -70,8 +116,15 @@ export interface Measures {
   largest: number;
 }
 export function measuresOf(distances: Float64Array): Measures {
-  const known = distances.filter((d) => !Number.isNaN(d));
-  return { rms: Math.sqrt(known.reduce((sum, d) => sum + d * d, 0) / Math.max(1, known.length)), of95: share(known, 0.95), largest: known.reduce((most, d) => Math.max(most, Math.abs(d)), 0) };
+  let [count, squares, largest] = [0, 0, 0];
+  for (let k = 0; k < distances.length; ++k) {
+    const d = distances[k]!;
+    if (Number.isNaN(d)) continue;
+    ++count;
+    squares += d * d;
+    largest = Math.max(largest, Math.abs(d));
+  }
+  return { rms: Math.sqrt(squares / Math.max(1, count)), of95: share(distances, 0.95), largest };
 }
 
 /** Rounded up to two digits: a limit for the eye. */
@@ -114,6 +167,24 @@ export function colourAt(distance: number, limit: number): [number, number, numb
   const t = limit > 0 ? Math.max(-1, Math.min(1, distance / limit)) : Math.sign(distance);
   const end = t < 0 ? ends.below : ends.above;
   return [0, 1, 2].map((d) => (ends.middle[d]! + Math.abs(t) * (end[d]! - ends.middle[d]!)) / 255) as [number, number, number];
+}
+
+const steps = 128; // of colours, either way
+const leftOut = [0.5, 0.5, 0.5] as const; // points without a partner
+
+/** Three bytes for each distance, as they look on the screen. */
+export function coloursAt(distances: Float64Array, limit: number): Uint8Array {
+  const table = new Uint8Array(3 * (2 * steps + 2));
+  for (let k = 0; k <= 2 * steps + 1; ++k) table.set((k > 2 * steps ? leftOut : colourAt(k - steps, steps)).map((x) => Math.round(255 * x)), 3 * k);
+  const result = new Uint8Array(3 * distances.length);
+  for (let k = 0; k < distances.length; ++k) {
+    const d = distances[k]!, share = limit > 0 ? Math.max(-1, Math.min(1, d / limit)) : Math.sign(d);
+    const row = 3 * (Number.isNaN(d) ? 2 * steps + 1 : Math.round(steps * (share + 1)));
+    result[3 * k] = table[row]!;
+    result[3 * k + 1] = table[row + 1]!;
+    result[3 * k + 2] = table[row + 2]!;
+  }
+  return result;
 }
 
 /** A grid of points over a surface, at fractions of its domain. */

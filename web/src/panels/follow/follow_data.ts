@@ -1,11 +1,9 @@
 import { type DeviationRequest, type MorphCommand, morphPhases } from '@knead/generated';
 import { byField, type DataFile, dataFile, type DataKind, textOf, withFile } from '../../document/data_files';
-import { blended, colourAt, type Deviations, deviationsOf, distancesAt, type Grid, placesAt, sampledAt, shortAbove, sorted, targetsOf } from '../../document/deviations';
+import { blended, coloursAt, type Deviations, deviationsOf, distancesAt, type Grid, placesAt, sampledAt, shortAbove, sorted, targetsOf } from '../../document/deviations';
 import type { Command, Picture } from '../../engine/session_types';
 import { DataPoints } from '../../view/data_points';
 import { MeasuredBeside } from '../measured_beside';
-
-const leftOut = [0.5, 0.5, 0.5] as const; // the colour of points without a partner
 
 /** How data are understood. */
 export interface FollowSettings {
@@ -88,7 +86,7 @@ export class FollowData extends MeasuredBeside {
   }
 
   protected drop(): void {
-    Object.assign(this, { deviations: null, followed: null, part: 1 });
+    Object.assign(this, { deviations: null, known: null, followed: null, part: 1 });
   }
   protected override leave(): void {
     const { deaths } = this.app.client;
@@ -204,17 +202,22 @@ export class FollowData extends MeasuredBeside {
       if (!followed.before.has(id)) followed.before.set(id, await app.client.query('picture', { surface, detail: app.display.detail, opened: true }));
     }
     this.tell();
-    const { text, numbers } = targetsOf(of, followed.scale);
+    const { scan, numbers } = targetsOf(of, followed.scale);
     const { place, faces, keep } = this.asked;
-    const after = await this.ask('deviation', { scan: new TextEncoder().encode(text), reach: of.info.reach, place, faces, keep });
+    const after = await this.ask('deviation', { scan, reach: of.info.reach, place, faces, keep });
     if (after) followed.left = sorted(deviationsOf(after), numbers, of.states.length);
   }
 
+  private known: { of: readonly unknown[]; distances: Float64Array } | null = null;
   /** Of the points with a partner, as they are shown; NaN of the others. */
   get distances(): Float64Array {
-    const { deviations, done } = this;
+    const { deviations, done, scale, part } = this;
     if (!deviations) return new Float64Array();
-    return distancesAt(deviations, this.scale, done?.left ?? null, done?.scale ?? 1, this.part);
+    const of = [deviations, scale, part, done?.left, done?.scale];
+    if (this.known?.of.every((x, k) => x === of[k])) return this.known.distances;
+    const distances = distancesAt(deviations, scale, done?.left ?? null, done?.scale ?? 1, part);
+    this.known = { of, distances };
+    return distances;
   }
 
   /** Where the colours end. */
@@ -233,10 +236,7 @@ export class FollowData extends MeasuredBeside {
   protected paint(): void {
     const { deviations, scale, ends } = this;
     if (!this.shown || this.files.length === 0 || !deviations) return this.points.show(null);
-    const distances = this.distances;
-    const colours = new Float32Array(3 * distances.length);
-    distances.forEach((d, k) => colours.set(Number.isNaN(d) ? leftOut : colourAt(d, ends), 3 * k));
-    this.points.show(placesAt(deviations, scale), colours);
+    this.points.show(placesAt(deviations, scale, this.app.viewer.origin), coloursAt(this.distances, ends));
   }
 
   /** The frame and the share that the faces were blended by; null: they are drawn where they are. */
