@@ -47,6 +47,7 @@ interface Drawn {
     frame: { pictures: { positions: Float32Array }[] };
     viewer: {
       marks: { children: { name: string; visible: boolean; geometry: { attributes: Record<string, { array: Float32Array; count: number } | undefined> } }[] };
+      placing: { assembly: { parts: { name: string; places: { matrix: number[] }[] }[] } };
       surfaces: { mesh: { geometry: { attributes: { position: { array: Float32Array } } } } }[];
     };
   };
@@ -247,7 +248,9 @@ it('offers the places of a part, and takes the data for those of one', async () 
   writeFileSync(path, nestedStep());
   await openFile(page, path);
   const about = (x: number, y: number) => lines(Array.from({ length: 81 }, (_, k) => [(k % 9) - 4 + x, Math.floor(k / 9) - 4 + y, 0.1]));
-  await drop(['pin.xyz', about(20, 0)]);
+  const places = await page.evaluate(() => (window as never as Drawn).studio.viewer.placing.assembly.parts.find(({ name }) => name === 'pin')!
+    .places.map(({ matrix }) => [matrix[3]!, matrix[7]!] as const));
+  await drop(['pin.xyz', about(...places[0]!)]); // where the part is sought as long as nobody has said
   await choose('Unit of the data', 'mm');
   await expect.poll(() => status().textContent(), { timeout: 60_000 }).toContain('stands in 7 places');
   expect(await status().textContent()).toContain('“Place”');
@@ -255,11 +258,11 @@ it('offers the places of a part, and takes the data for those of one', async () 
   const place = panel().locator('select[aria-label="Place of pin"]');
   const names = await place.locator('option').allTextContents();
   expect(names.length).toBe(8);
-  await place.selectOption('door/pin');
+  await place.selectOption(names[2]!);
   await expect.poll(() => status().textContent(), { timeout: 60_000 }).toContain('None of 81 points');
-  await drop(['pin.xyz', about(0, 40)]);
+  await drop(['pin.xyz', about(...places[1]!)]);
   await expect.poll(() => status().textContent(), { timeout: 60_000 }).toContain('81 of 81 points compared');
-  expect(await place.inputValue()).toBe('door/pin');
+  expect(await place.inputValue()).toBe(names[2]!);
   expect((await figures())[1]).toBeCloseTo(0.1, 6);
 });
 
@@ -274,22 +277,48 @@ it('has further settings, told by the engine', async () => {
   if ((await more.getAttribute('open')) === null) await more.locator('summary').click();
   expect(await panel().locator('.field', { has: page.locator('input[aria-label="Tolerance"]') }).getAttribute('title')).toBe("Largest residual wanted, in the file's unit");
   await fill('Tolerance', '0.02 mm');
-  await fill('Finer up to, times', '4');
+  await fill('Refine up to, times', '4');
   expect(await state()).toBe('compared'); // these change nothing of it
-  await fill('Finer up to, times', '0.5');
+  await fill('Refine up to, times', '0.5');
   expect(await panel().locator('.refusal').textContent()).toContain('from 1 to 1000');
-  await fill('Finer up to, times', '4');
+  await fill('Refine up to, times', '4');
   await execute(page, { do: 'select', surface: '#285' });
-  await panel().locator('button[aria-label="Fixed faces: those that are selected"]').click();
+  await panel().locator('button[aria-label="Fixed: those that are selected"]').click();
   await expect.poll(() => panel().locator('[data-faces=keep]').textContent()).not.toBe('None');
   await expect.poll(state, { timeout: 60_000 }).toBe('compared');
   expect(await tolerance.isVisible()).toBe(true);
-  expect(await panel().locator('[data-faces=faces]').textContent()).toBe('All');
+  expect(await panel().locator('[data-faces=faces]').textContent()).toBe('All faces');
   await button('Morph').click();
   await expect.poll(state, { timeout: 120_000 }).toBe('followed');
   expect((await commands(page)).at(-1)).toMatchObject({ do: 'morph', tolerance: 0.02, refine: 4, keep: ['#285'] });
-  await panel().locator('button[aria-label="Fixed faces: none"]').click();
+  await panel().locator('button[aria-label="Fixed: none"]').click();
   await expect.poll(() => panel().locator('[data-faces=keep]').textContent()).toBe('None');
+});
+
+it('draws two hundred thousand points at once, and tells the phases of the morph', async () => {
+  const { page } = studio;
+  await openFile(page, bonnet);
+  // About 200,000 random points, as binary PLY.
+  const corners = (await pointsOn(bent, 40)).slice(0, 20_000), count = 10 * corners.length;
+  const numbers = Float32Array.from({ length: 3 * count }, (_, k) => corners[Math.floor(k / 30)]![k % 3]! + 0.001 * (Math.floor(k / 3) % 10));
+  const head = `ply\nformat binary_little_endian 1.0\nelement vertex ${count}\nproperty float x\nproperty float y\nproperty float z\nend_header\n`;
+  writeFileSync(join(directory, 'many.ply'), Buffer.concat([Buffer.from(head), Buffer.from(numbers.buffer)]));
+  await panel().locator('input[type=file]').setInputFiles(join(directory, 'many.ply'));
+  await expect.poll(() => status().textContent(), { timeout: 60_000 }).toMatch(new RegExp(`^many\\.ply: [\\d,]+ of ${count.toLocaleString('en')} points compared`));
+  expect(await points()).toMatchObject({ count });
+  const drawn = await page.evaluate(() => (window as never as Drawn).studio.viewer.marks.children.filter(({ name }) => name === 'data points').map(({ geometry }) =>
+    Object.values(geometry.attributes).map((a) => [a!.array.constructor.name, a!.array.length])));
+  expect(drawn).toEqual([[['Float32Array', 3 * count], ['Uint16Array', 3 * count]]]); // one object, and nothing for each point
+  await page.evaluate(() => {
+    const w = window as never as { said: Set<string> };
+    w.said = new Set();
+    new MutationObserver(() => w.said.add(document.querySelector('.busy span')!.textContent!)).observe(document.querySelector('.busy')!, { childList: true, subtree: true });
+  });
+  await fill('Noise', '0.05 mm');
+  await button('Morph').click();
+  await expect.poll(state, { timeout: 120_000 }).toBe('followed');
+  expect(await page.evaluate(() => [...(window as never as { said: Set<string> }).said])).toContain('Fitting the faces …');
+  await expect.poll(async () => (await figures())[1]).toBeLessThan(0.3);
 });
 
 it('takes a mesh before and after', async () => {

@@ -191,5 +191,5 @@ export abstract class MeasuredBeside {
 function wordsOf(error: unknown): string {
   if (!(error instanceof KneadError)) return error instanceof Error ? error.message : String(error);
   const { text, remedy } = adviceOn(error.info);
-  return [text, remedy].filter(Boolean).join(' ');
+  return [text, remedy ?? ''].filter(Boolean).map((sentence) => sentence.replace(/[^.?!]$/, '$&.')).join(' ');
 }

@@ -146,7 +146,7 @@ function moreFields(app: App, following: FollowData): (HTMLElement | null)[] {
     if (!(x > 0)) return 'A length above 0, or nothing';
     return void following.set({ [name]: x === none ? null : x });
   }, length, absent), said(morphHelp[name]));
-  const refine = numberInput('Finer up to, times', settings.refine, (x) => {
+  const refine = numberInput('Refine up to, times', settings.refine, (x) => {
     if (x !== none && !(x >= 1 && x <= 1000)) return 'A number from 1 to 1000, or nothing';
     return void following.set({ refine: x === none ? null : x });
   }, (text) => (text.trim() === '' ? none : parseNumber(text)), '8');
@@ -154,10 +154,10 @@ function moreFields(app: App, following: FollowData): (HTMLElement | null)[] {
     optional('reach', '1 % of the model'),
     optional('noise', kind === 'scan' ? 'estimated' : 'none'),
     optional('tolerance', kind === 'scan' ? 'the noise' : '1e-5 of the size'),
-    field('Finer up to ×', refine, said(morphHelp.refine)),
+    field('Refine ×', refine, said(morphHelp.refine)),
     kind === 'scan' ? null : row(toggle('Along normals', settings.normal, (normal) => following.set({ normal }), said(morphHelp.along))),
-    facesField(app, following, 'faces', 'Moving faces', 'All'),
-    facesField(app, following, 'keep', 'Fixed faces', 'None'),
+    facesField(app, following, 'faces', 'Moving', 'All faces'),
+    facesField(app, following, 'keep', 'Fixed', 'None'),
   ];
 }
 
@@ -167,7 +167,7 @@ function facesField(app: App, following: FollowData, name: 'faces' | 'keep', lab
   const names = chosen.map((id) => app.state?.surfaces.find((s) => s.id === id)?.name || id);
   const take = h('button', { class: 'button small', type: 'button', disabled: ids.length === 0 || ids.join() === chosen.join(), title: said(morphHelp[name]),
     aria: { label: `${label}: those that are selected` }, onclick: () => following.set({ [name]: ids }) }, 'Take selected');
-  const clear = h('button', { class: 'button small', type: 'button', aria: { label: `${label}: ${absent.toLowerCase()}` }, onclick: () => following.set({ [name]: [] }) }, absent);
+  const clear = h('button', { class: 'button small', type: 'button', aria: { label: `${label}: ${absent.toLowerCase()}` }, onclick: () => following.set({ [name]: [] }) }, 'Clear');
   const words = chosen.length === 0 ? absent : chosen.length > 3 ? `${names.slice(0, 2).join(', ')} and ${chosen.length - 2} more` : names.join(', ');
   return h('div', { class: 'field', title: said(morphHelp[name]) }, h('span', { class: 'field-label' }, label),
     row(h('small', { data: { faces: name } }, words), take, chosen.length > 0 ? clear : null));
