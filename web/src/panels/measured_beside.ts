@@ -22,6 +22,7 @@ export abstract class MeasuredBeside {
   /** The document as it was saved to be measured, and how many shapes the session had had by then. */
   private saved: Uint8Array | null = null;
   private shapes = -1;
+  private begun = 0; // when the worker was asked last, and how long it took
   private took = Infinity;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private run = {};
@@ -134,11 +135,10 @@ export abstract class MeasuredBeside {
     this.failed = '';
     const stands = this.begin();
     this.tell();
-    const start = performance.now();
     try {
       await this.find(stands);
       if (!stands()) return;
-      this.took = performance.now() - start;
+      this.took = performance.now() - this.begun;
       await this.findMore(stands);
     } catch (error) {
       if (!stands()) return;
@@ -166,6 +166,7 @@ export abstract class MeasuredBeside {
         this.saved = file;
       }
       const name = app.documents.file?.kind === 'step' ? app.documents.file.name : app.documents.name;
+      this.begun = performance.now();
       const answer = await this.checker.ask(query, this.saved, name, request);
       return stands() ? answer : null;
     } catch (error) {
