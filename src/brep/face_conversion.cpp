@@ -66,7 +66,7 @@ Expected<std::vector<const Face*>> faces_on_other(const Model& model, const std:
   if (without)
     return input_error("the face has no surface", id, "only faces with a surface can be converted");
   if (support == none) {
-    return input_error("no face, and no surface on which one lies, has this name", id,
+    return input_error("this face is not in the open file", id,
                        "`knead info --faces` lists those that can be converted");
   }
   std::vector<const Face*> result;

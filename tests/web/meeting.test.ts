@@ -7,9 +7,9 @@ const edge = (meets: [string, string, string][], seam = false) =>
 describe('an edge of a face', () => {
   it('opens where faces of other surfaces stay behind, which are named', () => {
     const meeting = meetingAt(edge([['#1', '#10', 'B_SPLINE_SURFACE_WITH_KNOTS'], ['#2', '#20', 'PLANE']]), '#10');
-    expect(meeting).toEqual({ opens: true, follows: true, text: 'It meets the plane #2. Free, it opens: it stays. With Follow they move as one.' });
+    expect(meeting).toEqual({ opens: true, follows: true, text: 'Shared with plane #2. Free: a gap opens, because that face stays. Follow: both move together.' });
     expect(meetingAt(edge([['#1', '#10', ''], ['#2', '#20', 'B_SPLINE_SURFACE_WITH_KNOTS'], ['#3', '#30', 'CYLINDRICAL_SURFACE']]), '#10').text)
-      .toContain('It meets #2 and the cylinder #3. Free, it opens: they stay.');
+      .toContain('Shared with face #2 and cylinder #3. Free: a gap opens, because those faces stay. Follow: all move together.');
   });
 
   it('opens nothing where no other face meets it, and opens where a surface that meets itself leaves it behind', () => {

@@ -5,7 +5,7 @@ import { fileURLToPath } from 'node:url';
 import { fromBase64, toBase64 } from '@studio/document/base64';
 import { readKnead, type Source, writeKnead } from '@studio/document/knead_file';
 import type { SavedView } from '@studio/document/saved_views';
-import { format, parseLength } from '@studio/document/units';
+import { format, parseLength, unitInWords } from '@studio/document/units';
 import { roundStep } from '@studio/view/ground';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
@@ -15,10 +15,17 @@ describe('typed lengths', () => {
     ['3', 'mm', 3], ['3mm', 'mm', 3], [' 0.1 in ', 'mm', 2.54], ['2,5 cm', 'mm', 25], ['1e-3m', 'mm', 1], ['1"', 'inch', 1],
     ['-4', 'mm', -4], ['.5', 'm', 0.5], ['10 mm', 'm', 0.01], ['2 cm', 'mm', 20], ['1/2', 'mm', 0.5], ['1/2in', 'mm', 12.7],
     ['1 1/2 in', 'inch', 1.5], ['-3/4"', 'mm', -19.05], ['2 1/4 ft', 'foot', 2.25], ["1'", 'inch', 12], ['1E2MM', 'cm', 10], ['5 thou', 'inch', 0.005],
+    ['3 units', 'unknown', 3], ['2 µin', 'microinch', 2], ['1 yd', 'foot', 3],
   ])('%s in a file of %s is %d', (text, unit, length) => expect(parseLength(text, unit)).toBeCloseTo(length, 12));
-  it.each([['', 'mm'], ['three', 'mm'], ['3 parsec', 'mm'], ['3mm', 'unknown'], ['1/0', 'mm'], ['1e999', 'mm'], ['1 2', 'mm'], ['mm', 'mm'],
+  it.each([['', 'mm'], ['three', 'mm'], ['3 parsec', 'mm'], ['3mm', 'unknown'], ['3 units', 'mm'], ['1/0', 'mm'], ['1e999', 'mm'], ['1 2', 'mm'], ['mm', 'mm'],
     ['1/2/3', 'mm'], ['--1', 'mm'], ['1.5/2', 'mm'], ['3 mm mm', 'mm']])(
     '%s in a file of %s is none', (text, unit) => expect(parseLength(text, unit)).toBeNull());
+});
+
+describe('units', () => {
+  it.each([['inch', 'in'], ['foot', 'ft'], ['yard', 'yd'], ['um', 'µm'], ['mm', 'mm'], ['unknown', 'units'], ['', '']])('%j are written %j', (unit, text) =>
+    expect(unitInWords(unit)).toBe(text));
+  it.each(['in', 'ft', 'yd', 'µm', 'µin', 'mil'])('%s can be typed as it is written', (unit) => expect(parseLength(`2 ${unit}`, 'm')).toBeGreaterThan(0));
 });
 
 describe('numbers for people', () => {

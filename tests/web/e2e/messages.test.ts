@@ -150,7 +150,7 @@ describe('what changes nothing', () => {
     await settled(page);
     await page.getByRole('button', { name: 'Clay', exact: true }).click();
     await settled(page);
-    await page.getByRole('button', { name: 'Sink' }).click();
+    await page.getByRole('button', { name: 'Settle' }).click();
     await settled(page);
     await page.keyboard.press('r');
     await expect.poll(() => page.evaluate(() => (window as never as { studio: { playing(): boolean } }).studio.playing())).toBe(false);
@@ -173,7 +173,7 @@ describe('the panels', () => {
     await settled(page);
     const names = await page.locator('.side input, .side select, .side textarea').evaluateAll((all) => all.map((e) => e.getAttribute('aria-label') ?? e.closest('label')?.textContent ?? ''));
     expect(names.filter((name, k) => names.indexOf(name) !== k)).toEqual([]);
-    expect(names).toContain('Share that stays');
+    expect(names).toContain('Plasticity of the material');
   });
 
   it('say how far the surface is moved now, also where it has sprung back', async () => {

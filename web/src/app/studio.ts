@@ -271,6 +271,13 @@ export class Studio implements App {
     return openSnakes(this, file);
   }
 
+  showEdges(): void {
+    const panel = document.querySelector<HTMLDetailsElement>('.panel[data-panel="Edges"]');
+    if (!panel) return;
+    panel.open = true;
+    panel.scrollIntoView({ block: 'nearest' });
+  }
+
   forgetEdges(): void {
     this.hand.edges.forget();
   }

@@ -1,5 +1,5 @@
 import type { CheckRequest, EdgeCheck, EdgeFault, EdgeFigure, EdgeMeasures, EdgeThresholds } from '@knead/generated';
-import { format, parseLength } from './units';
+import { format, parseLength, unitInWords } from './units';
 
 /** What is measured at edges: gap, angle, relative difference in curvature. */
 export const measures = ['gap', 'angle', 'curvature'] as const;
@@ -104,7 +104,7 @@ export const worstBy = (report: EdgeCheck, measure: Measure, count = 5): EdgeMea
 
 /** "°", "%" or the unit of the file after a space. */
 export const suffix = (measure: Measure, unit: string): string =>
-  ({ gap: isUnknown(unit) ? '' : ` ${unit}`, angle: '°', curvature: ' %' })[measure];
+  ({ gap: isUnknown(unit) ? '' : ` ${unitInWords(unit)}`, angle: '°', curvature: ' %' })[measure];
 
 /** What is rounding for the model is 0. */
 export function shown(report: EdgeCheck, edge: EdgeMeasures, measure: Measure): string {

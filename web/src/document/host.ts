@@ -46,6 +46,8 @@ export interface Host {
   showContext(context: Context | null, trims: Trim[]): void;
   /** Contours in an image: another part of the page. */
   openImage(file: File): Promise<void>;
+  /** The table of edges is opened. */
+  showEdges(): void;
   /** The edges of faces are to be asked for again. */
   forgetEdges(): void;
   /** The view as a PNG file, with `scale` pixels for each of the page's. */

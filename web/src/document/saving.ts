@@ -1,15 +1,21 @@
 import { type EdgesInfo, fileFormats } from '@knead/generated';
-import type { MeshFormat } from '../engine/session_types';
-import { closedEdges } from './closed_edges';
+import { type Command, KneadError, type MeshFormat } from '../engine/session_types';
+import { closedEdges, partedEdges } from './closed_edges';
 import type { Documents } from './documents';
 import { changedSince, replaceFile } from './disk';
 import { download } from './download';
 import { cadFormat, isCompressed, uncompressedName } from './formats';
 import type { Host } from './host';
 import { writeKnead } from './knead_file';
+import { format, unitInWords } from './units';
 
 const historyBytes = 16 * 2 ** 20; // of memory that states take, in a document
 const longSession = 2000; // milliseconds of steps from which a document includes its snapshot
+
+interface Saved {
+  bytes: Uint8Array;
+  edges: EdgesInfo[];
+}
 
 /** Saving: the downloads, in the formats of the menu. */
 export class Saving {
@@ -20,7 +26,8 @@ export class Saving {
   /** Where the file that was opened is known, into it; else as a download. */
   cad = () => (this.documents.place ? this.inPlace() : this.step());
 
-  inPlace = async (): Promise<true | null> => {
+  /** `open`: also where edges of its faces are. */
+  inPlace = async (open = false): Promise<true | null> => {
     const { host, documents } = this;
     const place = documents.place!;
     const { name } = place.file;
@@ -33,26 +40,61 @@ export class Saving {
       if (choice !== 'replace') return choice === 'copy' ? this.step() : null;
     }
     return this.work(async () => {
-      const { bytes, edges } = await this.saved();
+      const found = await this.closed(open, () => this.inPlace(true));
+      if (!found) return null;
+      const { bytes, edges } = found;
       documents.place = await replaceFile(place, bytes);
-      return [`Saved in “${name}”.`, closedEdges(edges, host.state!.surfaces[0]?.unit ?? '')].filter(Boolean).join(' ');
+      return [`Saved in “${name}”.`, closedEdges(edges, this.unit)].filter(Boolean).join(' ');
     });
   };
 
-  step = () => this.work(() => this.download());
+  step = (open = false): Promise<true | null> => this.work(() => this.download(open));
 
-  private async download(): Promise<string | undefined> {
+  private async download(open: boolean): Promise<string | null> {
     const stem = this.stem();
-    const { bytes, edges } = await this.saved();
+    const found = await this.closed(open, () => this.step(true));
+    if (!found) return null;
+    const { bytes, edges } = found;
     const { file } = this.documents;
     const cad = file?.kind === 'step' ? cadFormat(file.name) : null; // it comes back as what it was
     const type = isCompressed(bytes) ? (bytes[0] === 0x1f ? 'application/gzip' : 'application/zip') : cad?.format.media_type;
     download(bytes, `${stem}-sculpted${cad?.ending ?? '.step'}`, type ?? 'model/step');
-    return closedEdges(edges, this.host.state!.surfaces[0]?.unit ?? '');
+    return closedEdges(edges, this.unit);
+  }
+
+  private get unit(): string {
+    return this.host.state!.surfaces[0]?.unit ?? '';
+  }
+
+  /** The file as it is now; null where edges are open, which nobody has said that they may be. `again` saves it with them. */
+  private async closed(open: boolean, again: () => Promise<unknown>): Promise<Saved | null> {
+    const { host } = this;
+    const refuse = (what: string, commands: Command[] | null) => {
+      const anyway = () => void host.attempt(async () => {
+        if (commands) await host.client.execute(commands);
+        await again();
+      });
+      host.notify({ kind: 'error', topic: 'open edges', text: `Not saved: ${what}.`,
+        actions: [...(commands ? [] : [{ label: 'Show them', act: () => host.showEdges() }]), { label: 'Save with open edges', act: anyway }] });
+      return null;
+    };
+    try {
+      const found = await this.saved();
+      const parted = open ? '' : partedEdges(found.edges, this.unit);
+      return parted ? refuse(parted, null) : found;
+    } catch (error) {
+      if (!(error instanceof KneadError) || error.info.code !== 'edge_left_open') throw error;
+      const { values, fixes } = error.info, commands = fixes.find(({ code }) => code === 'let_open')?.commands;
+      if (open && commands) { // allowed: one face after the other
+        await host.client.execute(commands);
+        return this.closed(open, again);
+      }
+      return refuse(`edge ${values!.edge} parted by ${format(values!.distance!)} ${unitInWords(this.unit)}`, commands ?? []);
+    }
   }
 
   /** The file as it is now, compressed as it came. */
-  private async saved(): Promise<{ bytes: Uint8Array; edges: EdgesInfo[] }> {
+  private async saved(): Promise<Saved> {
     const { client } = this.host;
     const { file: bytes, edges } = await client.query('save');
     const { file } = this.documents;
@@ -113,14 +155,20 @@ export class Saving {
   }
 
   /** Says where a tool still holds the shape: `shape` is false for what holds the tools as well. */
-  private async save(act: (stem: string) => Promise<string | undefined | void>, shape = true): Promise<true | null> {
+  private async save(act: (stem: string) => Promise<string | null | undefined | void>, shape = true): Promise<true | null> {
     const { host } = this;
-    return host.attempt(async () => {
+    let saved = true;
+    const done = await host.attempt(async () => {
       const said = await act(this.stem());
+      if (said === null) { // the user has been told
+        saved = false;
+        return;
+      }
       const { tools, last } = host.state!;
       const touched = tools.length > 0 && last !== null && (last.gap > 0 || last.contact > 0);
       const contact = 'Saved with a tool still in contact: the shape is the one it holds.';
       host.notify({ kind: 'info', text: [shape && touched ? contact : '', said ?? ''].filter(Boolean).join(' ') || 'Saved.' });
     });
+    return done && saved ? done : null;
   }
 }

@@ -85,7 +85,7 @@ const words: Partial<Record<Code, Words>> = {
 /** What is not listed has no button: a click selects, and a panel converts. */
 const labels: Partial<Record<Fix['code'], string>> = {
   hold_edges: 'Hold the edges', hold_rows: 'Hold the outer rows', hold_nothing: 'Hold nothing', release_all: 'Release all',
-  release_pins: 'Free the pins', thaw: 'Thaw all', refine: 'Refine', permit_refining: 'Refine where needed', let_follow: 'Let the edge follow',
+  release_pins: 'Free the pins', thaw: 'Thaw all', refine: 'Refine', permit_refining: 'Refine automatically', let_follow: 'Let the edge follow',
   let_go: 'Let the edge go', let_open: 'Let it open', let_part: 'Let them part', convert_and_follow: 'Convert and follow', select_and_follow: 'Select both and follow',
   end_limit: 'End the limit', unlock: 'Unlock it', normalise: 'Use the usual scaling', keep_smooth: 'Keep it smooth',
 };

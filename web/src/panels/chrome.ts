@@ -3,6 +3,7 @@ import { dataEndings } from '../document/data_files';
 import { readEndings } from '../document/formats';
 import type { Notice } from '../document/host';
 import { selected, unitOf } from '../engine/session_state';
+import { unitInWords } from '../document/units';
 import { modes } from '../tools/modes';
 import type { App } from './app';
 import { h, icon, iconButton } from './dom';
@@ -64,7 +65,7 @@ export function topBar(app: App): HTMLElement {
     play.classList.toggle('on', app.playing());
     four.classList.toggle('on', app.display.fourViews);
     name.textContent = state ? app.documents.name : '';
-    unit.textContent = unitOf(state, '');
+    unit.textContent = unitInWords(unitOf(state, ''));
     document.title = state ? `${app.documents.name} – Knead studio` : 'Knead studio';
   });
   return bar;

@@ -1,4 +1,4 @@
-import { format } from '../document/units';
+import { format, unitInWords } from '../document/units';
 import { type DisplayInfo, unitIn } from '../engine/displays';
 import { toleranceOf } from '../view/display';
 import { limitsOf } from '../view/limits';
@@ -37,7 +37,7 @@ export function legendCard(app: App): HTMLElement {
     const { colour, limits: [lower, upper], stripes, autoLimits } = app.display;
     element.hidden = colour === null || stripes !== 'none';
     if (!colour || stripes !== 'none') return;
-    title.textContent = `${colour.title}, ${unitIn(colour.unit, app.viewer.unit)}`;
+    title.textContent = `${colour.title}, ${unitIn(colour.unit, unitInWords(app.viewer.unit))}`;
     bar.style.background = gradient(colour, toleranceOf(app.display), [lower, upper]);
     const shares = [0, 0.25, 0.5, 0.75, 1];
     const at = (x: number) => (colour.palette === 'rising' ? lower + x * (upper - lower) : x < 0.5 ? (1 - 2 * x) * lower : (2 * x - 1) * upper);
@@ -45,7 +45,7 @@ export function legendCard(app: App): HTMLElement {
     handles.forEach((handle, end) => {
       const value = end === 0 ? lower : upper;
       handle.setAttribute('aria-valuenow', String(value));
-      handle.setAttribute('aria-valuetext', `${signed(value)} ${unitIn(colour.unit, app.viewer.unit)}`);
+      handle.setAttribute('aria-valuetext', `${signed(value)} ${unitIn(colour.unit, unitInWords(app.viewer.unit))}`);
     });
     const range = app.frame?.range;
     const slack = 1e-6 * (upper - lower);

@@ -1,12 +1,13 @@
 import type { SurfaceInfo } from '@knead/generated';
+import { unitInWords } from '../document/units';
 import type { App } from './app';
 import { field, toggle } from './dom';
 import { numberInput } from './number_input';
 import { note, row } from './panel';
 
-/** What resists in a surface: the linear model of sculpting, or one that follows any turns. */
+/** What resists in a surface: the linear model of sculpting, or one that follows any rotation. */
 const models = [
-  ['linear', 'Linear', 'The model of sculpting: fast, for small turns; a large one counts as stretch'],
+  ['linear', 'Linear', 'Fast; for small deformations. Large rotations are taken for stretch'],
   ['shell', 'Shell', 'A sheet of real material and thickness (Koiter): forces, stresses, modes'],
   ['fundamental', 'Forms', 'Keeps lengths and curvatures as they were (both fundamental forms), without a material'],
 ] as const;
@@ -36,7 +37,7 @@ export function shellFields(app: App, s: SurfaceInfo): (Node | null)[] | null {
     return [
       number('young', 'Young E', "Young's modulus", 'Force per area; 210000 N/mm² for steel'),
       number('poisson', 'Poisson ν', "Poisson's ratio", 'Above -1, up to 0.5'),
-      number('thickness', 'Thickness t', 'Thickness', `In ${s.unit}`),
+      number('thickness', 'Thickness t', 'Thickness', `In ${unitInWords(s.unit)}`),
       number('density', 'Density ρ', 'Density', 'Mass per volume: for gravity and modes; 7.85e-9 t/mm³ for steel'),
       note('Hold edges, load it, and choose Balance under Evolution; the colours Von Mises stress and Bending strain are under Display.'),
     ];

@@ -29,12 +29,12 @@ export function surfaceBrushFields(app: App): (Node | null)[] {
       slider('Brush strength', settings.strength, [0.02, 1], (strength) => set({ strength })),
       h('output', { class: 'number' }, `${Math.round(100 * settings.strength)} %`),
     ), 'How high it goes, 100 % half its radius; of flatten, smooth and pinch how far. Alt-wheel'),
-    moving || stamping ? null : field('Steady', slider('Steady stroke', settings.steady, [0, 2], (steady) => set({ steady: steady < 0.05 ? 0 : steady })),
+    moving || stamping ? null : field('Stabiliser', slider('Stabiliser', settings.steady, [0, 2], (steady) => set({ steady: steady < 0.05 ? 0 : steady })),
       'The brush is drawn behind the pointer by a rope of so many radii'),
     ...penFields(app, moving || stamping),
     ...repeatFields(app),
     ...maskFields(app),
-    note(`${about}. ${settings.kind === 'smooth' ? '' : 'Shift smooths, '}Esc takes the stroke back.`),
+    note(`${about}. ${settings.kind === 'smooth' ? '' : 'Shift: smooth. '}Esc: cancel the stroke.`),
   ];
 }
 
@@ -46,7 +46,7 @@ function penFields(app: App, aboutPlace: boolean): Node[] {
     app.changed();
   };
   return [field('Pen', row(
-    aboutPlace ? null : select('Pressure of the pen', [['depth', 'presses deeper'], ['size', 'makes it larger'], ['both', 'deeper and larger'], ['none', 'changes nothing']] as const,
+    aboutPlace ? null : select('Pressure of the pen', [['depth', 'Pressure: depth'], ['size', 'Pressure: size'], ['both', 'Pressure: both'], ['none', 'Pressure: off']] as const,
       settings.presses, (presses) => set({ presses })),
     toggle('Tilt', settings.tilt, (tilt) => set({ tilt }), 'A pen that leans leans what the brush does, up to 60° from the normal'),
   ), 'What the pressure and the tilt of a pen do; a mouse is a pen that is upright and pressed fully')];
@@ -95,7 +95,7 @@ function repeatFields(app: App): (Node | null)[] {
       settings.mirror ? numberInput('Place of the mirror', settings.mirror.at, (at) => set({ mirror: { axis: settings.mirror!.axis, at } }),
         (text) => parseLength(text, unit)) : null,
     ), 'Every stroke is repeated on the other side of a plane'),
-    field('Around', numberInput('Strokes around', settings.radial, (radial) => set({ radial: Math.min(64, Math.max(1, Math.round(radial))) })),
+    field('Radial copies', numberInput('Radial copies', settings.radial, (radial) => set({ radial: Math.min(64, Math.max(1, Math.round(radial))) })),
       'Strokes around the axis z through the middle of what is selected'),
   ];
 }

@@ -1,5 +1,5 @@
 import { clay } from '../engine/clay';
-import { parseLength, parseNumber } from '../document/units';
+import { parseLength, parseNumber, unitInWords } from '../document/units';
 import type { NewCommand } from '@knead/generated';
 import type { Command, Vector3 } from '../engine/session_types';
 import type { App } from './app';
@@ -13,7 +13,7 @@ type Shape = (typeof shapes)[number][0];
 /** The shapes that are curves or volumes. */
 const forms = { line: 'curve', circle: 'curve', helix: 'curve', box: 'volume', solid: 'volume' } as const;
 const isForm = (shape: Shape): shape is keyof typeof forms => shape in forms;
-const units = ['mm', 'cm', 'm', 'inch', 'foot'] as const;
+const units = ['mm', 'cm', 'm', 'inch', 'foot', 'um', 'dm', 'km', 'yard', 'mile', 'mil', 'microinch'] as const satisfies readonly NewCommand['unit'][];
 
 /** Numbers in a text, separated by spaces, commas or semicolons; null if one is not a number. */
 export function numbers(text: string): number[] | null {
@@ -144,7 +144,7 @@ export function createPanel(app: App): HTMLElement {
       isForm(p.shape) && p.shape !== 'circle' ? field('Net', whole('Net u', p.net, 0, 4), 'Control points each way; of a curve four times as many') : null,
       p.shape === 'points' ? field('Points', list('Points', p.points, 'x y z, a line each, v running first', (t) => (p.points = t), 5)) : null,
       field('Position', row(...([0, 1, 2] as const).map((k) => number(`Position ${'xyz'[k]} to create`, p.position[k], (v) => (p.position[k] = v))))),
-      field('Unit', select('Unit', units.map((u) => [u, u] as const), p.unit as (typeof units)[number], (unit) => {
+      field('Unit', select('Unit', units.map((u) => [u, unitInWords(u)] as const), p.unit as (typeof units)[number], (unit) => {
         p.unit = unit;
         again();
       })),

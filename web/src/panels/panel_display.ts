@@ -1,4 +1,4 @@
-import { format, parseLength, parseNumber } from '../document/units';
+import { format, parseLength, parseNumber, unitInWords } from '../document/units';
 import { type DisplayInfo, type DisplaySetting, unitIn } from '../engine/displays';
 import { unitOf } from '../engine/session_state';
 import { conventionNames, conventionText } from '../view/conventions';
@@ -89,7 +89,7 @@ function settingField(app: App, colour: DisplayInfo, setting: DisplaySetting): H
   const value = own[setting.name] ?? setting.value;
   const set = (to: number | number[]) =>
     app.setDisplay({ colourSettings: { ...app.display.colourSettings, [colour.name]: { ...own, [setting.name]: to } } });
-  const title = setting.unit ? `${setting.title}, ${unitIn(setting.unit, unitOf(app.state))}` : setting.title;
+  const title = setting.unit ? `${setting.title}, ${unitIn(setting.unit, unitInWords(unitOf(app.state)))}` : setting.title;
   const inputs = typeof value === 'number' ? [numberInput(setting.title, value, set)]
     : value.map((x, k) => numberInput(`${setting.title} ${'xyz'[k]}`, x, (y) => set(value.map((z, l) => (l === k ? y : z)))));
   const element = field(title, row(...inputs), setting.help);

@@ -1,4 +1,5 @@
 import { cannotFollow, digits, inWords, type MeasureKind, measureKinds, pinning, type Reading, readingText, valuesOf } from '../document/readings';
+import { unitInWords } from '../document/units';
 import type { Command } from '../engine/session_types';
 import { still } from '../view/placing';
 import type { App } from './app';
@@ -12,7 +13,7 @@ const kinds: Record<MeasureKind, [string, string]> = {
   radius: ['Radius', 'The smallest and the largest radius of curvature at a point'],
 };
 
-const unitOf = (app: App) => app.viewer.unit || 'mm';
+const unitOf = (app: App) => unitInWords(app.viewer.unit || 'mm');
 /** Of everything, so that a reading does not depend on what is selected. */
 const sizeOf = (app: App) => 2 * app.viewer.bounds().radius;
 

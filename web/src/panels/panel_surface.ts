@@ -88,7 +88,7 @@ export function surfacePanel(app: App): HTMLElement {
         small('Remove', 'Remove knots where the shape moves by no more than this', () => void app.execute([{ do: 'coarsen', tolerance }])))),
       row(
         small('Halve spans', 'Halve every span: the same shape on a finer net', () => void app.execute([{ do: 'refine', region: [[0, 1], [0, 1]] }])),
-        small('Elevate', 'Raise the degree by one: the same shape', () => void app.execute([{ do: 'elevate' }])),
+        small('Raise degree', 'By one, with the same shape', () => void app.execute([{ do: 'elevate' }])),
       ),
     ];
   }, false);

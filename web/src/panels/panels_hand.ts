@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import { format, parseLength } from '../document/units';
+import { format, parseLength, unitInWords } from '../document/units';
 import { materials, type PointsCommand } from '@knead/generated';
 import { unitOf } from '../engine/session_state';
 import type { SizeUnit } from '../tools/brush_size';
@@ -54,7 +54,7 @@ function radiusField(app: App): HTMLElement {
       size.value = v;
       return app.changed();
     }, size.unit === 'length' ? length(app) : undefined),
-    select<SizeUnit>('Unit of the brush radius', [['length', unitOf(app.state)], ['screen', 'px'], ['face', '%']], size.unit, (unit) => {
+    select<SizeUnit>('Unit of the brush radius', [['length', unitInWords(unitOf(app.state))], ['screen', 'px'], ['face', '%']], size.unit, (unit) => {
       size.unit = unit;
       app.changed();
     }),
@@ -80,7 +80,7 @@ function brushFields(app: App): (Node | null)[] {
       settings.pressure = pressure;
       app.changed();
     }, 'A pen that is pressed lightly goes less deep')),
-    app.hand.mode === 'push' || app.hand.mode === 'pull' ? note('Alt the other way, Shift smooths, Esc takes the stroke back.') : null,
+    app.hand.mode === 'push' || app.hand.mode === 'pull' ? note('Alt: reverse. Shift: smooth. Esc: cancel the stroke.') : null,
   ];
 }
 

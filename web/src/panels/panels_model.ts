@@ -29,7 +29,7 @@ export function materialPanel(app: App): HTMLElement {
       ]), help))),
       note(chosenMaterial ? `${title(chosenMaterial.name)}: ${chosenMaterial.help}.` : s.alpha.includes(null) || s.beta.includes(null)
         ? 'Varies over the surface: it was painted.' : 'A material of your own.'),
-      field('Stays', numberInput('Share that stays', s.plasticity, (plasticity) => set({ plasticity })), 'Share of a stroke that stays, 0 to 1'),
+      field('Plasticity', numberInput('Plasticity of the material', s.plasticity, (plasticity) => set({ plasticity })), 'Share of a stroke that stays, 0 to 1'),
       field('Yield', numberInput('Yield', s.yield, (y) => set({ yield: y, lengths: s.lengths })), `Up to this displacement nothing stays, ${counted}`),
       field('Locality', numberInput('Locality', s.locality, (locality) => set({ locality, lengths: s.lengths })), `How far a dent is felt, ${counted}; 0: as far as λ lets it`),
       field('Stretch α', numberInput('Stretch', one(s.alpha), (a) => set({ alpha: [a, 0, a] })), 'Resistance to stretch (Eq. 4.8)'),
@@ -47,7 +47,7 @@ function restRow(app: App, s: SurfaceInfo): HTMLElement {
     toggle('Keeps its shape', s.rest === 'shape', (on) => void app.execute([{ do: 'rest', mode: on ? 'shape' : 'none' }]),
       'At rest in its own shape; otherwise, as in the thesis, it shrinks without forces'),
     h('button', { class: 'button small', type: 'button', title: 'The present shape becomes the rest shape',
-      onclick: () => void app.execute([{ do: 'rest', mode: s.rest }]) }, 'Set as rest'),
+      onclick: () => void app.execute([{ do: 'rest', mode: s.rest }]) }, 'Keep this shape'),
   );
 }
 
@@ -64,7 +64,7 @@ export function evolutionPanel(app: App): HTMLElement {
     const { gravity } = state.load;
     return [
       row(
-        toggle('Sink', state.evolve.mode === 'acm', () => mode('acm'), 'Sinks towards the balance (Eq. 4.22)'),
+        toggle('Settle', state.evolve.mode === 'acm', () => mode('acm'), 'Settles towards the balance (Eq. 4.22)'),
         toggle('Balance', state.evolve.mode === 'static', () => mode('static'), 'The balance at once'),
         toggle('Swing', state.evolve.mode === 'dynamic', () => mode('dynamic'), 'Mass and damping (Eq. 5.39)'),
       ),
@@ -78,7 +78,7 @@ export function evolutionPanel(app: App): HTMLElement {
         button('Run to rest', 'Steps until nothing moves (R)', () => app.togglePlay(true)),
       ),
       chart,
-      row(toggle('Refine as needed', state.refine === 'auto', (on) => void app.execute([{ do: 'refine', permission: on ? 'auto' : 'never' }]),
+      row(toggle('Refine automatically', state.refine === 'auto', (on) => void app.execute([{ do: 'refine', permission: on ? 'auto' : 'never' }]),
         'Steps may halve spans under a tool that the net is too coarse for')),
     ];
   }, false);

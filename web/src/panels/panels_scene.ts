@@ -32,15 +32,15 @@ export function surfacesPanel(app: App): HTMLElement {
         return h('li', {}, h('button', { class: on ? 'item on' : 'item', type: 'button', onclick: pick, title: 'Ctrl-click selects several, which then move together',
           aria: { pressed: String(on) } },
           h('span', {}, s.name || s.id),
-          h('small', {}, `${s.degree.join('·')}  ${s.net.join(' × ')}${s.rational ? '  NURBS' : ''}${places(s.id) > 1 ? `  in ${places(s.id)} places` : ''}${s.moved > 0 ? '  •' : ''}`)));
+          h('small', {}, `degree ${s.degree.join('×')}, ${s.net.join('×')} points${s.rational ? '  NURBS' : ''}${places(s.id) > 1 ? `  in ${places(s.id)} places` : ''}${s.moved > 0 ? '  •' : ''}`)));
       }), ...state.bodies.map((b, k) => bodyItem(app, b, state.body === k))),
       row(
         h('button', { class: 'button small', type: 'button', title: 'Halve every span: the same shape on a finer net',
           onclick: () => void app.execute([state.body !== null ? { do: 'refine' } : { do: 'refine', region: [[0, 1], [0, 1]] }]) }, 'Refine'),
-        ...(state.body !== null ? [] : [h('button', { class: 'button small', type: 'button', title: 'Raise the degree by one: the same shape',
-          onclick: () => void app.execute([{ do: 'elevate' }]) }, 'Elevate'),
+        ...(state.body !== null ? [] : [h('button', { class: 'button small', type: 'button', title: 'By one, with the same shape',
+          onclick: () => void app.execute([{ do: 'elevate' }]) }, 'Raise degree'),
         h('button', { class: 'button small', type: 'button', title: 'Select everything that seams connect with this surface',
-          onclick: () => void app.execute([{ do: 'select', surface: state.surfaces[state.selection[0] ?? 0]!.id, connected: true }]) }, 'Connected')]),
+          onclick: () => void app.execute([{ do: 'select', surface: state.surfaces[state.selection[0] ?? 0]!.id, connected: true }]) }, 'Select connected')]),
       ),
     ];
   });

@@ -1,4 +1,4 @@
-import { format } from '../document/units';
+import { format, unitInWords } from '../document/units';
 import type { StepInfo } from '../engine/session_types';
 import { selected, unitOf } from '../engine/session_state';
 import type { App } from './app';
@@ -33,7 +33,7 @@ export function statusBar(app: App): HTMLElement {
         cells.push(['energy', format(last.energy), 'Stretch and bend energy']);
         cells.push(['residual', format(last.residual), 'Imbalance of forces: 0 at rest']);
       }
-      if (last || frame.moved > 0) cells.push(['moved', `${format(frame.moved)} ${unitOf(state, '')}`, 'Largest distance from the surface as opened']);
+      if (last || frame.moved > 0) cells.push(['moved', `${format(frame.moved)} ${unitInWords(unitOf(state, ''))}`, 'Largest distance from the surface as opened']);
       cells.push(['frame', `${(frame.computeTime + frame.pictureTime).toFixed(1)} ms`, 'Commands, evaluation and transfer in the worker']);
       if (app.framesPerSecond > 0) cells.push(['fps', app.framesPerSecond.toFixed(0), 'Frames per second']);
     }

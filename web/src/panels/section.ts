@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import { format, parseLength } from '../document/units';
+import { format, parseLength, unitInWords } from '../document/units';
 import { type SectionAxis, sectionAxes } from '../view/section';
 import type { App } from './app';
 import { field, h, icon, slider, toggle } from './dom';
@@ -70,7 +70,7 @@ export function sectionHandle(app: App): HTMLElement {
     handle.style.top = `${THREE.MathUtils.clamp(y!, view.top + 44, view.bottom - 20) - stage.top}px`;
     const numbers = { now: section.offset + shift(app), min: section.range[0] + shift(app), max: section.range[1] + shift(app) };
     for (const [name, value] of Object.entries(numbers)) handle.setAttribute(`aria-value${name}`, String(value));
-    handle.setAttribute('aria-valuetext', `${format(numbers.now)} ${viewer.unit}`);
+    handle.setAttribute('aria-valuetext', `${format(numbers.now)} ${unitInWords(viewer.unit)}`);
   });
 
   /** The offset for a motion of the pointer. */

@@ -30,7 +30,7 @@ const steps: Step[] = [
   },
   {
     title: 'Press',
-    text: 'Drag across the sheet to push a ball into it. With Alt it pulls. Shift-wheel changes the size of the ball, Esc takes a stroke back while you draw it.',
+    text: 'Drag across the sheet to push a ball into it. With Alt it pulls. Shift-wheel changes the size of the ball, Esc cancels a stroke while you draw it.',
     target: '.rail [aria-label^="Push"]',
     enter: (app) => app.hand.choose('push'),
     done: (app, before) => !app.hand.brush.active && (app.state?.steps ?? 0) > before.steps,

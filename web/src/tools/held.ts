@@ -47,16 +47,16 @@ export interface Meeting {
 /** `own`: the surface that the edge is looked at from. */
 export function meetingAt(edge: FaceEdge, own: string): Meeting {
   if (edge.seam) {
-    return { opens: true, follows: true, text: 'The surface meets itself here. Free, the edge stays behind: it opens. With Follow both sides move as one.' };
+    return { opens: true, follows: true, text: 'The surface meets itself here. Free: a gap opens, because the edge stays. Follow: both sides move together.' };
   }
   const others = edge.meets.filter((m) => m.surface !== own);
   if (others.length === 0) return { opens: false, follows: true, text: 'No other face meets it: nothing opens where it moves.' };
-  const faces = listed(others.map((m) => (forms[m.form] ? `the ${forms[m.form]!} ${m.face}` : m.face)));
-  const [stay, they] = others.length === 1 ? ['stays', 'it'] : ['stay', 'they'];
+  const faces = listed(others.map((m) => `${forms[m.form] ?? 'face'} ${m.face}`));
+  const [they, all] = others.length === 1 ? ['that face stays', 'both'] : ['those faces stay', 'all'];
   return {
     opens: true,
     follows: true,
-    text: `It meets ${faces}. Free, it opens: ${they} ${stay}. With Follow they move as one.`,
+    text: `Shared with ${faces}. Free: a gap opens, because ${they}. Follow: ${all} move together.`,
   };
 }
 

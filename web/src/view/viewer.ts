@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import { format } from '../document/units';
+import { format, unitInWords } from '../document/units';
 import type { Context, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
 import { type Bounds, boundsOf } from './bounds';
@@ -380,7 +380,7 @@ export class Viewer {
       for (const other of this.viewports) other.gizmo.getHelper().visible = other === view && other.gizmo.object !== undefined;
       this.ground.mesh.visible = this.display.grid;
       if (this.display.grid) this.ground.prepare(view, this.groundHeight, this.sceneRadius, this.origin);
-      view.showScale(this.display.grid ? `${format(this.ground.step)} ${this.unit}` : '', this.ground.step / view.pixel());
+      view.showScale(this.display.grid ? `${format(this.ground.step)} ${unitInWords(this.unit)}` : '', this.ground.step / view.pixel());
       this.renderer.render(this.scene, view.camera);
     }
     for (const follow of this.onDrawn) follow();

@@ -20,7 +20,8 @@ export interface RhinoContents {
 
 /** Names of units in the session and in Rhino. */
 export const rhinoUnits: Record<string, string> = {
-  um: 'Microns', mm: 'Millimeters', cm: 'Centimeters', m: 'Meters', km: 'Kilometers', inch: 'Inches', foot: 'Feet',
+  um: 'Microns', mm: 'Millimeters', cm: 'Centimeters', m: 'Meters', km: 'Kilometers', dm: 'Decimeters',
+  inch: 'Inches', foot: 'Feet', yard: 'Yards', mile: 'Miles', mil: 'Mils', microinch: 'Microinches',
 };
 
 export function openRhino(rhino: Rhino, bytes: Uint8Array): RhinoFile {
