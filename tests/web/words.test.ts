@@ -134,6 +134,17 @@ describe('an edge that would open', () => {
   });
 });
 
+describe('a remedy for a terminal', () => {
+  const uncoded = (remedy: string) => adviceOn({ ...told('none', {}), what: 'it is wrong', place: '#7', remedy });
+
+  it('is not said on a page', () => {
+    expect(uncoded('write {"do":"hold"}').remedy).toBeUndefined();
+    expect(uncoded('`knead info --faces` lists those that can be converted').remedy).toBeUndefined();
+    expect(uncoded(Array.from({ length: 50 }, (_, k) => `command${k}`).join(', ')).remedy).toBeUndefined();
+    expect(uncoded('take a larger one')).toMatchObject({ text: '#7: it is wrong', remedy: 'Take a larger one' });
+  });
+});
+
 describe('what notes tell', () => {
   it('that nothing holds a surface comes with what holds it', async () => {
     const engine = await Engine.load(wasm);

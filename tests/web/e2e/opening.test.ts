@@ -52,6 +52,20 @@ it('asks about the document that it has opened, also where the one before was no
   await scene(page, 'Clay sheet');
 });
 
+it('says in a sentence what is no STEP file, and keeps what is open', async () => {
+  const { page } = studio;
+  const before = await commands(page);
+  await openFile(page, file('junk.step', 'not a model'));
+  const error = page.locator('.notice.error');
+  await expect.poll(() => error.locator('p').first().textContent()).toBe('“junk.step” is not a STEP file.');
+  await error.getByRole('button', { name: 'Dismiss' }).click();
+  await openFile(page, file('x.sldprt', ''));
+  await expect.poll(() => error.textContent()).toContain('“x.sldprt” is not a kind of file that the studio reads.');
+  expect(await error.textContent()).not.toMatch(/\.step|\.igs/);
+  await error.getByRole('button', { name: 'Dismiss' }).click();
+  expect(await commands(page)).toEqual(before);
+});
+
 describe('undo', () => {
   it('goes no further back than the sheet that the page begins with', async () => {
     const { page } = studio;

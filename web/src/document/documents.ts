@@ -6,7 +6,7 @@ import { loadContext } from './context';
 import type { OnDisk } from './disk';
 import { download } from './download';
 import { isDataName, isTableOfPoints } from './data_files';
-import { cadFormat, isCompressed, readFormats } from './formats';
+import { cadFormat, isCompressed, isStep, readFormats } from './formats';
 import type { Host } from './host';
 import { Keeper } from './keeper';
 import { isNet, type KneadDocument, readKnead, type Source } from './knead_file';
@@ -124,7 +124,7 @@ export class Documents {
       });
     } else if (await this.isData(file)) {
       if (await this.follow(file)) return;
-      host.notify({ kind: 'error', text: `“${file.name}” is data that faces can follow, and no CAD file is open`, remedy: 'open the CAD file first, then drop the data' });
+      host.notify({ kind: 'error', text: `“${file.name}” is data that faces can follow, and no CAD file is open.`, remedy: 'Open the CAD file first, then drop the data.' });
     } else if (cadFormat(file.name)) {
       if (await this.mayLeave()) await this.openStep(await bytes(), file.name);
     } else if (/\.3dm$/i.test(file.name)) {
@@ -132,8 +132,8 @@ export class Documents {
     } else if (/\.(png|jpe?g)$/i.test(file.name)) {
       await host.openImage(file);
     } else {
-      host.notify({ kind: 'error', text: `“${file.name}” is not a kind of file that the studio reads`,
-        remedy: `open ${readFormats}, a Rhino file (.3dm), a Knead document (.knead) or an image (.png, .jpg)` });
+      host.notify({ kind: 'error', text: `“${file.name}” is not a kind of file that the studio reads.`,
+        remedy: `Open a ${readFormats} or Rhino file, a Knead document or an image.` });
     }
   }
 
@@ -178,7 +178,7 @@ export class Documents {
   private async openStep(bytes: Uint8Array, name: string, scene: Command[] | null = null): Promise<true | null> {
     const { host } = this;
     return host.attempt(async () => {
-      await this.begin(name, { kind: 'step', name, bytes }, async () => host.client.open(await plain(bytes), name));
+      await this.begin(name, { kind: 'step', name, bytes }, async () => openedAs(await plain(bytes), name, (content) => host.client.open(content, name)));
       if (!scene) {
         await this.firstLook();
         return;
@@ -376,6 +376,16 @@ export class Documents {
 
 /** The bytes for the engine, which unpacks nothing. */
 const plain = async (bytes: Uint8Array): Promise<Uint8Array> => (isCompressed(bytes) ? (await import('@knead/compressed')).unpacked(bytes) : bytes);
+
+/** Says of a file that is none of STEP what its name promises; `open` throws for every file that the engine does not read. */
+async function openedAs(content: Uint8Array, name: string, open: (content: Uint8Array) => Promise<unknown>): Promise<unknown> {
+  try {
+    return await open(content);
+  } catch (error) {
+    if (!(error instanceof KneadError) || cadFormat(name)?.format.id !== 'step' || isStep(content)) throw error;
+    throw new KneadError({ ...error.info, place: '', what: `“${name}” is not a STEP file.`, remedy: 'Export the model again, as a STEP file.' });
+  }
+}
 
 /** How many commands at the start only make and prepare what is sculpted: they are the document as it is opened. */
 function preparation(commands: readonly Command[]): number {

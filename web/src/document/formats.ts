@@ -25,5 +25,8 @@ export function cadFormat(name: string): { ending: string; format: (typeof opene
 /** Endings of all files that the studio reads. */
 export const readEndings: readonly string[] = [...opened.flatMap(({ endings }) => endings), '.stpz', '.gz', '.3dm', '.knead', '.png', '.jpg', '.jpeg'];
 
-/** "STEP (.step, .stp, .p21), IGES (.igs, .iges), …". */
-export const readFormats = opened.map(({ name, endings }) => `${name} (${endings.join(', ')})`).join(', ');
+/** "STEP, IGES, …". */
+export const readFormats = opened.map(({ name }) => name).join(', ');
+
+/** Whether a file begins as those of STEP do, after what may stand before. */
+export const isStep = (bytes: Uint8Array): boolean => new TextDecoder('latin1').decode(bytes.subarray(0, 4096)).includes('ISO-10303-21');

@@ -112,10 +112,15 @@ function typeset(text: string): string {
 
 const sentence = (text: string): string => (text ? text[0]!.toUpperCase() + text.slice(1) : text);
 
+const longest = 240; // letters of a remedy: a longer one lists all names that there are
+
+/** Whether a remedy is not in the language of scripts, nor for a terminal. */
+const forPages = (remedy: string): boolean => !remedy.includes('{') && !remedy.includes('`knead ') && remedy.length <= longest;
+
 /** `nothingDone`: what was refused has left no trace. */
 export function adviceOn(error: EngineErrorInfo, nothingDone = false): Advice {
   const known = words[error.code]?.(error.values!, nothingDone ? ', so nothing was done' : '', error.fixes);
-  const remedy = known ? known.remedy : typeset(error.remedy);
+  const remedy = known ? known.remedy : forPages(error.remedy) ? typeset(error.remedy) : undefined;
   const text = known?.text ?? sentence(`${error.place ? `${error.place}: ` : ''}${typeset(error.what)}`);
   return { text, ...(remedy ? { remedy: sentence(remedy) } : {}), actions: actionsFor(error.fixes) };
 }
