@@ -51,6 +51,8 @@ export interface Snapshot {
 
 export interface Frame {
   state: SessionInfo;
+  /** The figures of the last step, and the plot, are of this state. */
+  stands: boolean;
   pictures: Picture[];
   /** Of the colours of the pictures; null without any. */
   range: DisplayRange | null;

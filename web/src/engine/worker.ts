@@ -6,6 +6,7 @@ import type { PictureSettings, Reply, Request } from './protocol';
 import { Preparation } from './preparation';
 import { Rest } from './rest';
 import { type Command, KneadError, type EngineErrorInfo, errorOf, type Picture, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
+import { Standing } from './standing';
 import { rehearse } from './strokes';
 import { trimTree } from './trim_tree';
 
@@ -55,6 +56,7 @@ let shownSteps = 0;
 let computeTime = 0;
 let unkept = 0;
 let quietSteps = 0;
+const standing = new Standing();
 let opened = 0; // commands that belong to the opened document
 const historyBytes = 48 * 2 ** 20; // of memory of states that the session before keeps where another cannot be opened
 
@@ -142,6 +144,7 @@ function begin(engine: Engine, next: typeof source, act: () => void): void {
     throw error;
   }
   source = next;
+  standing.renew(engine.query('state'));
   preparation.renew();
   frameDrawn = true; // what the page has not drawn yet is of the session before: this one is on the page when it is asked about
   assemblyDue = true;
@@ -208,8 +211,9 @@ function sendFrame(engine: Engine): void {
   const steps = engine.query('steps', { first: firstStep });
   shownSteps = state.steps;
   frameDrawn = false;
+  const shapes = state.body !== null ? [bodies[state.body]!.points] : state.selection.map((k) => pictures[k]!.net);
   const frame = {
-    state, pictures, range, late, combs, bodies, lattice, toolPictures, firstStep, steps, origin: engine.query('origin'), playing: playing !== 'no', moved: movedBy(engine, state),
+    state, stands: standing.stands(state, settings.opened ? null : shapes), pictures, range, late, combs, bodies, lattice, toolPictures, firstStep, steps, origin: engine.query('origin'), playing: playing !== 'no', moved: movedBy(engine, state),
     computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
     ...(assemblyDue ? { assembly: engine.query('assembly') } : {}),
   };

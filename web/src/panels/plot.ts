@@ -11,6 +11,12 @@ const terms = [
   ['contact', '--plot-4'],
 ] as const;
 
+/** The last step and those before it, where they are of the state that is shown; null where something else has changed it since. */
+function figuresOf({ frame, steps }: App): { last: StepInfo; steps: readonly StepInfo[] } | null {
+  const last = frame?.stands ? frame.state.last : null;
+  return last ? { last, steps } : null;
+}
+
 /** The bar below: energy by term over the last steps, and the values of the last one. */
 export function statusBar(app: App): HTMLElement {
   const canvas = h('canvas', { class: 'plot', width: 220, height: 44, aria: { label: 'Energy by term over the last steps' } });
@@ -21,19 +27,19 @@ export function statusBar(app: App): HTMLElement {
   const update = () => {
     const { state, frame } = app;
     drawPlot(app, canvas);
-    const last = state?.last;
+    const last = figuresOf(app)?.last;
     const cells: [string, string, string][] = [];
     if (frame) {
       const points = selected(state!).reduce((sum, { net }) => sum + net.reduce((n, count) => n * count, 1), 0);
       cells.push(['points', String(points), 'Control points of what is selected']);
       cells.push(['unknowns', String(3 * points), 'Degrees of freedom: three for each control point; what is held is among them']);
+      if (state!.steps > 0) cells.push(['steps', String(state!.steps), 'Steps so far']);
       if (last) {
-        cells.push(['steps', String(state!.steps), 'Steps so far']);
         cells.push(['step', `${(1000 * last.time).toFixed(1)} ms`, 'Time of the last step alone']);
         cells.push(['energy', format(last.energy), 'Stretch and bend energy']);
         cells.push(['residual', format(last.residual), 'Imbalance of forces: 0 at rest']);
       }
-      if (last || frame.moved > 0) cells.push(['moved', `${format(frame.moved)} ${unitInWords(unitOf(state, ''))}`, 'Largest distance from the surface as opened']);
+      if (state!.steps > 0 || frame.moved > 0) cells.push(['moved', `${format(frame.moved)} ${unitInWords(unitOf(state, ''))}`, 'Largest distance from the surface as opened']);
       cells.push(['frame', `${(frame.computeTime + frame.pictureTime).toFixed(1)} ms`, 'Commands, evaluation and transfer in the worker']);
       if (app.framesPerSecond > 0) cells.push(['fps', app.framesPerSecond.toFixed(0), 'Frames per second']);
     }
@@ -53,9 +59,9 @@ export function energyChart(app: App): HTMLElement {
   app.onChange.push(() => {
     if (element.offsetParent === null) return; // its panel is closed
     drawPlot(app, canvas, [244, 84]);
-    const last = app.steps.at(-1);
+    const steps = figuresOf(app)?.steps ?? [], last = steps.at(-1);
     for (const [name, output] of values) output.textContent = last ? format(last[name]) : '–';
-    most.textContent = app.steps.length > 1 ? format(largest(app.steps)) : '';
+    most.textContent = steps.length > 1 ? format(largest(steps)) : '';
   });
   return element;
 }
@@ -69,7 +75,7 @@ function drawPlot(app: App, canvas: HTMLCanvasElement, [width, height] = [220, 4
   if (canvas.width !== width * scale) [canvas.width, canvas.height] = [width * scale, height * scale];
   context.setTransform(scale, 0, 0, scale, 0, 0);
   context.clearRect(0, 0, width, height);
-  const { steps } = app;
+  const steps = figuresOf(app)?.steps ?? [];
   if (steps.length < 2) return;
   const style = getComputedStyle(document.documentElement);
   const most = Math.max(largest(steps), 1e-300);
