@@ -4,7 +4,7 @@ import { fileURLToPath } from 'node:url';
 import { type DisplayInfo, type SettingValue, unitIn } from '@studio/engine/displays';
 import { Engine } from '@knead/engine';
 import type { Command } from '@studio/engine/session_types';
-import { limitsOf } from '@studio/view/limits';
+import { limitsOf, nothingToShow } from '@studio/view/limits';
 
 const wasm = readFileSync(fileURLToPath(new URL('../../web/src/engine/knead_studio.wasm', import.meta.url)));
 
@@ -142,4 +142,29 @@ describe('limits of the colours', () => {
   });
 
   it('have the unit of the file', () => expect(unitIn('1/length²', 'mm')).toBe('1/mm²'));
+});
+
+describe('colours of nothing', () => {
+  const said = (engine: Engine, name: string) => {
+    engine.query('picture', { surface: 0, detail: 20, display: name });
+    const display = engine.query('displays').find((d) => d.name === name)!;
+    return nothingToShow(display, engine.query('range'), engine.query('state'));
+  };
+
+  it('say why there are none', async () => {
+    const engine = await session({ do: 'new', size: [100, 100], net: [8, 8] }, { do: 'hold', rows: 2 });
+    expect(said(engine, 'gap')).toBe('Nothing to show: no tool in the scene.');
+    expect(said(engine, 'mask')).toBe('Nothing to show: nothing is masked.');
+    expect(said(engine, 'deviation')).toBe('Nothing to show: nothing has moved.');
+    expect(said(engine, 'mean')).toBe('Nothing to show: flat everywhere.');
+    expect(said(engine, 'energy')).toBe('Nothing to show: nothing is stretched or bent.');
+    expect(said(engine, 'von_mises')).toBe('Nothing to show: no surface is a shell.');
+    expect(said(engine, 'draft')).toBeNull();
+  });
+
+  it('give way to what there is', async () => {
+    const engine = await session({ do: 'new', size: [100, 100], net: [8, 8] }, { do: 'hold', rows: 2 },
+      { do: 'tool', name: 'ball', radius: 20, position: [50, 50, 10] }, { do: 'step', count: 2 }, { do: 'brush', kind: 'mask', radius: 40, path: [[0.5, 0.5]] });
+    for (const name of ['gap', 'mask', 'deviation', 'mean', 'energy']) expect(said(engine, name), name).toBeNull();
+  });
 });

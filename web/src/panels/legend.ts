@@ -1,7 +1,7 @@
 import { format, unitInWords } from '../document/units';
 import { type DisplayInfo, unitIn } from '../engine/displays';
 import { toleranceOf } from '../view/display';
-import { limitsOf } from '../view/limits';
+import { limitsOf, nothingToShow } from '../view/limits';
 import { justOutside } from '../view/surface_shader';
 import type { App } from './app';
 import { h } from './dom';
@@ -19,6 +19,7 @@ export function legendCard(app: App): HTMLElement {
   const title = h('b', {});
   const bar = h('i', { class: 'legend-bar' });
   const handles = [endHandle(app, bar, 0), endHandle(app, bar, 1)] as const;
+  const nothing = h('p', { class: 'note', hidden: true });
   const track = h('div', { class: 'legend-track', title: 'Drag the ends; a double click lets them follow from the values' }, bar, ...handles);
   track.addEventListener('dblclick', () => autoLimitsAgain(app));
   const ticks = h('div', { class: 'legend-ticks' });
@@ -32,13 +33,17 @@ export function legendCard(app: App): HTMLElement {
   });
   compare.addEventListener('keyup', () => app.compare(false));
   const element = h('section', { class: 'legend-card', hidden: true, aria: { label: 'Meaning of the colours' } },
-    title, track, ticks, h('div', { class: 'legend-beyond' }, ...beyond), auto, compare);
+    title, nothing, track, ticks, h('div', { class: 'legend-beyond' }, ...beyond), auto, compare);
   app.onChange.push(() => {
     const { colour, limits: [lower, upper], stripes, autoLimits } = app.display;
     element.hidden = colour === null || stripes !== 'none';
     if (!colour || stripes !== 'none') return;
     title.textContent = `${colour.title}, ${unitIn(colour.unit, unitInWords(app.viewer.unit))}`;
     bar.style.background = gradient(colour, toleranceOf(app.display), [lower, upper]);
+    const why = app.frame && !app.frame.late ? nothingToShow(colour, app.frame.range, app.frame.state) : null;
+    nothing.textContent = why ?? '';
+    nothing.hidden = why === null;
+    track.hidden = ticks.hidden = why !== null;
     const shares = [0, 0.25, 0.5, 0.75, 1];
     const at = (x: number) => (colour.palette === 'rising' ? lower + x * (upper - lower) : x < 0.5 ? (1 - 2 * x) * lower : (2 * x - 1) * upper);
     ticks.replaceChildren(...shares.map((x) => h('span', {}, signed(at(x)))));
