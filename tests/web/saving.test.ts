@@ -2,7 +2,7 @@
 import { closedEdges, partedEdges } from '@studio/document/closed_edges';
 import type { Documents } from '@studio/document/documents';
 import type { Host, Notice } from '@studio/document/host';
-import { Saving } from '@studio/document/saving';
+import { lostInRhino, Saving } from '@studio/document/saving';
 import { KneadError } from '@studio/engine/session_types';
 
 const letOpen = [{ do: 'hold', mode: 'open' }] as const;
@@ -54,6 +54,16 @@ describe('saving', () => {
     await saving.picture(2);
     expect(names).toEqual(['hood.stl', 'hood.json', 'hood@2x.png']);
     expect(saved()).toBe(0);
+  });
+});
+
+describe('a Rhino file', () => {
+  it('says before it is saved what it does not hold', () => {
+    expect(lostInRhino('rhino', [], [])).toBe('');
+    expect(lostInRhino(null, [], [])).toBe('');
+    expect(lostInRhino('step', [], [])).toBe('Trims, solids and the faces that are not sculpted are not written.');
+    expect(lostInRhino('rhino', ['a', 'b', 'c', 'd'], [])).toMatch(/^“a”, “b”, “c”, “…”: the edges stay/);
+    expect(lostInRhino('rhino', [], ['hull'])).toMatch(/^“hull”: the polysurface keeps its old face/);
   });
 });
 

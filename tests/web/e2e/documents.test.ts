@@ -6,7 +6,7 @@ import type { Page } from 'playwright-core';
 
 import { collected } from '../collection';
 import { boxes } from '../rhino_boxes';
-import { commands, contextOf, distance, draws, openFile as open, positions, ready, root, scene, screen, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
+import { commands, contextOf, distance, draws, execute, question, openFile as open, positions, ready, root, scene, screen, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
 
 const studio = studioOfFile();
 const directory = directoryOfFile();
@@ -40,7 +40,10 @@ describe('Rhino files', () => {
     await stroke(page, [-30, 0], [-10, 0]);
     const again = await nets(page);
     expect(distance(again, shape)).toBeGreaterThan(1);
-    const sculpted = await save(page, 'Rhino file');
+    const [byKeys] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Control+s')]);
+    expect(byKeys.suggestedFilename()).toMatch(/-sculpted\.3dm$/);
+    expect(await save(page, 'STEP file')).toMatch(/\.step$/);
+    const sculpted = await save(page, 'CAD file');
     expect(sculpted).toMatch(/-sculpted\.3dm$/);
     await open(page, sculpted);
     expect(distance(await nets(page), again)).toBeLessThan(1e-3);
@@ -54,6 +57,25 @@ describe('Rhino files', () => {
     await open(page, path);
     expect(await page.locator('.panel[data-panel=Surfaces] .item').count()).toBe(12);
     await expect.poll(() => page.locator('.document-name').textContent()).toContain('boxes.3dm');
+  });
+
+  it('say what is lost in them before they are written, and are not where that is not wanted', async () => {
+    const { page } = studio;
+    await page.locator('.panel[data-panel=Surfaces] .item').first().click();
+    await settled(page);
+    const id = await page.evaluate(() => (window as never as { studio: { state: { surfaces: { id: string }[] } } }).studio.state.surfaces[0]!.id);
+    await execute(page, { do: 'select', surface: id }, { do: 'refine', region: [[0, 1], [0, 1]] }, { do: 'hold', mode: 'open', rows: 0 } as never);
+    await execute(page, { do: 'points', which: [4], by: [0, 0, 0.1] });
+    let downloads = 0;
+    page.on('download', () => ++downloads);
+    await page.keyboard.press('Control+s');
+    await expect.poll(() => question(page).textContent()).toContain('the polysurface keeps its old face');
+    await question(page).getByRole('button', { name: 'Cancel' }).click();
+    await settled(page);
+    expect(downloads).toBe(0);
+    await page.keyboard.press('Control+s');
+    const [download] = await Promise.all([page.waitForEvent('download'), question(page).getByRole('button', { name: 'Save the Rhino file' }).click()]);
+    expect(download.suggestedFilename()).toBe('boxes-sculpted.3dm');
   });
 
   const head = collected('v2_HumanHead2.3dm');

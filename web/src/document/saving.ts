@@ -17,6 +17,16 @@ interface Saved {
   edges: EdgesInfo[];
 }
 
+/** What a Rhino file does not hold of a document that began with a file of this kind; empty if nothing is lost. */
+export function lostInRhino(kind: 'step' | 'rhino' | null, within: readonly string[], beside: readonly string[]): string {
+  const some = (names: readonly string[]) => `“${names.slice(0, 3).join('”, “')}${names.length > 3 ? '”, “…' : ''}”`;
+  return [
+    kind === 'step' ? 'Trims, solids and the faces that are not sculpted are not written.' : '',
+    within.length > 0 ? `${some(within)}: the edges stay where they were in the file. RebuildEdges in Rhino brings them back to the surface.` : '',
+    beside.length > 0 ? `${some(beside)}: the polysurface keeps its old face. The new surface is written beside it, on the same layer.` : '',
+  ].filter(Boolean).join(' ');
+}
+
 /** Saving: the downloads, in the formats of the menu. */
 export class Saving {
   constructor(private readonly host: Host, private readonly documents: Documents) {
@@ -24,7 +34,10 @@ export class Saving {
   }
 
   /** Where the file that was opened is known, into it; else as a download. */
-  cad = () => (this.documents.place ? this.inPlace() : this.step());
+  cad = () => (this.documents.place ? this.inPlace() : this.copy());
+
+  /** As a download of the kind that was opened. */
+  copy = () => (this.documents.file?.kind === 'rhino' ? this.rhino() : this.step());
 
   /** `open`: also where edges of its faces are. */
   inPlace = async (open = false): Promise<true | null> => {
@@ -124,13 +137,15 @@ export class Saving {
     for (const [k, { name, id }] of state!.surfaces.entries()) surfaces.push({ name: name || id, patch: patchOfNumbers(await client.query('surface', { surface: k })) });
     const source = file?.kind === 'rhino' ? file.bytes : null;
     const { bytes, beside, within } = await rhino.write(source, surfaces, state!.surfaces[0]?.unit ?? 'mm');
+    const lost = lostInRhino(file?.kind ?? null, within, beside);
+    if (lost) {
+      const choice = await this.host.ask({ title: 'Save the Rhino file?', text: lost,
+        choices: [{ id: 'rhino', label: 'Save the Rhino file' }, { id: 'step', label: 'Save a STEP file instead' }] });
+      if (choice === 'step') await this.step();
+      if (choice !== 'rhino') return null;
+    }
     download(bytes, `${stem}${source ? '-sculpted' : ''}.3dm`, 'model/vnd.3dm');
-    const some = (names: string[]) => `“${names.slice(0, 3).join('”, “')}${names.length > 3 ? '”, “…' : ''}”`;
-    const told = [
-      within.length > 0 ? `${some(within)}: exchanged under the trims of the file. Where a surface has moved along an edge, the edge stays behind: RebuildEdges in Rhino brings it back.` : '',
-      beside.length > 0 ? `${some(beside)} cannot be exchanged within a polysurface, as knots are others or the face is no NURBS surface: they lie beside it, on its layer.` : '',
-    ].filter(Boolean);
-    return told.length > 0 ? `Saved. ${told.join(' ')}` : undefined;
+    return undefined;
   });
 
   /** All surfaces as one mesh, as fine as the pictures are. */

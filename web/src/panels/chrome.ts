@@ -10,7 +10,7 @@ import { h, icon, iconButton } from './dom';
 import { galleryMenu } from './gallery_menu';
 import { openLab } from './lab/door';
 import { recentMenu } from './recent_menu';
-import { samePlace, saveEntries } from './save_menu';
+import { otherKind, samePlace, saveEntries } from './save_menu';
 import { shortcuts } from './shortcuts';
 import { openSnakes } from './snakes/door';
 import { toggleTour } from './tour';
@@ -40,7 +40,7 @@ export function topBar(app: App): HTMLElement {
   const rest = iconButton('rest', 'Run to rest (R)', () => app.togglePlay(true));
   const four = iconButton('four', 'Four views or one (4)', () => app.setDisplay({ fourViews: !app.display.fourViews }));
   const save = menu('save', 'Save', 'Save', saveEntries(app));
-  const same = [...save.querySelectorAll<HTMLElement>('.menu-item')].find((item) => item.querySelector('b')?.textContent === samePlace)!;
+  const [same, other] = [samePlace, otherKind].map((entry) => [...save.querySelectorAll<HTMLElement>('.menu-item')].find((item) => item.querySelector('b')?.textContent === entry)!);
   const bar = h('header', { class: 'top' },
     h('span', { class: 'brand' }, 'Knead'),
     iconButton('open', 'Open a CAD, Rhino or Knead file, or an image (O)', open, 'Open'), galleryMenu(app), recentMenu(app), save, picker,
@@ -55,7 +55,8 @@ export function topBar(app: App): HTMLElement {
       iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app))));
   app.onChange.push(() => {
     const { state } = app;
-    same.hidden = !app.documents.place;
+    same!.hidden = !app.documents.place;
+    other!.hidden = app.documents.file?.kind !== 'rhino';
     undo.disabled = !state?.undo || app.playing();
     redo.disabled = !state?.redo || app.playing();
     const idle = !state || selected(state).length === 0;
