@@ -12,8 +12,12 @@
 namespace knead {
 namespace {
 
-constexpr double first_length = 1. / 16;            // of a path at its first place, in radii
-constexpr int fewest_of_plane = 6;                  // samples
+constexpr double first_length = 1. / 16;  // of a path at its first place, in radii
+constexpr int fewest_of_plane = 6;        // samples, else it is that of the place
+constexpr int enough_of_plane = 16;       // else it is fitted to more of the surroundings,
+constexpr double wider = 1.25;            // farther by this,
+constexpr int most_wider = 12;            // so many times
+constexpr double of_plane = 1.5;          // radii within which it is fitted
 constexpr double most_lean = std::numbers::pi / 3;  // of a pen's axis, from the normal
 constexpr double opposed = 0.1;  // mean of normals below which they say nothing of a direction
 
@@ -91,6 +95,33 @@ double radius_of(const Brush& brush, double pressure) {
 
 double depth_of(const Brush& brush, double pressure) {
   return brush.pressure == PressureUse::depth || brush.pressure == PressureUse::both ? pressure : 1;
+}
+
+/// Sums over the samples within a radius of a point, weighed by the profile and their areas.
+struct UnderBrush {
+  Point normal = Point::Zero(), middle = Point::Zero();  ///< `middle` from the point
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  double total = 0, known = 0;
+  int count = 0;
+};
+
+UnderBrush under_brush(const Brush& brush, const BrushSamples& samples, const Point& at,
+                       double radius) {
+  UnderBrush sums;
+  for (Eigen::Index g = 0; g < samples.points.rows(); ++g) {
+    const Point off = samples.points.row(g).transpose() - at;
+    const double square = off.squaredNorm();
+    if (square >= radius * radius) continue;
+    const double w = brush_falloff(std::sqrt(square), radius, brush.core) * samples.areas[g];
+    const Point n = samples.normals.row(g);
+    sums.normal += w * n;
+    sums.middle += w * off;
+    sums.spread += w * off * off.transpose();
+    sums.total += w;
+    sums.known += w * n.squaredNorm();
+    sums.count += w > 0 ? 1 : 0;
+  }
+  return sums;
 }
 
 }  // namespace
@@ -173,38 +204,29 @@ BrushHistory::BrushHistory(Eigen::Index samples)
 // The mean normal under the brush rather than that of the place: single normals follow every
 // wrinkle that the brush is to work on. Where they oppose each other, as on both sides of a thin
 // sheet, the mean says nothing, and that of the place stays. For `flatten` the plane of least
-// squares, weighed alike, replaces both: its normal is the eigenvector of the covariance with the
-// least eigenvalue. It needs a spread in two directions.
+// squares replaces both: its normal is the eigenvector of the covariance with the least eigenvalue.
+// It needs a spread in two directions. It is fitted to more than what moves, since a plane of what
+// moves alone follows the slopes of a bump, and lifts its crest where the brush comes up to it.
 BrushHistory::Pose BrushHistory::pose_at(const Brush& brush, const BrushSamples& samples,
                                          const BrushPlace& place) {
   Pose pose{place, place.at, place.normal};
-  const double radius = radius_of(brush, place.pen.pressure), reach = radius * radius;
+  const double radius = radius_of(brush, place.pen.pressure);
   const auto lean = [&] {
     if (leans(brush.kind) && !place.pen.axis.isZero(0))
       pose.normal = leaned(pose.normal, place.pen.axis);
     return pose;
   };
-  Point normal = Point::Zero(), middle = Point::Zero();
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  double total = 0, known = 0;
-  int count = 0;
-  for (Eigen::Index g = 0; g < samples.points.rows(); ++g) {
-    const Point off = samples.points.row(g).transpose() - place.at;
-    const double square = off.squaredNorm();
-    if (square >= reach) continue;
-    const double w = brush_falloff(std::sqrt(square), radius, brush.core) * samples.areas[g];
-    const Point n = samples.normals.row(g);
-    normal += w * n;
-    middle += w * off;
-    spread += w * off * off.transpose();
-    total += w;
-    known += w * n.squaredNorm();
-    count += w > 0 ? 1 : 0;
+  const bool flat = brush.kind == BrushKind::flatten;
+  double reach = flat ? of_plane * radius : radius;
+  UnderBrush under = under_brush(brush, samples, place.at, reach);
+  for (int k = 0; flat && k < most_wider && under.count < enough_of_plane; ++k) {
+    reach *= wider;
+    under = under_brush(brush, samples, place.at, reach);
   }
-  if (normal.norm() > opposed * known) pose.normal = normal.normalized();
-  if (brush.kind != BrushKind::flatten || count < fewest_of_plane) return lean();
-  middle /= total;
-  spread = spread / total - middle * middle.transpose();
+  if (under.normal.norm() > opposed * under.known) pose.normal = under.normal.normalized();
+  if (!flat || under.count < fewest_of_plane) return lean();
+  const Point middle = under.middle / under.total;
+  const Eigen::Matrix3d spread = under.spread / under.total - middle * middle.transpose();
   const auto axes = detail::symmetric_eigen(spread);
   if (!axes || !(axes->values[1] > 1e-6 * axes->values[2])) return lean();  // on a line
   pose.middle = place.at + middle;

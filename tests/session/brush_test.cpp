@@ -83,6 +83,40 @@ TEST(Brush, FlattensToAPlane) {
   EXPECT_LT(rms(), 1e-3 * before);
 }
 
+// A bump as long as the stroke that made it, and strokes over all of it, also askew and with radii
+// of one and a half spans of the net.
+TEST(Brush, FlattenLowersWhatStandsOut) {
+  const auto highest = [](const Session& session) {
+    double z = 0;
+    for (int i = 0; i <= 150; ++i)
+      for (int j = 0; j <= 150; ++j) z = std::max(z, at(shape(session), i / 150., j / 150.).z());
+    return z;
+  };
+  struct Case {
+    double radius, askew, least;  // `least`: what four strokes take away, of the height
+  };
+  for (const auto& [radius, askew, least] : {Case{10, 0, 0.25},
+                                             {10, 8, 0.05},
+                                             {14, 0, 0.25},
+                                             {14, 8, 0.1},
+                                             {20, 0, 0.5},
+                                             {20, 8, 0.4},
+                                             {28, 0, 0.5},
+                                             {28, 8, 0.5}}) {
+    Session session =
+        flat(32, {brush(R"("kind":"pull","radius":20,"height":5)", {60, 100, 0}, {140, 100, 0})});
+    const double bump = highest(session);
+    double before = bump;
+    for (int k = 0; k < 4; ++k) {
+      run(session, {brush(fmt::format(R"("kind":"flatten","radius":{},"strength":0.5)", radius),
+                          {60, 100 - askew, 0}, {140, 100 + askew, 0}, 24)});
+      EXPECT_LT(highest(session), before) << radius << " " << askew;
+      before = highest(session);
+    }
+    EXPECT_LT(before, (1 - least) * bump) << radius << " " << askew;
+  }
+}
+
 TEST(Brush, SmoothsWithoutMovingEdges) {
   std::vector<std::string> bumps;
   for (int k = 0; k < 12; ++k) {

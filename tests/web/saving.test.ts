@@ -29,7 +29,7 @@ function desk(opened: { deviation?: number; refused?: boolean } = {}): { saving:
   };
   const host = {
     client, state: { tools: [], last: null, surfaces: [{ unit: 'mm' }], fresh: false }, computedTime: 0, detail: 8,
-    notify: (notice: Notice) => void notices.push(notice), showEdges: () => undefined, picture: async () => new Blob(),
+    notify: (notice: Notice) => void notices.push(notice), showEdges: () => undefined, settle: () => undefined, picture: async () => new Blob(),
     attempt: async (act: () => Promise<void>) => { await act(); return true as const; },
   };
   const documents = { name: 'hood.step', file: null, place: null, views: [], saved: () => ++saved };

@@ -13,6 +13,28 @@ beforeAll(async () => {
   await studio.page.locator('input[type=file]').first().setInputFiles(path);
 });
 
+/** How far the corners of the square are from the middle of the view: 1 at its sides. */
+const farthest = () => studio.page.evaluate(() => {
+  const { viewer } = (window as never as { studio: { viewer: { origin: number[]; main: { projectAll(p: number[]): Float32Array; element: HTMLElement } } } }).studio;
+  const corners = [[-20, -20, -4], [20, -20, -4], [20, 20, -4], [-20, 20, -4]].flatMap((p) => p.map((x, d) => x - viewer.origin[d]!));
+  const { left, top, width, height } = viewer.main.element.getBoundingClientRect(), places = viewer.main.projectAll(corners);
+  return Math.max(...[...places].map((x, k) => Math.abs(k % 2 === 0 ? (2 * (x - left)) / width - 1 : (2 * (x - top)) / height - 1)));
+});
+
+it('is within the first view, and within that of Shift+F and 0', async () => {
+  const { page } = studio;
+  await expect.poll(triangles).toBeGreaterThan(0);
+  await expect.poll(farthest).toBeLessThan(1);
+  expect(await farthest()).toBeGreaterThan(0.5);
+  for (const key of ['Shift+F', '0']) {
+    await page.mouse.move(400, 300);
+    for (let k = 0; k < 6; ++k) await page.mouse.wheel(0, -400);
+    await expect.poll(farthest).toBeGreaterThan(1);
+    await page.keyboard.press(key);
+    await expect.poll(farthest, { message: key }).toBeLessThan(1);
+  }
+});
+
 const triangles = () =>
   studio.page.evaluate(() => (window as never as { studio: { viewer: { context: { triangles: number } } } }).studio.viewer.context.triangles);
 

@@ -3,14 +3,14 @@ import * as THREE from 'three';
 import { Documents } from '../document/documents';
 import type { Notice, Question } from '../document/host';
 import { hasSettings, makeReady } from '../document/ready';
-import { adviceOn, creaseIn, inOneLine, looseIn, throughIn } from '../document/words';
+import { adviceOn, inOneLine } from '../document/words';
 import { Saving } from '../document/saving';
 import { Client, type End } from '../engine/client';
 import type { Context, Trim } from '../engine/context';
 import { plain } from '../engine/displays';
 import type { Frame, PictureSettings } from '../engine/protocol';
 import { selected } from '../engine/session_state';
-import { type Command, KneadError, type EngineErrorInfo, type LatticeSettings, type NoteInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
+import { type Command, KneadError, type EngineErrorInfo, type LatticeSettings, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
 import { usualRadius } from '../engine/strokes';
 import type { App } from '../panels/app';
 import { openSnakes } from '../panels/snakes/door';
@@ -19,6 +19,8 @@ import { defaultDisplay, type Display, type Theme } from '../view/display';
 import { sectionPlanes } from '../view/section_planes';
 import { Viewer } from '../view/viewer';
 import { CloserLook } from './closer_look';
+import { Growth } from './growth';
+import { Notes } from './notes';
 
 const keptSteps = 400; // of the plot
 const mostDeaths = 20; // of engines, before a page gives up
@@ -41,9 +43,12 @@ export class Studio implements App {
   computedTime = 0;
 
   private readonly closer: CloserLook;
+  private readonly notes = new Notes(this);
+  private readonly growth = new Growth(this);
   /** Panels are redrawn on these. */
   readonly onChange: (() => void)[] = [];
   notify: (notice: Notice) => void = () => {};
+  settle: (topic: string) => void = () => {};
   ask: (question: Question) => Promise<string | null> = () => Promise.resolve(null);
 
   private fresh = false;
@@ -115,11 +120,13 @@ export class Studio implements App {
     if (frame.assembly !== undefined) this.tellPlaces();
     if (this.fresh) {
       this.fresh = false;
+      this.growth.forget();
       this.hand.size.unit = 'length';
       this.hand.brush.settings.radius = usualRadius * this.diagonal;
     }
-    this.tellCreases(frame.state.notes);
-    this.tellLoose(frame.state.notes);
+    const busy = this.hand.active || frame.playing;
+    this.notes.tell(frame.state.notes, busy);
+    this.growth.follow(frame.state, busy);
     this.computedTime += frame.computeTime;
     this.documents.keeper.computed(frame.unkept, frame.playing);
     this.changed();
@@ -145,40 +152,8 @@ export class Studio implements App {
     this.notify({ kind: 'info', text: `${part.name ? `“${part.name}”` : 'This part'} stands in ${part.places.length} places of the assembly: it is sculpted once, and changes in all of them.` });
   }
 
-  /** Seams that have a crease, of which the user knows. */
-  private creased = new Set<string>();
-
-  /** Says once that connected surfaces have got a crease, and offers what does without. */
-  private tellCreases(notes: readonly NoteInfo[]): void {
-    if (this.hand.active) return; // at the end of the stroke
-    const creases = notes.flatMap((note) => creaseIn(note) ?? []);
-    const fresh = creases.find(({ seam }) => !this.creased.has(seam));
-    this.creased = new Set(creases.map(({ seam }) => seam));
-    if (fresh) {
-      const { text, remedy, seam, actions } = fresh;
-      this.notify({ kind: 'info', text, topic: `crease ${seam}`, remedy, actions: actions.map(({ label, commands }) => ({ label, act: () => void this.again(commands) })) });
-    }
-  }
-
-  /** Surfaces that nothing holds, and stops at other faces, of which the user knows. */
-  private told = new Set<string>();
-
-  /** Says once that nothing holds what is pressed, and offers what does; and where a face was stopped before another. */
-  private tellLoose(notes: readonly NoteInfo[]): void {
-    if (this.hand.active || this.frame?.playing) return; // at the end of the stroke
-    const loose = notes.flatMap((note) => looseIn(note) ?? []), through = notes.flatMap((note) => throughIn(note) ?? []);
-    for (const { text, actions } of loose.filter((l) => !this.told.has(l.text))) {
-      this.notify({ kind: 'info', text, topic: 'loose', actions: actions.map(({ label, commands }) => ({ label, act: () => void this.execute(commands) })) });
-    }
-    for (const { text, stopped } of through.filter((t) => !this.told.has(t.text))) {
-      const goOn = { label: 'Go through', act: () => void this.again([{ do: 'undo' }], (c) => ('allow' in c ? { ...c, allow: 'through' } as Command : c)) };
-      this.notify({ kind: 'info', text, topic: 'through', actions: stopped ? [goOn] : [] });
-    }
-    this.told = new Set([...loose, ...through].map(({ text }) => text));
-  }
-
   /** The last act again, changed, after commands that undo it. */
-  private async again(before: Command[], change: (command: Command) => Command = (command) => command): Promise<void> {
+  async again(before: Command[], change: (command: Command) => Command = (command) => command): Promise<void> {
     const commands = JSON.parse(await this.client.query('journal')) as Command[];
     // What is done with a ball is a tool, its strokes and its removal.
     const first = commands.at(-1)?.do === 'remove' ? commands.map((c) => c.do).lastIndexOf('tool') : commands.length - 1;
@@ -208,10 +183,12 @@ export class Studio implements App {
 
   /** `whole`: what fails has done nothing. */
   async attempt(act: () => Promise<void>, whole = false): Promise<true | null> {
+    const { sessions } = this.documents;
     try {
       await act();
       return true;
     } catch (error) {
+      if (sessions !== this.documents.sessions && error instanceof KneadError) return null; // meant for a document that is closed
       if (error instanceof KneadError) this.fail(error.info, whole);
       else this.notify({ kind: 'error', text: error instanceof Error ? error.message : String(error) });
       return null;

@@ -8,6 +8,8 @@ export interface Notice {
   text: string;
   /** What it is about: it takes the place of the one before about the same. Default: its text. */
   topic?: string;
+  /** It leaves by itself, though it offers something. */
+  passing?: boolean;
   /** Of the page, not of its document: it stays where another is opened. */
   ofPage?: boolean;
   remedy?: string;
@@ -32,6 +34,8 @@ export interface Host {
   /** Lines of the pictures per direction. */
   readonly detail: number;
   notify: (notice: Notice) => void;
+  /** What a message about this says is not so any more. */
+  settle: (topic: string) => void;
   /** The id of the choice; null where the user wants none of them. */
   ask: (question: Question) => Promise<string | null>;
   /** Null where something went wrong; the user has been told then. */

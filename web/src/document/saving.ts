@@ -12,6 +12,8 @@ import { format, unitInWords } from './units';
 const historyBytes = 16 * 2 ** 20; // of memory that states take, in a document
 const longSession = 2000; // milliseconds of steps from which a document includes its snapshot
 
+const openEdges = 'open edges'; // topic of messages
+
 interface Saved {
   bytes: Uint8Array;
   edges: EdgesInfo[];
@@ -87,7 +89,7 @@ export class Saving {
         if (commands) await host.client.execute(commands);
         await again();
       });
-      host.notify({ kind: 'error', topic: 'open edges', text: `Not saved: ${what}.`,
+      host.notify({ kind: 'error', topic: openEdges, text: `Not saved: ${what}.`,
         actions: [...(commands ? [] : [{ label: 'Show them', act: () => host.showEdges() }]), { label: 'Save with open edges', act: anyway }] });
       return null;
     };
@@ -182,6 +184,7 @@ export class Saving {
       const { tools, last } = host.state!;
       const touched = tools.length > 0 && last !== null && (last.gap > 0 || last.contact > 0);
       const contact = 'Saved with a tool still in contact: the shape is the one it holds.';
+      if (shape) host.settle(openEdges);
       host.notify({ kind: 'info', text: [shape && touched ? contact : '', said ?? ''].filter(Boolean).join(' ') || 'Saved.' });
     });
     return done && saved ? done : null;

@@ -129,6 +129,7 @@ export function toolRail(app: App): HTMLElement {
 /** Messages at the lower edge: never over the clay, errors until they are dismissed. */
 export function notices(app: App): HTMLElement {
   const stack = h('div', { class: 'notices', aria: { live: 'polite' } });
+  app.settle = (topic) => [...stack.querySelectorAll<HTMLElement>('.notice')].find((other) => other.dataset.topic === topic)?.remove();
   app.notify = (notice: Notice) => {
     const close = () => element.remove();
     const element = h('div', { class: `notice ${notice.kind}` },
@@ -140,12 +141,12 @@ export function notices(app: App): HTMLElement {
       iconButton('close', 'Dismiss', close));
     element.dataset.topic = notice.topic ?? notice.text;
     if (!notice.ofPage) element.dataset.session = String(app.documents.sessions);
-    [...stack.querySelectorAll<HTMLElement>('.notice')].find((other) => other.dataset.topic === element.dataset.topic)?.remove();
+    app.settle(element.dataset.topic);
     stack.append(element);
     while (stack.children.length > 3) stack.firstElementChild!.remove();
-    const stays = notice.kind === 'info' && (notice.actions ?? []).length > 0; // an offer
+    const stays = notice.kind === 'info' && (notice.actions ?? []).length > 0 && !notice.passing; // an offer
     element.classList.toggle('stays', stays);
-    if (!stays) setTimeout(close, notice.kind === 'error' ? 15_000 : 4_000);
+    if (!stays) setTimeout(close, notice.kind === 'error' || notice.passing ? 15_000 : 4_000);
   };
   new ResizeObserver(() => app.viewer.redraw()).observe(stack); // what stands over the view makes room
   let session = 0;

@@ -66,7 +66,10 @@ function handle(app: App, event: KeyboardEvent): boolean {
   // Digits by their position on the keyboard, so that Shift does not change them.
   const view = { Digit1: ['front', 'back'], Digit2: ['right', 'left'], Digit3: ['top', 'bottom'] }[event.code];
   if (view) look(app, view[event.shiftKey ? 1 : 0] as Side);
-  else if (event.code === 'Digit0') look(app, 'perspective');
+  else if (event.code === 'Digit0') {
+    look(app, 'perspective');
+    app.viewer.fitAll();
+  }
   else if (event.code === 'Digit6') look(app, 'isometric');
   else if (event.code === 'Digit7') toggleParallel(app);
   else if (event.code === 'Digit8') toggleTurntable(app);

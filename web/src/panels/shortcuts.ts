@@ -6,7 +6,7 @@ export function shortcuts(app: App): [string, string][] {
   const [orbit, pan, zoom] = conventionText[app.display.convention];
   return [
     ['Orbit', orbit], ['Pan', pan], ['Zoom', zoom], ['Fingers', 'one: brush, or orbit beside the surface; two: pan, zoom, turn; three: orbit'],
-    ['1 2 3', 'front, right, top; Shift: the other side'], ['0', 'as at the start'], ['6', 'isometric'], ['7', 'parallel projection or perspective'], ['8', 'turntable'], ['X', 'section: hide what is before a plane'], ['5', 'along an axis or free'], ['4', 'four views or one'],
+    ['1 2 3', 'front, right, top; Shift: the other side'], ['0', 'as at the start, all of it'], ['6', 'isometric'], ['7', 'parallel projection or perspective'], ['8', 'turntable'], ['X', 'section: hide what is before a plane'], ['5', 'along an axis or free'], ['4', 'four views or one'],
     ['Double click a label', 'that view alone, or all'], ['F', 'what is selected; Shift: everything'],
     ['V B U S G', 'look, push, pull, smooth, grab'], ['W', 'brushes: inflate, flatten, crease, mask and more'], ['E', 'control points'], ['T', 'place a tool'], ['P I A D', 'pin, freeze, material, edges'], ['Q', 'measure distances, angles, radii'],
     ['Alt, Shift with a brush', 'the other way, smooth'], ['Alt with paint', 'takes it away'],

@@ -8,6 +8,8 @@ export interface Bounds {
   radius: number;
   /** Along z. */
   lowest: number;
+  /** What is to be within the view; without it a sheet of that size. */
+  box?: THREE.Box3;
 }
 
 /** The sphere round boxes; a small one about the origin where there are none. */
@@ -16,7 +18,7 @@ export function boundsOf(boxes: (THREE.Box3 | null)[]): Bounds {
   for (const other of boxes) if (other) box.union(other);
   if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
   const sphere = box.getBoundingSphere(new THREE.Sphere());
-  return { centre: sphere.center, radius: Math.max(sphere.radius, 1e-9), lowest: box.min.z };
+  return { centre: sphere.center, radius: Math.max(sphere.radius, 1e-9), lowest: box.min.z, box };
 }
 
 /** The box of what the trims leave of a surface, to a line of its picture. */

@@ -27,8 +27,19 @@ export class Extent {
 
   /** Centre and radius of all surfaces, without their trims. */
   bounds(): Bounds {
+    return boundsOf(this.surfaces());
+  }
+
+  /** Round all surfaces and bodies, without their trims. */
+  surfaces(): Boxes {
     const { surfaces, bodies } = this.scene;
-    return boundsOf([...surfaces.flatMap(({ picture }, k) => this.placed(picture && new THREE.Box3().setFromArray(picture.positions), k)), ...bodies.boxes()]);
+    return [...surfaces.flatMap(({ picture }, k) => this.placed(picture && new THREE.Box3().setFromArray(picture.positions), k)), ...bodies.boxes()];
+  }
+
+  /** Nothing grey reaches beyond the surfaces. */
+  get whole(): boolean {
+    const grey = this.scene.context.box(), own = this.surfaces().filter((box) => box !== null);
+    return !grey || (own.length > 0 && boundsOf([...own, grey]).radius <= boundsOf(own).radius * (1 + 1e-6));
   }
 
   /** Round what is seen of a surface where it is worked on. */

@@ -67,7 +67,7 @@ export class Viewer {
   private readonly relief = new Relief();
   private readonly raycaster = new THREE.Raycaster();
   private due = false;
-  private unseen = false; // no view has been fitted to anything yet
+  private firstView = ''; // where it was fitted to surfaces, before the grey faces were there
   private editsPoints = false;
   private groundHeight = 0;
   private sceneRadius = 1;
@@ -160,7 +160,7 @@ export class Viewer {
     if (fresh) {
       this.section.end();
       this.fit();
-      this.unseen = pictures.length + frame.bodies.length === 0;
+      this.firstView = JSON.stringify(this.main.placement());
     } else this.lowerGround();
     this.redraw();
   }
@@ -168,8 +168,8 @@ export class Viewer {
   /** The surroundings of the surfaces of the frame, and the visible part of each. */
   showContext(context: Context | null, trims: Trim[]): void {
     this.context.show(context, this.placing);
-    if (context && this.unseen) requestAnimationFrame(() => this.fitAll()); // there is nothing but grey faces
-    this.unseen &&= !context;
+    // Grey faces belong to the first view, unless somebody has looked elsewhere.
+    if (context && !this.extent.whole && this.firstView === JSON.stringify(this.main.placement())) requestAnimationFrame(() => this.fitAll());
     this.section.forget();
     this.trims = trims;
     this.surfaces.forEach((s, k) => (s.trim = trimTextures(trims[k] ?? null)));
@@ -244,7 +244,7 @@ export class Viewer {
 
   /** Shows all surfaces. */
   fit(bounds = this.bounds()): void {
-    for (const v of this.viewports) v.fit(bounds.centre, bounds.radius);
+    for (const v of this.viewports) v.fit(bounds);
     const { radius, lowest } = this.bounds();
     this.groundHeight = lowest - 0.12 * radius;
     this.sceneRadius = radius;

@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
 
+import type { Bounds } from './bounds';
 import { pixelSize } from './camera';
 import { directionOf, isSide, type NamedView, type Side, sideFrom, sides } from './directions';
 import { type Standing, still } from './placing';
@@ -19,6 +20,7 @@ export interface Placement {
 /** Of nothing but the scene itself. */
 const inScene = new THREE.Matrix4();
 const upright = new THREE.Vector3(0, 0, 1);
+const margin = 1.04; // round a box that fills a view
 
 /** One of the windows onto the scene: a part of the page, a camera, the means to move tools in it. */
 export class Viewport {
@@ -61,8 +63,8 @@ export class Viewport {
     return { width: Math.max(1, this.element.clientWidth), height: Math.max(1, this.element.clientHeight) };
   }
 
-  /** Looks at a sphere from the present direction, filling the window. */
-  fit(centre: THREE.Vector3, radius: number): void {
+  /** Looks at a sphere from the present direction, filling the window; from farther away where corners of its box would be outside. */
+  fit({ centre, radius, box }: Bounds): void {
     const { camera } = this;
     const r = Math.max(radius, 1e-9);
     const { width, height } = this.size();
@@ -78,10 +80,23 @@ export class Viewport {
       this.extent = 1.1 * Math.max(r, r / aspect);
       camera.zoom = 1;
     }
+    if (box && camera instanceof THREE.PerspectiveCamera) this.reach = Math.max(this.reach, this.needed(box, centre, direction.normalize(), aspect));
     this.target.copy(centre);
     camera.position.copy(centre).addScaledVector(direction.normalize(), this.reach);
     this.aim(direction);
     this.resize();
+  }
+
+  /** From how far a perspective view from a direction has all corners of a box within it. */
+  private needed(box: THREE.Box3, centre: THREE.Vector3, direction: THREE.Vector3, aspect: number): number {
+    const turned = new THREE.Matrix4().lookAt(direction, new THREE.Vector3(), this.camera.up).invert();
+    const half = Math.tan(THREE.MathUtils.degToRad((this.camera as THREE.PerspectiveCamera).fov / 2));
+    let most = 0;
+    for (const x of [box.min.x, box.max.x]) for (const y of [box.min.y, box.max.y]) for (const z of [box.min.z, box.max.z]) {
+      const at = new THREE.Vector3(x, y, z).sub(centre).applyMatrix4(turned);
+      most = Math.max(most, at.z + (margin * Math.max(Math.abs(at.y), Math.abs(at.x) / aspect)) / half);
+    }
+    return most;
   }
 
   /** Turns to a view with a name, or so that it looks from a direction, about the present target. A view along an axis keeps to the six sides. */
