@@ -168,12 +168,12 @@ export class Viewer {
   /** The surroundings of the surfaces of the frame, and the visible part of each. */
   showContext(context: Context | null, trims: Trim[]): void {
     this.context.show(context, this.placing);
-    // Grey faces belong to the first view, unless somebody has looked elsewhere.
-    if (context && !this.extent.whole && this.firstView === JSON.stringify(this.main.placement())) requestAnimationFrame(() => this.fitAll());
     this.section.forget();
     this.trims = trims;
     this.surfaces.forEach((s, k) => (s.trim = trimTextures(trims[k] ?? null)));
+    const unmoved = this.firstView === JSON.stringify(this.main.placement());
     this.restyle();
+    if (context && unmoved && !this.extent.whole) requestAnimationFrame(() => this.fitAll()); // grey faces belong to the first view
   }
 
   /** Puts all surfaces where they stand, and what belongs to the part that is worked on into its place. */
