@@ -37,8 +37,6 @@ it('is within the first view, and within that of Shift+F and 0', async () => {
     for (let k = 0; k < 6; ++k) await page.mouse.wheel(0, -400);
     await expect.poll(farthest).toBeGreaterThan(1);
     await page.keyboard.press(key);
-    await settled(page);
-    console.log(key, await farthest(), await page.evaluate(() => document.activeElement?.outerHTML.slice(0, 80)));
     await expect.poll(farthest, { message: key }).toBeLessThan(1);
   }
 });
