@@ -17,7 +17,7 @@ constexpr int fewest_of_plane = 6;        // samples, else it is that of the pla
 constexpr int enough_of_plane = 16;       // else it is fitted to more of the surroundings,
 constexpr double wider = 1.25;            // farther by this,
 constexpr int most_wider = 12;            // so many times
-constexpr double of_plane = 1.5;          // radii within which it is fitted
+constexpr double of_plane = 1.25;         // radii within which it is fitted
 constexpr double most_lean = std::numbers::pi / 3;  // of a pen's axis, from the normal
 constexpr double opposed = 0.1;  // mean of normals below which they say nothing of a direction
 
