@@ -105,7 +105,8 @@ class FormulaParser {
                          fmt::format("use up to {}", Formula::max_length));
     }
     if (auto status = expression(0); !status) return std::unexpected(status.error());
-    if (next() != '\0') return wrong("an operator is expected");
+    if (next() != '\0')
+      return wrong("an operator is expected", "write one of + - * / ^, or end the formula");
     return std::move(formula_);
   }
 
@@ -167,11 +168,12 @@ class FormulaParser {
     }
     if (is_digit(c) || c == '.') return number();
     if (is_letter(c)) return name();
-    return wrong(c == '\0' ? "the formula ends where a value is expected" : "a value is expected");
+    return wrong(c == '\0' ? "the formula ends where a value is expected" : "a value is expected",
+                 "write a number, a variable, a function or a parenthesis");
   }
 
   Status close() {
-    if (next() != ')') return wrong("a closing parenthesis is expected");
+    if (next() != ')') return wrong("a closing parenthesis is expected", "write )");
     ++at_;
     return {};
   }
@@ -180,7 +182,8 @@ class FormulaParser {
     double value = 0;
     const char* const first = text_.data() + at_;
     const auto [end, error] = read_double(first, text_.data() + text_.size(), value);
-    if (error != std::errc{}) return wrong("the number is too large, too small or not complete");
+    if (error != std::errc{})
+      return wrong("the number is too large, too small or not complete", "write one as 1.5e-3");
     at_ += static_cast<std::size_t>(end - first);
     return push(-1, value);
   }
@@ -211,8 +214,11 @@ class FormulaParser {
   Status arguments(int function) {
     const int count = formula_functions[function].arguments;
     const auto expected = [&] {
-      return wrong(fmt::format("{} takes {} argument{} in parentheses",
-                               formula_functions[function].name, count, count == 1 ? "" : "s"));
+      constexpr std::array<std::string_view, 4> places = {"", "a", "a, b", "a, b, c"};
+      const std::string_view name = formula_functions[function].name;
+      return wrong(
+          fmt::format("{} takes {} argument{} in parentheses", name, count, count == 1 ? "" : "s"),
+          fmt::format("write {}({})", name, places[static_cast<std::size_t>(count)]));
     };
     if (next() != '(') return expected();
     ++at_;

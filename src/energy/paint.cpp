@@ -283,7 +283,9 @@ Expected<MaterialFieldOf<D>> paint(const MaterialFieldOf<D>& material,
   for (std::size_t k = 0; k < values.beta.size(); ++k) add(result.beta[k], values.beta[k]);
   add(result.mass, values.mass);
   add(result.damping, values.damping);
-  if (painted.empty()) return usage_error("there is no value to paint", "material");
+  if (painted.empty())
+    return usage_error("there is no value to paint", "material",
+                       "give one of alpha, beta, mass and damping");
   auto made = paint<D>(std::span<const Coefficient<D>>(old), targets, region, hint, options);
   if (!made) return std::unexpected(made.error());
   for (std::size_t k = 0; k < painted.size(); ++k) *painted[k] = std::move((*made)[k]);

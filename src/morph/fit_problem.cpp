@@ -18,12 +18,16 @@ constexpr int least_degree = 3;
 constexpr double default_tolerance = 1e-5, default_parting = 7e-7;  // of the size
 constexpr double affine_rest = 1e-13;  // of the size and the data: rounding of an affine map
 
+/// What errors call a surface: its name, or its position in the list.
+std::string called(std::span<const FitSurface> surfaces, std::size_t s) {
+  return surfaces[s].name.empty() ? fmt::format("surface {}", s) : surfaces[s].name;
+}
+
 Expected<void> check(std::span<const FitSurface> surfaces, std::span<const FitEdge> edges,
                      std::span<const Datum> data, const FitSettings& settings) {
   const auto known = [&](int s) { return s >= 0 && s < static_cast<int>(surfaces.size()); };
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    if (!surfaces[s].surface)
-      return usage_error("there is no surface", fmt::format("surface {}", s));
+    if (!surfaces[s].surface) return usage_error("there is no surface", called(surfaces, s));
   }
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const FitEdge& edge = edges[k];
@@ -109,7 +113,7 @@ Expected<void> place_data(std::span<const Datum> data, FitProblem& problem) {
     }
     const auto places = evaluate<2>(*problem.given[s].surface, at);
     FitExcess worst{.measure = FitExcess::Measure::contradiction, .count = 0};
-    if (!places) return std::unexpected(places.error().within(fmt::format("surface {}", s)));
+    if (!places) return std::unexpected(places.error().within(called(problem.given, s)));
     for (std::size_t k = 0; k < on[s].size(); ++k) {
       const Datum& d = data[on[s][k]];
       const Point place = places->points().row(static_cast<Eigen::Index>(k)).transpose();
@@ -209,7 +213,7 @@ Expected<void> raise_degrees(FitProblem& problem) {
   for (std::size_t s = 0; s < problem.given.size(); ++s) {
     if (problem.nets.fixed[s]) continue;
     auto net = raised(problem.nets.surfaces[s]);
-    if (!net) return std::unexpected(net.error().within(fmt::format("surface {}", s)));
+    if (!net) return std::unexpected(net.error().within(called(problem.given, s)));
     problem.nets.surfaces[s] = *std::move(net);
   }
   return {};
@@ -222,7 +226,7 @@ Expected<void> take_knots(FitProblem& problem) {
     // What nothing has moved is as it was given.
     if (problem.nets.fixed[s] || from[s].size() <= net.size()) continue;
     auto finer = onto_net(net, from[s]);
-    if (!finer) return std::unexpected(finer.error().within(fmt::format("surface {}", s)));
+    if (!finer) return std::unexpected(finer.error().within(called(problem.given, s)));
     net = *std::move(finer);
   }
   return {};
@@ -241,7 +245,7 @@ Expected<std::vector<Surface>> moved(const FitProblem& problem, const Points& x)
       continue;
     }
     auto made = net.with_control_points(net.control_points() + displacement);
-    if (!made) return std::unexpected(made.error().within(fmt::format("surface {}", s)));
+    if (!made) return std::unexpected(made.error().within(called(problem.given, s)));
     result.push_back(*std::move(made));
   }
   return result;

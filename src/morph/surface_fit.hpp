@@ -40,7 +40,8 @@ struct SurfaceHolds {
 struct FitSurface {
   std::shared_ptr<const Surface> surface;
   VisibleRegion region = {};
-  bool fixed = false;  ///< keeps its control points, and holds its neighbours' edges
+  bool fixed = false;     ///< keeps its control points, and holds its neighbours' edges
+  std::string name = {};  ///< what errors call it; empty: its position in the list
   std::shared_ptr<const SurfaceHolds> holds = {};  ///< null: nothing else is kept
 };
 

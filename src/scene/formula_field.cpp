@@ -81,7 +81,7 @@ Expected<SplineField<2>> formula_field(const std::string& text, const Surface& s
                                        std::optional<double> tolerance,
                                        const std::optional<Interval>& range) {
   const auto formula = Formula::parse(text, formula_variables);
-  if (!formula) return std::unexpected(formula.error().within("formula"));
+  if (!formula) return std::unexpected(formula.error());
   FormulaOnSurface f(*formula, surface, range);
   FitOptions options;
   const double largest = largest_value(f, surface);
@@ -100,8 +100,8 @@ Expected<SplineField<2>> formula_field(const std::string& text, const Surface& s
   auto fit = fit_field<2>([&f](const std::array<double, 2>& u) { return f(u); }, {hint[0], hint[1]},
                           options);
   if (f.outside())
-    return input_error(*f.outside(), "formula", fmt::format("values are {} or more", range->lower));
-  if (!fit) return std::unexpected(fit.error().within("formula"));
+    return input_error(*f.outside(), "", fmt::format("values are {} or more", range->lower));
+  if (!fit) return std::unexpected(fit.error());
   return std::move(fit->field);
 }
 

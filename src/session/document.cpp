@@ -45,7 +45,10 @@ const std::vector<SourceCurve>& Document::curves() const {
 }
 
 Expected<Document> Document::with_splines(std::span<const std::string> surfaces) const {
-  if (!source_) return input_error("only faces of a STEP file can be converted", name_);
+  if (!source_) {
+    return input_error("only surfaces of a file can be converted", name_,
+                       "begin with a file, or make B-spline surfaces with the command new");
+  }
   auto source = source_->with_splines(surfaces);
   if (!source) return std::unexpected(std::move(source.error()));
   Document document = *this;

@@ -196,7 +196,8 @@ std::optional<Error> wrong_pose(const Eigen::Quaterniond& rotation, const Point&
                  "use a unit quaternion"};
   }
   if (!position.allFinite())
-    return Error{ErrorKind::input, "a coordinate is not a finite number", "position"};
+    return Error{ErrorKind::input, "a coordinate is not a finite number", "position",
+                 "use smaller ones"};
   return std::nullopt;
 }
 

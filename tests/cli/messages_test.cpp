@@ -79,6 +79,64 @@ TEST(Messages, AnUnknownFunctionComesWithTheList) {
                    {"\"sinus\"", "variables are ", "functions are abs, ", "smoothstep", "mix"}));
 }
 
+TEST(Messages, AFormulaOfALoadIsNamedByItsField) {
+  const auto refused = [](const char* formula, const std::vector<std::string>& named) {
+    return refused_anew({command("new"), command("load", {{"formula", {"0", formula, "0"}}})}, 3,
+                        named);
+  };
+  EXPECT_TRUE(refused("u", {"commands[1]: formula[1]: character 1: ", "variables are "}));
+  EXPECT_TRUE(refused("1 2", {"formula[1]: character 3: ", "write one of + - * / ^"}));
+  EXPECT_TRUE(refused("1 +", {"formula[1]: character 4: ", "write a number"}));
+  EXPECT_TRUE(refused("(1", {"formula[1]: character 3: ", "write )"}));
+  EXPECT_TRUE(refused("mix(1)", {"formula[1]: character 6: ", "write mix(a, b, c)"}));
+}
+
+TEST(Messages, WhatNobodyGaveIsNotQuoted) {
+  // Finite numbers whose products are not.
+  const Json brush = command(
+      "brush", {{"kind", "twist"}, {"path", {{0.5, 0.5}}}, {"radius", 0.2}, {"angle", 1.79e308}});
+  const Json ball = command("tool", {{"position", {0.5, 0.5, 0.2}}, {"radius", 0.1}});
+  const Json stroke =
+      command("stroke", {{"path", {{0, 0, 1}, {0, 1e300, 1}}}, {"plastic", "along"}});
+  const Json away = command("move", {{"by", {0, 0, 1.79e308}}, {"relative", true}});
+  for (const auto& [last, named] :
+       {std::pair(brush, "angle: the number is too large; use a smaller one"),
+        std::pair(stroke, "path: the path is too long; shorten it"),
+        std::pair(away, "position: ")}) {
+    const Workshop workshop;
+    const Outcome run = knead({"sculpt", "--new", "-o", workshop / "out.step", "--script",
+                               workshop.script({command("new"), ball, last})});
+    EXPECT_TRUE(fails_with(run, 3, {"commands[2]: ", named, "; "}));
+    EXPECT_EQ(run.err.find("inf"), std::string::npos) << run.err;
+  }
+}
+
+TEST(Messages, WhatIsNotThereIsSoughtAmongWhatIs) {
+  const Json measure = command("measure", {{"name", "tip"}, {"at", {0.5, 0.5}}});
+  EXPECT_TRUE(refused_anew({command("new"), measure, command("remove", {{"measurement", "top"}})},
+                           3, {"no measurement \"top\"", "the measurements are: tip"}));
+  EXPECT_TRUE(refused_anew({command("new"), command("convert", {{"surface", "#1"}})}, 3,
+                           {"only surfaces of a file can be converted", "begin with a file"}));
+  EXPECT_TRUE(refused_anew(
+      {command("new"), command("material", {{"plasticity", 0.5}, {"region", {{0, 1}, {0, 0.5}}}})},
+      3, {"no value to paint; give one of alpha, beta, mass and damping"}));
+}
+
+TEST(Messages, AMorphNamesSurfacesByTheirIds) {
+  const Workshop workshop;
+  const std::string file = workshop / "sheet.step";
+  ASSERT_EQ(knead({"sculpt", "--new", "-o", file, "--script",
+                   workshop.script(Json::array({command("new")}))})
+                .code,
+            0);
+  const std::string id =
+      knead({"info", file, "--json"}).json().at("surfaces").at(0).at("id").get<std::string>();
+  const Outcome run =
+      knead({"morph", file, "-o", workshop / "out.step", "--space", "1e300*x; 0; 0"});
+  EXPECT_TRUE(fails_with(run, 3, {id + ": control point ", "too large"}));
+  EXPECT_EQ(run.err.find("surface 0"), std::string::npos) << run.err;
+}
+
 TEST(Messages, ARadiusWhoseSquareVanishesIsRefused) {
   // 5e-324 is above 0, but forces shared out by distances over its square are no numbers.
   for (const Json& small : {command("drag", {{"by", {0, 0, 0.1}}, {"radius", 5e-324}}),

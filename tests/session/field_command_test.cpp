@@ -153,7 +153,7 @@ TEST(Command, ALoadByFormulaIsTheLoadThatItSays) {
   run(session, {sheet});
   EXPECT_EQ(refusal(session, R"({"do":"load","formula":["0","0"]})").kind, ErrorKind::input);
   EXPECT_EQ(refusal(session, R"({"do":"load","formula":["0","y +","0"]})").where,
-            "component 1: formula: character 4");
+            "formula[1]: character 4");
   EXPECT_EQ(refusal(session, R"({"do":"load","tolerance":1e-3})").where, "tolerance");
 }
 

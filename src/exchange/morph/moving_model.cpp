@@ -156,8 +156,9 @@ void add_surfaces(const Model& opened, const Choice& choice, bool convert, const
                (convert || before->second->spline != brep::none);
   }
   for (std::size_t k = 0; k < count; ++k) {
-    morph::FitSurface surface{result.source->surfaces()[k].surface, {}, !moves[k]};
-    const auto kept = holds.find(result.source->surfaces()[k].id);
+    const SourceSurface& of_file = result.source->surfaces()[k];
+    morph::FitSurface surface{of_file.surface, {}, !moves[k], of_file.id};
+    const auto kept = holds.find(of_file.id);
     if (kept != holds.end()) surface.holds = kept->second;
     result.surfaces.push_back(std::move(surface));
   }

@@ -74,7 +74,7 @@ Expected<Surface> samples_as_field(const Load& load, const Surface& surface) {
 Expected<Surface> formula_as_field(const Load& load, std::size_t component,
                                    const Surface& surface) {
   const auto field = formula_field((*load.formula)[component], surface, load.tolerance);
-  if (!field) return std::unexpected(field.error().within(fmt::format("component {}", component)));
+  if (!field) return std::unexpected(field.error().within(fmt::format("formula[{}]", component)));
   Points forces = Points::Zero(static_cast<Eigen::Index>(field->coefficients().size()), 3);
   for (std::size_t k = 0; k < field->coefficients().size(); ++k) {
     forces(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(component)) =

@@ -75,10 +75,10 @@ Expected<std::vector<BrushImage>> images_of(const BrushCommand& c, const SceneSu
 }
 
 Expected<void> check(double x, const Range& range, const char* field) {
-  if (std::isfinite(x) && range.holds(x)) return {};
-  return input_error(
-      fmt::format("{} is not possible", x), field,
-      "use a number " + (range == Range{} ? std::string("that is finite") : in_words(range)));
+  if (!std::isfinite(x)) return input_error("the number is too large", field, "use a smaller one");
+  if (range.holds(x)) return {};
+  return input_error(fmt::format("{} is not possible", x), field,
+                     "use a number " + in_words(range));
 }
 
 /// The rows of a pattern, or the shape of a tool as a pattern within the core.

@@ -37,7 +37,9 @@ Expected<SplineField<2>> field_of(const MaterialCommand& c, const SceneSurface& 
       return input_error("there are samples and a formula", "formula", "give one of them");
     std::optional<Interval> range;
     if (*c.coefficient != "alpha12") range = Interval{0, std::numeric_limits<double>::infinity()};
-    return formula_field(*c.formula, *s.reference, c.tolerance, range);
+    auto field = formula_field(*c.formula, *s.reference, c.tolerance, range);
+    if (!field) return std::unexpected(field.error().within("formula"));
+    return field;
   }
   auto field = sampled_field<2>({s.reference->knots(0).domain(), s.reference->knots(1).domain()},
                                 c.counts, c.samples);

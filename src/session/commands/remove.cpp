@@ -1,5 +1,7 @@
 #include "remove.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "session/acts/selection.hpp"
@@ -23,8 +25,14 @@ Expected<void> execute(const RemoveCommand& c, Act& act) {
                          "use two commands");
     const auto gone =
         std::erase_if(act.state.probes, [&](const Probe& p) { return p.name == *c.measurement; });
-    if (gone == 0)
-      return input_error("there is no measurement \"" + *c.measurement + "\"", "measurement");
+    if (gone == 0) {
+      std::vector<std::string> names;
+      for (const Probe& p : act.state.probes) names.push_back(p.name);
+      return input_error(
+          fmt::format("there is no measurement \"{}\"", *c.measurement), "measurement",
+          names.empty() ? std::string("make one first with the command measure")
+                        : fmt::format("the measurements are: {}", fmt::join(names, ", ")));
+    }
     return {};
   }
   const auto force = std::ranges::find_if(act.state.forces, [&](const SceneForce& f) {

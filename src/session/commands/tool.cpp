@@ -42,7 +42,7 @@ Expected<Placement> placement_of(const ToolCommand& c, double unit, Act& act) {
     placement.position = *point;
   }
   if (!placement.position.allFinite())
-    return input_error("a coordinate is not a finite number", "position");
+    return input_error("a coordinate is too large", "position", "use smaller ones");
   return placement;
 }
 

@@ -370,10 +370,10 @@ Expected<void> Stroke::lead(const std::vector<Point>& path) {
   double length = 0;
   Point at = stroke.path.begun || path.empty() ? stroke.path.end : path.front();
   for (const Point& point : path) {
-    if (!point.allFinite()) return input_error("a coordinate is not a finite number", "path");
     length += (point - at).norm();
     at = point;
   }
+  if (!std::isfinite(length)) return input_error("the path is too long", "path", "shorten it");
   if (length > max_places * stroke.path.spacing) {
     return input_error(
         fmt::format("a path of {:.3g} is too long for this tool, which is placed every {:.3g}",
