@@ -271,7 +271,7 @@ defaults (`knead commands NAME` explains them):
       R"(
 The report:
 {"steps": [{"time", "energy", "residual", "largest_displacement", "stretch", "bend", "kinetic",
-            "contact", "gap", "constraint_violation", "converged", "limited", "note",
+            "contact", "gap", "gap_tool", "constraint_violation", "converged", "limited", "note",
             of shells "load_factor", "increments", of rational shapes "energy_error"}, ...],
  "time", "energy_before", "energy_after", "residual", "largest_displacement",
  "control_points_moved", "edges", "places", "seams", "notes",

@@ -118,10 +118,16 @@ void describe_figures(StepRecord& s, Fields& fields) {
   fields.add("residual", s.residual, {.help = "relative imbalance of forces"});
   fields.add("largest_displacement", s.largest_displacement,
              {.help = "from the surface as opened", .unit = Unit::length});
-  fields.add_all("stretch", s.stretch, "bend", s.bend, "kinetic", s.kinetic, "contact", s.contact);
+  fields.add("stretch", s.stretch, {.help = "part of the energy"});
+  fields.add("bend", s.bend, {.help = "part of the energy"});
+  fields.add("kinetic", s.kinetic, {.help = "½ mass times velocity², of a dynamic evolution"});
+  fields.add("contact", s.contact, {.help = "potential of tools, friction and limit"});
   fields.add("gap", s.gap, {.help = "deepest entry into a tool, in sizes of that tool"});
-  fields.add("constraint_violation", s.violation, {.unit = Unit::length});
-  fields.add("converged", s.converged);
+  fields.add("gap_tool", s.gap_tool, {.help = "the name of that tool", .omit_empty = true});
+  fields.add("constraint_violation", s.violation,
+             {.help = "largest error of a constraint", .unit = Unit::length});
+  fields.add("converged", s.converged,
+             {.help = "the step reached its minimum, and rigid tools their gap"});
   fields.add("limited", s.limited, {.help = "the limit restricts the displacement"});
   fields.add("load_factor", s.load_factor,
              {.help = "of a shell: the share of the load that is balanced", .omit_empty = true});
@@ -139,7 +145,7 @@ void describe(StepRecord& s, Fields& fields) {
   fields.name("step info", "What one step did.");
   fields.add("surface", s.surface, {.help = "number of the first one selected; -1: of a body"});
   describe_figures(s, fields);
-  fields.add("iterations", s.iterations);
+  fields.add("iterations", s.iterations, {.help = "of Newton's method"});
 }
 
 static void describe(ModeRecord& m, Fields& fields) {

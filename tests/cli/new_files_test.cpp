@@ -41,5 +41,27 @@ TEST(Sculpt, MakesAndBendsACurve) {
   EXPECT_NE(written.find("GEOMETRIC_CURVE_SET"), std::string::npos);
 }
 
+TEST(Sculpt, ReportsWhichToolAStepEntersDeepest) {
+  const Workshop workshop;
+  const auto ball = [](const char* name, double height) {
+    return command("tool", {{"name", name}, {"radius", 0.2}, {"position", {0.5, 0.5, height}}});
+  };
+  const std::string report = workshop / "report.json";
+  const Json commands = {command("new"),
+                         ball("far", 3),
+                         ball("near", 0.1),
+                         command("step"),
+                         command("remove", {{"tool", "near"}}),
+                         command("step")};
+  const Outcome run = knead({"sculpt", "--new", "-o", workshop / "out.step", "--script",
+                             workshop.script(commands), "--report", report});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json steps = Json::parse(content_of(report)).at("steps");
+  EXPECT_GT(steps.at(0).at("gap").get<double>(), 0);
+  EXPECT_EQ(steps.at(0).at("gap_tool"), "near");
+  EXPECT_EQ(steps.at(1).at("gap"), 0);
+  EXPECT_FALSE(steps.at(1).contains("gap_tool"));
+}
+
 }  // namespace
 }  // namespace knead::testing

@@ -38,6 +38,7 @@ struct StepRecord {
   double residual = 0;              ///< relative imbalance of forces, see ActiveStep
   double largest_displacement = 0;  ///< from the surface as opened, file units
   double gap = 0;        ///< deepest penetration of a collision tool, in sizes of that tool
+  std::string gap_tool;  ///< its name; empty without a penetration
   double violation = 0;  ///< of the constraints, file units
   int iterations = 0;
   bool converged = true;

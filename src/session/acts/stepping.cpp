@@ -137,6 +137,7 @@ void record(SessionState& state, const ActiveStep& step, double seconds, std::st
   record.contact = step.contact;
   record.residual = step.residual;
   record.gap = step.gap;
+  if (step.gap > 0) record.gap_tool = step.gap_tool;
   record.violation = step.violation;
   record.iterations = step.iterations;
   record.converged = step.converged;
