@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "convertible.hpp"
 #include "describe/record_json.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/face_edges.hpp"
@@ -166,14 +167,15 @@ std::vector<FileOtherSurface> others_of(const Source& source, const brep::Model&
                                         bool conversions) {
   std::vector<FileOtherSurface> list;
   const auto splines = conversions ? brep::exact_splines(model) : std::vector<Expected<Surface>>();
-  const bool step = source.format() == "STEP";
+  const bool converts = converts_surfaces(source);
   for (brep::OtherSurface& s : brep::other_surfaces(model)) {
     FileOtherSurface& info = list.emplace_back(FileOtherSurface{s.id, s.form, std::move(s.faces)});
     if (!conversions) continue;
     const auto& made = splines[list.size() - 1];
-    info.convertible = step && made;
+    info.convertible = converts && made;
     if (!info.convertible)
-      info.reason = made ? "only faces of a STEP file are converted" : made.error().message();
+      info.reason =
+          made ? "only faces of STEP and IGES files are converted" : made.error().message();
     if (made) {
       info.spline = std::array{degrees(*made), made->net()};
     } else {

@@ -93,7 +93,7 @@ Expected<void> Source::can_move_edge(const std::string& id) const {
 
 Expected<std::shared_ptr<const Source>> Source::with_splines(
     std::span<const std::string> /*surfaces*/) const {
-  return input_error("only faces of a STEP file can be converted", name());
+  return input_error("only faces of STEP and IGES files can be converted", name());
 }
 
 Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::string name,

@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "brep/tessellation/face_tessellator.hpp"
+#include "convertible.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/exchange/format.hpp"
@@ -165,7 +166,7 @@ std::vector<LeftOut> left_out_of_surfaces(const Source& source, const Format& fo
     for (const brep::OtherSurface& s : brep::other_surfaces(*model)) {
       list.add({"surface of another form", "surfaces of other forms",
                 "only B-spline surfaces are written",
-                source.format() == "STEP" ? "make them B-splines with the command `convert`" : ""},
+                converts_surfaces(source) ? "make them B-splines with the command `convert`" : ""},
                s.id);
     }
     constexpr LeftOutKind tessellated = {"tessellated item", "tessellated items",

@@ -293,10 +293,12 @@ Expected<void> File::read_directory() {
       return line_error(directory[k], "a field of the directory is not a number",
                         "get the file as it was written");
     }
-    Entity entity{*type, *form, std::max(*transform, 0), *first - 1, *count, false, {}};
+    Entity entity{*type, *form, std::max(*transform, 0), *first - 1, *count, false, false, {}};
     const std::string_view status = field(0, 8);
-    // The status number is four pairs of digits; the third is how the entity is used, and 05 is a
-    // curve in the parameters of a surface.
+    // The status number is four pairs of digits. The second is 01 or 03 where the entity depends on
+    // another; the third is how it is used, and 05 is a curve in the parameters of a surface.
+    entity.dependent =
+        status.size() == 8 && (status.substr(2, 2) == "01" || status.substr(2, 2) == "03");
     entity.parametric = status.size() == 8 && status.substr(4, 2) == "05";
     entity.label = std::string(trimmed(field(1, 7)));
     entities_.push_back(std::move(entity));

@@ -22,9 +22,10 @@ struct Line {
 /// One entity, as its two directory records have it (IGES 5.3, § 2.2.4.4).
 struct Entity {
   int type = 0, form = 0;
-  int transform = 0;        ///< directory number of its transformation matrix (124); 0: none
-  int first = 0;            ///< its first parameter record, from 0; -1: none
-  int lines = 0;            ///< the number of its parameter records that the directory states
+  int transform = 0;       ///< directory number of its transformation matrix (124); 0: none
+  int first = 0;           ///< its first parameter record, from 0; -1: none
+  int lines = 0;           ///< the number of its parameter records that the directory states
+  bool dependent = false;  ///< it is nothing without the entity of which it is a part (flag 01, 03)
   bool parametric = false;  ///< its geometry is in the parameters of a surface (entity use flag 05)
   std::string label;
 };

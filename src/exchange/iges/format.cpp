@@ -5,6 +5,7 @@
 #include <set>
 
 #include "brep/moved_edge.hpp"
+#include "conversion.hpp"
 #include "exchange/foreign_format.hpp"
 #include "exchange/format_list.hpp"
 #include "left_out.hpp"
@@ -18,14 +19,17 @@ namespace {
 
 class IgesSource final : public Source {
  public:
-  IgesSource(iges::File file, iges::ReadModel read)
+  /// \param known surfaces that keep their objects
+  IgesSource(iges::File file, iges::ReadModel read, std::span<const SourceSurface> known = {})
       : file_(std::move(file)),
         model_(std::make_shared<const brep::Model>(std::move(read.model))),
         edges_(std::move(read.sources)),
         unplaced_(std::move(read.unplaced)) {
     for (const brep::SplineSurface& s : model_->surfaces) {
-      surfaces_.push_back(
-          {s.id, s.name, file_.global().unit, std::shared_ptr<const Surface>(model_, &s.surface)});
+      const auto same = std::ranges::find(known, s.id, &SourceSurface::id);
+      surfaces_.push_back({s.id, s.name, file_.global().unit,
+                           same == known.end() ? std::shared_ptr<const Surface>(model_, &s.surface)
+                                               : same->surface});
     }
   }
 
@@ -38,6 +42,16 @@ class IgesSource final : public Source {
   std::shared_ptr<const brep::Model> model() const override { return model_; }
   Expected<void> can_move_edge(const std::string& id) const override {
     return iges::can_move(file_, edges_, id);
+  }
+
+  Expected<std::shared_ptr<const Source>> with_splines(
+      std::span<const std::string> surfaces) const override {
+    auto bytes = iges::with_splines(file_, *model_, surfaces);
+    if (!bytes) return std::unexpected(std::move(bytes.error()));
+    auto file = iges::File::parse(*std::move(bytes), name());
+    if (!file) return std::unexpected(std::move(file.error()));
+    auto read = iges::read_model(*file);
+    return std::make_shared<const IgesSource>(*std::move(file), std::move(read), surfaces_);
   }
 
   std::vector<LeftOut> left_out() const override {

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <initializer_list>
-#include <limits>
 
 #include "exchange/left_out_list.hpp"
+#include "parts.hpp"
 
 namespace knead::iges {
 namespace {
@@ -64,100 +62,13 @@ class Unread {
   }
 
  private:
-  using Values = std::vector<std::string>;
-  static int pointer(const Values& values, std::size_t k) {
-    const int value = k < values.size() ? integer(values[k]).value_or(0) : 0;
-    return std::abs(std::max(value, -std::numeric_limits<int>::max()));
-  }
-
-  /// What an entity is made of.
+  /// What an entity is made of, and the definitions that instances place.
   void note_parts(int number) {
     const int type = file_.find(number)->type;
     const auto parameters = file_.parameters(number);
     if (!parameters) return;
-    const Values& values = parameters->values;
-    const auto use = [&](std::initializer_list<std::size_t> places) {
-      for (const std::size_t k : places) parts_.insert(pointer(values, k));
-    };
-    const auto use_list = [&](std::size_t count_at, std::size_t first, std::size_t step) {
-      for (int n = pointer(values, count_at); n > 0 && first < values.size(); --n, first += step)
-        parts_.insert(pointer(values, first));
-    };
-    switch (type) {
-      case 102:
-      case 180:
-      case 184:
-        return use_list(1, 2, 1);
-      case 118:
-      case 120:
-      case 190:
-      case 192:
-      case 194:
-      case 196:
-      case 198:
-        use({1, 2});
-        return use(type == 190                  ? std::initializer_list<std::size_t>{3}
-                   : type == 192                ? std::initializer_list<std::size_t>{4}
-                   : type == 196                ? std::initializer_list<std::size_t>{3, 4}
-                   : type == 194 || type == 198 ? std::initializer_list<std::size_t>{5}
-                                                : std::initializer_list<std::size_t>{});
-      case 108:
-        return use({5});
-      case 122:
-      case 162:
-      case 164:
-      case 430:
-        return use({1});
-      case 130:
-        return use({1, 3});
-      case 140:
-        return use({5});
-      case 141:
-        return note_boundary(values);
-      case 142:
-        return use({2, 3, 4});
-      case 143:
-        use({2});
-        return use_list(3, 4, 1);
-      case 144:
-        use({1, 4});
-        return use_list(3, 5, 1);
-      case 504:
-        return use_list(1, 2, 5);
-      case 508:
-        return note_loop(values);
-      case 510:
-        use({1});
-        return use_list(2, 4, 1);
-      case 408:
-        placed_.insert(pointer(values, 1));
-        return;
-      default:
-        return;
-    }
-  }
-
-  void note_boundary(const Values& values) {
-    parts_.insert(pointer(values, 3));
-    std::size_t at = 5;
-    for (int n = pointer(values, 4); n > 0 && at + 2 < values.size(); --n) {
-      const auto flat = static_cast<std::size_t>(pointer(values, at + 2));
-      parts_.insert(pointer(values, at));
-      for (std::size_t k = at + 3; k < at + 3 + flat && k < values.size(); ++k)
-        parts_.insert(pointer(values, k));
-      at += 3 + flat;
-    }
-  }
-
-  void note_loop(const Values& values) {
-    // Of each: kind, list, its entry, sense, number of curves in parameters, and these.
-    std::size_t at = 2;
-    for (int n = pointer(values, 1); n > 0 && at + 4 < values.size(); --n) {
-      const auto flat = static_cast<std::size_t>(pointer(values, at + 4));
-      for (std::size_t k = 0; k < flat && at + 6 + 2 * k < values.size(); ++k)
-        parts_.insert(pointer(values, at + 6 + 2 * k));
-      at += 5 + 2 * flat;
-    }
+    auto& to = type == 408 ? placed_ : parts_;
+    for (const int part : parts_of(type, parameters->values)) to.insert(part);
   }
 
   void add(int number, const Entity& entity) {
@@ -247,9 +158,9 @@ class Unread {
   void add_face(int number, int type) {
     if (shown_.contains(fmt::format("#{}", number))) return;
     const auto parameters = file_.parameters(number);
-    const bool bare = type == 144 && parameters && pointer(parameters->values, 2) == 0 &&
-                      pointer(parameters->values, 3) == 0;
-    const int below = parameters ? pointer(parameters->values, type == 143 ? 2 : 1) : 0;
+    const bool bare = type == 144 && parameters && pointer_at(parameters->values, 2) == 0 &&
+                      pointer_at(parameters->values, 3) == 0;
+    const int below = parameters ? pointer_at(parameters->values, type == 143 ? 2 : 1) : 0;
     // A whole B-spline surface stands for itself.
     if (bare && model_.find_surface(fmt::format("#{}", below)) != nullptr) return;
     list_.add(bare && file_.find(below) != nullptr ? kinds::whole : kinds::faces,

@@ -7,23 +7,12 @@
 #include <cstring>
 #include <map>
 
-#include "exchange/part21/part21_text.hpp"
 #include "geometry.hpp"
 #include "model.hpp"
-#include "text.hpp"
+#include "surface_parameters.hpp"
 
 namespace knead::iges {
 namespace {
-
-bool same_number(const std::string& text, double value) {
-  const auto old = real(text);
-  return old && std::bit_cast<std::uint64_t>(*old) == std::bit_cast<std::uint64_t>(value);
-}
-
-/// The number as it stands at this place, or with 17 digits.
-std::string number(const std::vector<std::string>& old, std::size_t at, double value) {
-  return at < old.size() && same_number(old[at], value) ? old[at] : format_real(value);
-}
 
 /// A number in a field of fixed width, filled with zeros or blanks as the field was.
 std::string field(std::string_view old, long long value) {
@@ -33,112 +22,20 @@ std::string field(std::string_view old, long long value) {
                : fmt::format("{:>{}}", value, old.size());
 }
 
-/// The parameters of an entity with another surface.
-Expected<std::vector<std::string>> values_of(const File& file, const Replacement& r,
-                                             const Parameters& parameters) {
-  const auto at = surface_layout(file, r.number, parameters);
-  const auto outer = outer_transform(file, r.number);
-  const auto transform = transform_of(file, r.number);
-  if (!at || !outer || !transform)
-    return std::unexpected(!at ? at.error() : !outer ? outer.error() : transform.error());
-  const Eigen::Affine3d move = *outer * *transform, back = move.inverse();
-  const auto before = read_surface(file, r.number, *outer);
-  if (!before) return std::unexpected(before.error());
-  const bool still = move.matrix().isIdentity(0);
-  const Surface& s = r.surface;
-  const auto [m, n] = s.net();
-  const std::vector<std::string>& old = parameters.values;
-  const bool same_net = s.net() == before->net();
-
-  std::vector<std::string> result = {old[0]};
-  const auto integer_at = [&](std::size_t k, int value) {
-    return integer(old[k]) == value ? old[k] : std::to_string(value);
-  };
-  result.push_back(integer_at(1, m - 1));
-  result.push_back(integer_at(2, n - 1));
-  for (const std::size_t d : {0U, 1U}) result.push_back(integer_at(3 + d, s.knots()[d].degree()));
-  for (std::size_t k = 5; k < 10; ++k) result.push_back(old[k]);
-  if (s.rational()) result[7] = integer_at(7, 0);
-  for (const std::size_t d : {0U, 1U}) {
-    const bool same_count = s.knots()[d].knots().size() == before->knots()[d].knots().size();
-    std::size_t k = same_count ? at->knots[d] : old.size();
-    for (const double x : s.knots()[d].knots()) result.push_back(number(old, k++, x));
-  }
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < m; ++i) {
-      const std::size_t place = at->weights + (same_net ? static_cast<std::size_t>(i + m * j) : 0);
-      result.push_back(!s.rational()
-                           ? old[place]
-                           : number(old, place, s.weights()[static_cast<std::size_t>(i * n + j)]));
-    }
-  }
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < m; ++i) {
-      const Point p = s.control_points().row(i * n + j).transpose();
-      const std::size_t place =
-          same_net ? at->points + 3 * static_cast<std::size_t>(i + m * j) : old.size();
-      const bool kept =
-          same_net && !still && p == Point(before->control_points().row(i * n + j).transpose());
-      const Point q = still ? p : Point(back * p);
-      for (std::size_t c = 0; c < 3; ++c) {
-        result.push_back(kept ? old[place + c]
-                              : number(old, place + c, q[static_cast<Eigen::Index>(c)]));
-      }
-    }
-  }
-  for (std::size_t k = at->domain; k < old.size(); ++k) result.push_back(old[k]);
-  return result;
-}
-
-/// The parameters that make a parametric spline surface (114) or a ruled surface (118) a B-spline
-/// surface (128), with what others add to them.
-Expected<std::vector<std::string>> spline_values(const File& file, const Replacement& r,
-                                                 const Parameters& parameters) {
-  const auto outer = outer_transform(file, r.number);
-  const auto transform = transform_of(file, r.number);
-  if (!outer || !transform) return std::unexpected(!outer ? outer.error() : transform.error());
-  const Eigen::Affine3d move = *outer * *transform, back = move.inverse();
-  Points points = r.surface.control_points();
-  if (!move.matrix().isIdentity(0)) {
-    for (Eigen::Index k = 0; k < points.rows(); ++k)
-      points.row(k) = (back * Point(points.row(k).transpose())).transpose();
-  }
-  const auto moved = r.surface.with_control_points(points);
-  if (!moved) return std::unexpected(moved.error());
-  std::vector<std::string> values = surface_values(*moved);
-  values.insert(values.begin(), "128");
-  // Behind what describes it, as all patches: pointers to associativities and properties.
-  std::size_t end = 5;
-  if (file.find(r.number)->type == 114) {
-    const auto m = integer(parameters.values[3]).value_or(0),
-               n = integer(parameters.values[4]).value_or(0);
-    end = 7 + static_cast<std::size_t>(m + n) +
-          std::size_t{48} * static_cast<std::size_t>(m + 1) * static_cast<std::size_t>(n + 1);
-  }
-  for (std::size_t k = end; k < parameters.values.size(); ++k)
-    values.push_back(parameters.values[k]);
-  return values;
-}
-
 /// Replaces spans of a file.
 class Surgeon {
  public:
   explicit Surgeon(const File& file) : file_(file) {}
 
   Expected<void> replace(const Replacement& r) {
-    const Entity* entity = file_.find(r.number);
-    const bool other = entity != nullptr && (entity->type == 114 || entity->type == 118);
-    if (entity == nullptr || (entity->type != 128 && !other)) {
-      return file_.error(r.number, "it is no B-spline surface");
-    }
+    if (file_.find(r.number) == nullptr) return file_.error(r.number, "there is no such surface");
     const auto parameters = file_.parameters(r.number);
     if (!parameters) return std::unexpected(parameters.error());
-    const auto values =
-        other ? spline_values(file_, r, *parameters) : values_of(file_, r, *parameters);
+    const auto values = surface_values(file_, r.number, r.surface, *parameters);
     if (!values) return std::unexpected(values.error());
     if (*values == parameters->values) return {};
     put(r.number, *parameters, *values);
-    if (other) become(r.number, 128);
+    become(r.number, 128);
     return {};
   }
 
@@ -154,6 +51,15 @@ class Surgeon {
     const auto lists = vertex_values(file_, moved.vertices);
     if (!lists) return std::unexpected(lists.error());
     for (const auto& [list, values] : *lists) put(list, *file_.parameters(list), values);
+    return {};
+  }
+
+  Expected<void> replace(const OtherParameters& other) {
+    const auto parameters = file_.parameters(other.number);
+    if (!parameters) return std::unexpected(parameters.error());
+    if (other.values == parameters->values) return {};
+    put(other.number, *parameters, other.values);
+    become(other.number, integer(other.values.front()).value_or(0));
     return {};
   }
 
@@ -298,7 +204,8 @@ bool same_bits(const Surface& a, const Surface& b) {
 }
 
 Expected<void> check(const File& before, const std::string& bytes,
-                     std::span<const Replacement> replacements, const MovedEntities& moved) {
+                     std::span<const Replacement> replacements, const MovedEntities& moved,
+                     std::span<const OtherParameters> others) {
   const auto failed = [&](int number, const std::string& what) {
     return numerical_error("the written file does not read back: " + what, before.label(number),
                            "report this");
@@ -323,7 +230,10 @@ Expected<void> check(const File& before, const std::string& bytes,
     }
     const auto r = std::ranges::find(replacements, number, &Replacement::number);
     if (r == replacements.end()) {
-      const auto a = before.parameters(number), b = after->parameters(number);
+      auto a = before.parameters(number);
+      const auto b = after->parameters(number);
+      const auto other = std::ranges::find(others, number, &OtherParameters::number);
+      if (a && other != others.end()) a->values = other->values;
       if (a.has_value() != b.has_value() || (a && a->values != b->values))
         return failed(number, "its parameters differ");
       continue;
@@ -367,8 +277,10 @@ std::vector<std::string> wrapped(const std::vector<std::string>& values, const G
 }
 
 Expected<std::string> with_surfaces(const File& file, std::span<const Replacement> replacements,
-                                    const MovedEntities& moved) {
-  if (replacements.empty() && moved.curves.empty() && moved.vertices.empty()) return file.bytes();
+                                    const MovedEntities& moved,
+                                    std::span<const OtherParameters> others) {
+  if (replacements.empty() && moved.curves.empty() && moved.vertices.empty() && others.empty())
+    return file.bytes();
   Surgeon surgeon(file);
   for (const Replacement& r : replacements) {
     if (auto status = surgeon.replace(r); !status)
@@ -376,8 +288,12 @@ Expected<std::string> with_surfaces(const File& file, std::span<const Replacemen
   }
   if (auto status = surgeon.replace(moved); !status)
     return std::unexpected(std::move(status.error()));
+  for (const OtherParameters& other : others) {
+    if (auto status = surgeon.replace(other); !status)
+      return std::unexpected(std::move(status.error()));
+  }
   std::string bytes = surgeon.bytes();
-  if (auto status = check(file, bytes, replacements, moved); !status)
+  if (auto status = check(file, bytes, replacements, moved, others); !status)
     return std::unexpected(std::move(status.error()));
   return bytes;
 }
