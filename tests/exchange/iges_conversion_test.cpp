@@ -221,6 +221,30 @@ TEST(IgesConversion, ThePlaneOfATransformedFaceGoesBackThroughItsMatrix) {
   EXPECT_LE((s.control_points().col(2).array() - 9).abs().maxCoeff(), 1e-13);
 }
 
+TEST(IgesConversion, TheHalfAngleOfAConeIsInDegrees) {
+  IgesBuilder b;
+  const int origin = b.add(116, "0.,0.,0.,0"), z = b.add(123, "0.,0.,1.");
+  const int cone = b.add(194, fmt::format("{},{},2.,45.", origin, z));
+  const int round =
+      b.add(102, fmt::format("4,{},{},{},{}", b.add(100, "0.,0.,0.,2.,0.,0.,2."),
+                             b.add(110, "0.,2.,0.,0.,5.,3."), b.add(100, "3.,0.,0.,5.,0.,0.,5."),
+                             b.add(110, "5.,0.,3.,2.,0.,0.")));
+  b.add(144, fmt::format("{},1,0,{}", cone, b.add(142, fmt::format("1,{},0,{},2", cone, round))));
+  const std::string id = fmt::format("#{}", cone);
+  const auto after = testing::open_or_die(b.text(), "cone.igs")->with_splines({&id, 1});
+  ASSERT_TRUE(after) << after.error().message();
+  const Surface& s = *(*after)->surfaces()[0].surface;
+  const Interval u = s.knots(0).domain(), v = s.knots(1).domain();
+  for (const double p : {0.0, 0.3, 1.0}) {
+    for (const double q : {0.0, 0.4, 1.0}) {
+      const Point point =
+          *evaluate_point<2>(s, {u.lower + p * u.length(), v.lower + q * v.length()});
+      EXPECT_NEAR(std::hypot(point.x(), point.y()), 2 + point.z(), 1e-13);
+      EXPECT_NEAR(point.z(), 3 * q, 1e-13);
+    }
+  }
+}
+
 TEST(IgesConversion, RefusesWhatNeedsTheParametersOfTheSurface) {
   const auto message = [](const std::string& text, const std::string& id) {
     const auto after = testing::open_or_die(text, "part.igs")->with_splines({&id, 1});
