@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/interruption.hpp"
+#include "data_stretch.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/brep/edge_measures.hpp"
 #include "knead/exchange/format.hpp"
@@ -110,10 +111,27 @@ std::optional<double> allowed_parting(const brep::ModelMeasures& before) {
   return open ? std::nullopt : std::optional(before.gap_tolerance / 2);
 }
 
+/// By how much an edge may be parted now: if it was closed by the tolerance, the larger of the
+/// file's uncertainty and 1e-6 of the size; else what it was as opened, stretched as the data
+/// stretch the model there, and 1 %.
+Expected<double> most_parted(const MovingModel& model, const MorphPoints& data,
+                             const brep::ModelMeasures& before, const EdgeMeasures& was,
+                             double now) {
+  const double gap = parted(was).value_or(0), most = std::max(1.01 * gap, before.gap_tolerance);
+  if (now <= most || gap <= before.gap_tolerance) return most;
+  std::vector<Point> at;
+  for (const auto& place : {was.start, was.middle, was.end, place_of(was)})
+    at.emplace_back(place[0], place[1], place[2]);
+  const auto stretch = detail::data_stretch(model, data, was.faces, at, before.size);
+  if (!stretch) return std::unexpected(stretch.error());
+  return 1.01 * *stretch * gap;
+}
+
 /// Compares the edges of the file that would be written with those of the one that was opened, and
 /// refuses what has come open.
-Expected<void> check_edges(const MovingModel& model, const brep::ModelMeasures& before,
-                           const brep::ModelMeasures& after, MorphReport& report) {
+Expected<void> check_edges(const MovingModel& model, const MorphPoints& data,
+                           const brep::ModelMeasures& before, const brep::ModelMeasures& after,
+                           MorphReport& report) {
   if (auto right = check_pairs(before, after); !right) return right;
   std::map<std::string, const EdgeMeasures*> old;
   for (const EdgeMeasures& edge : before.edges) old[edge.id] = &edge;
@@ -122,15 +140,15 @@ Expected<void> check_edges(const MovingModel& model, const brep::ModelMeasures& 
     if (found == old.end()) continue;
     const EdgeMeasures& was = *found->second;
     const auto gap = parted(edge), gap_before = parted(was);
-    // The tolerance is the larger of the file's uncertainty and 1e-6 of the size.
-    const double most = std::max(1.01 * gap_before.value_or(0), before.gap_tolerance);
+    const auto most = most_parted(model, data, before, was, gap.value_or(0));
+    if (!most) return std::unexpected(most.error());
     const auto at = place_of(edge);
     const std::string where =
         fmt::format("edge {} of faces {} at ({:.6g}, {:.6g}, {:.6g})", edge.id,
                     fmt::join(edge.faces, ", "), at[0], at[1], at[2]);
-    if (gap && gap_before && *gap > most) {
+    if (gap && gap_before && *gap > *most) {
       return numerical_error(
-          fmt::format("it would be parted by {:.3g}, more than {:.3g}", *gap, most), where,
+          fmt::format("it would be parted by {:.3g}, more than {:.3g}", *gap, *most), where,
           remedy_at(model, edge));
     }
     if (edge.kind == EdgeKind::unknown && was.kind != EdgeKind::unknown)
@@ -343,7 +361,7 @@ Expected<MorphedFile> detail::morph_file(const std::shared_ptr<const Source>& so
   if (auto on = progress.next(report.time_save); !on) return std::unexpected(on.error());
   const auto after = measures_after(result.bytes, *source);
   if (!after) return std::unexpected(after.error());
-  if (auto right = check_edges(*model, *before, *after, report); !right)
+  if (auto right = check_edges(*model, *points, *before, *after, report); !right)
     return std::unexpected(right.error());
   report.time_check += progress.lap();
   return result;

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "exchange/fields/mesh_points.hpp"
-#include "exchange/fields/space_map.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -328,6 +327,13 @@ Expected<MorphPoints> points_of(const MovingModel& model, const MorphData& data,
     if (!points) return std::unexpected(points.error());
     result.found = *std::move(points);
     result.count = result.found.data.size();
+    if (!settings.along_normal) {
+      result.map.emplace([map = *map, scale = settings.scale](const Point& x) -> Expected<Point> {
+        auto displacement = map.at(x);
+        if (displacement) *displacement *= scale;
+        return displacement;
+      });
+    }
   } else {
     auto given = given_displacements(data, settings);
     if (!given) return std::unexpected(given.error());

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "exchange/fields/displacements.hpp"
+#include "exchange/fields/space_map.hpp"
 #include "morph/align.hpp"
 #include "morph/scan_fit.hpp"
 #include "moving_model.hpp"
@@ -20,6 +21,7 @@ struct MorphPoints {
   std::vector<Point> places = {};  ///< of displacements and of a mesh: where they are, in the model
   /// Of a scan where nothing is to move (scale 0): its partners, without `found`.
   std::optional<morph::ScanPartners> first = {};
+  std::optional<fields::SpaceMap> map = {};  ///< that all of them follow, scaled, in the model
 };
 
 [[nodiscard]] MorphAlignment as_reported(const morph::Alignment& alignment);
