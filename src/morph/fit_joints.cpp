@@ -264,6 +264,33 @@ std::vector<Joint> joints_of_edges(std::span<const FitEdge> edges, const FitNets
   return result;
 }
 
+Expected<void> part_joints(std::span<Joint> joints, const FitNets& nets, double closed,
+                           const std::function<Expected<Point>(const Point&)>& displacement) {
+  for (Joint& joint : joints) {
+    if (joint.edge.empty() || nets.stays(joint.surfaces[0]) || nets.stays(joint.surfaces[1]))
+      continue;
+    std::vector<Point> apart(joint.points.size(), Point::Zero());
+    bool any = false;
+    for (std::size_t k = 0; k < joint.points.size(); ++k) {
+      std::array<Point, 2> places;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const auto s = static_cast<std::size_t>(joint.surfaces[side]);
+        const auto place = evaluate_point<2>(nets.surfaces[s], joint.points[k][side].at);
+        if (!place) return std::unexpected(place.error());
+        places[side] = *place;
+      }
+      if ((places[0] - places[1]).norm() <= closed) continue;
+      const auto first = displacement(places[0]), second = displacement(places[1]);
+      if (!first) return std::unexpected(first.error());
+      if (!second) return std::unexpected(second.error());
+      apart[k] = *first - *second;
+      any = true;
+    }
+    if (any) joint.apart = std::move(apart);
+  }
+  return {};
+}
+
 // A knot of multiplicity p or more: displacements are C0 there, and a surface that is smooth there
 // would get a crease. Surfaces that close have such a line where they meet themselves.
 Expected<std::vector<Joint>> joints_of_lines(const FitNets& nets) {

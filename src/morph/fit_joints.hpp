@@ -16,6 +16,9 @@ struct Joint {
   std::array<int, 2> surfaces = {};  ///< the second is −1 where the first keeps its place
   std::array<Side, 2> sides = {Side::right, Side::right};  ///< of which limits are taken at knots
   std::vector<std::array<Foot, 2>> points;
+  /// Of each point, by how much the displacement of the first side is to be larger than that of the
+  /// second; empty: they are to be equal.
+  std::vector<Point> apart = {};
   bool smooth = false;   ///< tangent planes are common, where `across` is not zero
   bool position = true;  ///< whether positions are asked: not where the basis keeps them
   double length = 0;     ///< file units
@@ -26,6 +29,12 @@ struct Joint {
 /// points, and (p + 1)²/4, in every span crossed of either surface.
 [[nodiscard]] std::vector<Joint> joints_of_edges(std::span<const FitEdge> edges,
                                                  const FitNets& nets);
+
+/// Lets sides of joints that are parted by more than `closed` move apart as a displacement of space
+/// says. Errors: those of evaluation and of the displacement.
+[[nodiscard]] Expected<void> part_joints(
+    std::span<Joint> joints, const FitNets& nets, double closed,
+    const std::function<Expected<Point>(const Point&)>& displacement);
 
 /// The knot lines of surfaces that are not fixed at which the basis is continuous at most and
 /// tangent planes of the surface are common, within `smooth_angle`; and so where closed surfaces

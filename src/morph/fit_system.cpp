@@ -99,7 +99,8 @@ Expected<FitSystem> FitSystem::create(const FitNets& nets, std::span<const FitPo
                          static_cast<double>(joints[j].points.size());
     const double position = position_weight * joints[j].position_share * share;
     const double slope = slope_weight * joints[j].slope_share * share * size * size;
-    for (const Terms& row : result.apart_[j]) fit.add(row, position, Point::Zero());
+    for (std::size_t k = 0; k < result.apart_[j].size(); ++k)
+      fit.add(result.apart_[j][k], position, result.wanted_apart(j, k));
     for (const Terms& row : result.slopes_[j]) fit.add(row, slope, Point::Zero());
   }
   result.right_ = fit.right();
@@ -166,6 +167,7 @@ std::vector<SparseMatrix> FitSystem::across(int unknowns) const {
 Expected<void> FitSystem::make_joints(const FitNets& nets, std::span<const Joint> joints) {
   apart_.resize(joints.size());
   slopes_.resize(joints.size());
+  for (const Joint& joint : joints) wanted_apart_.push_back(joint.apart);
   const auto rows_of = [&](std::size_t j) -> Expected<void> {
     const Joint& joint = joints[j];
     apart_[j].clear();
@@ -197,7 +199,7 @@ Expected<void> FitSystem::make_joints(const FitNets& nets, std::span<const Joint
 FitSystem::Parting FitSystem::parting(std::size_t joint, const Points& x) const {
   Parting result;
   for (std::size_t k = 0; k < apart_[joint].size(); ++k) {
-    const double distance = value_of(apart_[joint][k], x).norm();
+    const double distance = (value_of(apart_[joint][k], x) - wanted_apart(joint, k)).norm();
     if (distance <= result.distance) continue;
     result = {distance, k};
   }

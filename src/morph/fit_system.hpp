@@ -61,7 +61,7 @@ class FitSystem {
     const Point& n = along_[point];
     return n.isZero(0) ? off : Point(n.dot(off) * n);
   }
-  /// The largest |D_a − D_b| of a joint, and the point at which it is.
+  /// The largest |D_a − D_b|, less what is wanted of it, of a joint, and the point at which it is.
   struct Parting {
     double distance = 0;
     std::size_t point = 0;
@@ -75,6 +75,10 @@ class FitSystem {
   /// nᵀ)_cd for the blocks (c, d) of coordinates; empty: all are known.
   [[nodiscard]] std::vector<SparseMatrix> across(int unknowns) const;
   Expected<void> make_joints(const FitNets& nets, std::span<const Joint> joints);
+  /// What is wanted of D_a − D_b.
+  [[nodiscard]] Point wanted_apart(std::size_t joint, std::size_t point) const {
+    return wanted_apart_[joint].empty() ? Point(Point::Zero()) : wanted_apart_[joint][point];
+  }
   void measure(FitState& state) const;
   [[nodiscard]] double freedom(const SparseCholesky& factor) const;
 
@@ -82,6 +86,7 @@ class FitSystem {
   std::vector<Point> wanted_, along_;
   std::vector<double> weights_;
   std::vector<std::vector<Terms>> apart_, slopes_;  ///< by joint and point
+  std::vector<std::vector<Point>> wanted_apart_;    ///< of `apart_`; empty: zeros
   FitMatrix matrix_;
   Points right_;
 };

@@ -33,6 +33,16 @@ constexpr double stalled = 0.97;  // a solve that leaves more than this is the l
 /// The joints of the nets as they are.
 Expected<std::vector<Joint>> joints_of(const FitProblem& problem) {
   std::vector<Joint> joints = joints_of_edges(problem.edges, problem.nets);
+  if (problem.settings.displacement) {
+    // What is fitted is what the affine part leaves.
+    const auto left = [&](const Point& at) -> Expected<Point> {
+      auto displacement = problem.settings.displacement(at);
+      if (displacement) *displacement -= problem.affine.at(at);
+      return displacement;
+    };
+    if (auto done = part_joints(joints, problem.nets, problem.parting, left); !done)
+      return std::unexpected(done.error());
+  }
   auto lines = joints_of_lines(problem.nets);
   if (!lines) return lines;
   for (Joint& line : *lines) joints.push_back(std::move(line));

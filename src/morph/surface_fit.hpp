@@ -69,6 +69,9 @@ struct FitSettings {
   /// Largest at edges that can be borne, file units, if more than `parting`: edges above it are
   /// closed at the cost of residuals; none: `parting`.
   std::optional<double> allowed_parting = {};
+  /// The displacement at every point of space, if it is known there: sides of an edge that are
+  /// parted by more than `parting` move apart as it says. Empty: they move alike.
+  std::function<Expected<Point>(const Point&)> displacement = {};
   /// Whether the affine map that fits the data best is taken from them before. It goes on beyond
   /// the data, where displacements run out flat without it.
   bool affine = true;

@@ -75,6 +75,18 @@ TEST(PartedEdges, OpenAsTheDataStretchThem) {
   }
 }
 
+// Displacements of both sides differ by more than the tolerance: made equal, they would not be what
+// the map says.
+TEST(PartedEdges, AreFollowedOnBothSides) {
+  const double gap = 1e-4;
+  const auto source = parted_sheets(gap);
+  const auto moved = morph_file(source, {.space = "0; 0.1*sin(3*x); 0.1*sin(3*x)"}, {});
+  ASSERT_TRUE(moved) << moved.error().message();
+  const auto reopened = open_source(moved->bytes, "moved.step");
+  ASSERT_TRUE(reopened) << reopened.error().message();
+  EXPECT_NEAR(common_edge(**reopened).gap->value, std::sqrt(1 + 2 * 0.09) * gap, 3e-7);
+}
+
 TEST(PartedEdges, StayClosedWhereTheyWere) {
   const double size = std::sqrt(5.0);  // 1e-6 of it is what closed edges may be parted by
   const auto source = parted_sheets(0.7e-6 * size);

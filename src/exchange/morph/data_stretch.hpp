@@ -14,8 +14,8 @@ namespace knead::detail {
 /// 1, and the largest singular value of I + A:
 ///
 /// - Of a map of space x ↦ x + D(x), A = ∂D by differences over 1e-6 of `size`, along each axis on
-///   that side of the place on which D changes less, beside the place: what jumps there is torn, not
-///   stretched.
+///   that side of the place on which D changes less, beside the place: what jumps there is torn,
+///   not stretched.
 /// - Of other data, D ≈ c_f + A (x − m_f) is the affine map that fits the data on each of the faces
 ///   f best, with weights (1 − r²/h²)² of their distances r from the place. A is common to the
 ///   faces, but each has a shift c_f of its own: data that tear faces apart do not count as a

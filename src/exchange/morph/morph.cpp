@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <string_view>
@@ -111,20 +112,37 @@ std::optional<double> allowed_parting(const brep::ModelMeasures& before) {
   return open ? std::nullopt : std::optional(before.gap_tolerance / 2);
 }
 
+/// The largest parting of an edge before that counts where it is parted now. Where a part along
+/// which edges meet ends, and the next one begins, is known as far as edges meet (docs/check.md):
+/// at its end also that of the parts beside it.
+double parted_there(const brep::ModelMeasures& before, const EdgeMeasures& was,
+                    const EdgeMeasures& now) {
+  double result = parted(was).value_or(0);
+  const auto at = place_of(now);
+  if (was.id.find('+') == std::string::npos || (at != now.start && at != now.end)) return result;
+  for (const EdgeMeasures& other : before.edges) {
+    if (other.id.find('+') == std::string::npos) continue;
+    if (other.start == was.start || other.start == was.end || other.end == was.start ||
+        other.end == was.end)
+      result = std::max(result, parted(other).value_or(0));
+  }
+  return result;
+}
+
 /// By how much an edge may be parted now: if it was closed by the tolerance, the larger of the
 /// file's uncertainty and 1e-6 of the size; else what it was as opened, stretched as the data
 /// stretch the model there, and 1 %.
 Expected<double> most_parted(const MovingModel& model, const MorphPoints& data,
                              const brep::ModelMeasures& before, const EdgeMeasures& was,
-                             double now) {
-  const double gap = parted(was).value_or(0), most = std::max(1.01 * gap, before.gap_tolerance);
-  if (now <= most || gap <= before.gap_tolerance) return most;
+                             const EdgeMeasures& now) {
+  const double own = parted(was).value_or(0), most = std::max(1.01 * own, before.gap_tolerance);
+  if (parted(now).value_or(0) <= most || own <= before.gap_tolerance) return most;
   std::vector<Point> at;
   for (const auto& place : {was.start, was.middle, was.end, place_of(was)})
     at.emplace_back(place[0], place[1], place[2]);
   const auto stretch = detail::data_stretch(model, data, was.faces, at, before.size);
   if (!stretch) return std::unexpected(stretch.error());
-  return 1.01 * *stretch * gap;
+  return 1.01 * *stretch * parted_there(before, was, now);
 }
 
 /// Compares the edges of the file that would be written with those of the one that was opened, and
@@ -140,7 +158,7 @@ Expected<void> check_edges(const MovingModel& model, const MorphPoints& data,
     if (found == old.end()) continue;
     const EdgeMeasures& was = *found->second;
     const auto gap = parted(edge), gap_before = parted(was);
-    const auto most = most_parted(model, data, before, was, gap.value_or(0));
+    const auto most = most_parted(model, data, before, was, edge);
     if (!most) return std::unexpected(most.error());
     const auto at = place_of(edge);
     const std::string where =
@@ -257,6 +275,12 @@ std::optional<double> noise_of(const MorphSettings& settings) {
   return std::abs(settings.scale) * *settings.noise;
 }
 
+/// At every point of space, if it is known there.
+std::function<Expected<Point>(const Point&)> displacement_of(const MorphPoints& points) {
+  if (!points.map) return {};
+  return [map = *points.map](const Point& at) { return map.at(at); };
+}
+
 Expected<brep::ModelMeasures> measures_after(const std::string& bytes, const Source& source) {
   const auto opened = open_source(bytes, source.name());
   if (!opened) return std::unexpected(opened.error());
@@ -338,6 +362,7 @@ Expected<MorphedFile> detail::morph_file(const std::shared_ptr<const Source>& so
                                        {.tolerance = report.tolerance,
                                         .noise = noise_of(settings),
                                         .allowed_parting = allowed_parting(*before),
+                                        .displacement = displacement_of(*points),
                                         .refinement = settings.refinement});
   if (!fit) return std::unexpected(fit.error());
   if (points->scan) describe_points(*points, report);
