@@ -163,19 +163,39 @@ std::vector<FileSurface> surfaces_of(const Source& source, const brep::Model* mo
   return list;
 }
 
+/// Why the file refuses to convert a surface whose spline is known; empty: it does not. All are
+/// tried at once first.
+std::vector<std::string> refusals(const Source& source, std::span<const brep::OtherSurface> others,
+                                  std::span<const Expected<Surface>> splines) {
+  std::vector<std::string> result(others.size()), ids;
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    if (splines[k]) ids.push_back(others[k].id);
+  }
+  if (ids.empty() || source.with_splines(ids)) return result;
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    if (!splines[k]) continue;
+    const auto alone = source.with_splines({&others[k].id, 1});
+    if (!alone) result[k] = alone.error().message();
+  }
+  return result;
+}
+
 std::vector<FileOtherSurface> others_of(const Source& source, const brep::Model& model,
                                         bool conversions) {
   std::vector<FileOtherSurface> list;
   const auto splines = conversions ? brep::exact_splines(model) : std::vector<Expected<Surface>>();
+  std::vector<brep::OtherSurface> others = brep::other_surfaces(model);
   const bool converts = converts_surfaces(source);
-  for (brep::OtherSurface& s : brep::other_surfaces(model)) {
+  std::vector<std::string> refused(others.size(),
+                                   "only faces of STEP and IGES files are converted");
+  if (conversions && converts) refused = refusals(source, others, splines);
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    brep::OtherSurface& s = others[k];
     FileOtherSurface& info = list.emplace_back(FileOtherSurface{s.id, s.form, std::move(s.faces)});
     if (!conversions) continue;
-    const auto& made = splines[list.size() - 1];
-    info.convertible = converts && made;
-    if (!info.convertible)
-      info.reason =
-          made ? "only faces of STEP and IGES files are converted" : made.error().message();
+    const auto& made = splines[k];
+    info.convertible = made && refused[k].empty();
+    if (!info.convertible) info.reason = made ? refused[k] : made.error().message();
     if (made) {
       info.spline = std::array{degrees(*made), made->net()};
     } else {

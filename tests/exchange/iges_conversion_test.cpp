@@ -245,6 +245,59 @@ TEST(IgesConversion, TheHalfAngleOfAConeIsInDegrees) {
   }
 }
 
+/// An eighth of a sphere of radius 2, or of a quarter of a torus of radii 3 and 1 the outer, upper
+/// quarter, as a surface of type 196 or 198 with arcs about it.
+std::string eighth(int type) {
+  IgesBuilder b;
+  const int to_xz = b.add(124, "1.,0.,0.,0.,0.,0.,-1.,0.,0.,1.,0.,0."),
+            to_yz = b.add(124, "0.,0.,1.,0.,1.,0.,0.,0.,0.,1.,0.,0.");
+  const int origin = b.add(116, "0.,0.,0.,0"), z = b.add(123, "0.,0.,1."),
+            x = b.add(123, "1.,0.,0.");
+  std::vector<int> curves;
+  int surface = 0;
+  if (type == 196) {
+    surface = b.add(196, fmt::format("{},2.,{},{}", origin, z, x), 0, 1);
+    curves = {b.add(100, "0.,0.,0.,2.,0.,0.,2."), b.add(100, "0.,0.,0.,2.,0.,0.,2.", to_yz),
+              b.add(100, "0.,0.,0.,2.,0.,0.,2.", to_xz)};
+  } else {
+    surface = b.add(198, fmt::format("{},{},3.,1.,{}", origin, z, x), 0, 1);
+    curves = {b.add(100, "0.,0.,0.,4.,0.,0.,4."), b.add(100, "0.,3.,0.,4.,0.,3.,1.", to_yz),
+              b.add(100, "1.,0.,0.,3.,0.,0.,3."), b.add(100, "0.,3.,0.,4.,0.,3.,1.", to_xz)};
+  }
+  std::string parts = std::to_string(curves.size());
+  for (const int curve : curves) parts += fmt::format(",{}", curve);
+  const int round = b.add(142, fmt::format("1,{},0,{},2", surface, b.add(102, parts)));
+  b.add(144, fmt::format("{},1,0,{}", surface, round));
+  return b.text();
+}
+
+TEST(IgesConversion, SpheresAndToriKeepTheirPoints) {
+  for (const int type : {196, 198}) {
+    SCOPED_TRACE(type);
+    const auto before = testing::open_or_die(eighth(type), "round.igs");
+    const auto others = brep::other_surfaces(*before->model());
+    ASSERT_EQ(others.size(), 1U);
+    const auto after = before->with_splines({&others[0].id, 1});
+    ASSERT_TRUE(after) << after.error().message();
+    ASSERT_EQ((*after)->surfaces().size(), 1U);
+    const Surface& s = *(*after)->surfaces()[0].surface;
+    const Interval u = s.knots(0).domain(), v = s.knots(1).domain();
+    for (int k = 0; k <= 100; ++k) {
+      const double p = std::min(u.lower + u.length() * (k % 11) / 10, u.upper),
+                   q = std::min(v.lower + v.length() * k / 100, v.upper);
+      const Point point = *evaluate_point<2>(s, {p, q});
+      const double round = std::hypot(point.x(), point.y());
+      const double off = type == 196 ? point.norm() - 2 : std::hypot(round - 3, point.z()) - 1;
+      EXPECT_NEAR(off, 0, 8 * exact);
+    }
+    for (const brep::Edge& edge : (*after)->model()->edges) {
+      const auto shared = SharedEdge::create(*(*after)->model(), edge.id);
+      ASSERT_TRUE(shared) << shared.error().message();
+      EXPECT_LE(shared->gap(), 1e-13);
+    }
+  }
+}
+
 TEST(IgesConversion, RefusesWhatNeedsTheParametersOfTheSurface) {
   const auto message = [](const std::string& text, const std::string& id) {
     const auto after = testing::open_or_die(text, "part.igs")->with_splines({&id, 1});
@@ -261,6 +314,11 @@ TEST(IgesConversion, RefusesWhatNeedsTheParametersOfTheSurface) {
   IgesBuilder open = offset;
   open.add(144, fmt::format("{},0,0,0", below));
   offset.add(140, fmt::format("1.,0.,0.,0.5,{}", below));
+  const auto source = testing::open_or_die(offset.text(), "part.igs");
+  const FileInfo info = file_info(*source, {.conversions = true});
+  ASSERT_EQ(info.other_surfaces.size(), 1U);
+  EXPECT_FALSE(info.other_surfaces[0].convertible);
+  EXPECT_NE(info.other_surfaces[0].reason.find("type 140"), std::string::npos);
   EXPECT_NE(message(offset.text(), id).find("type 140"), std::string::npos);
   EXPECT_NE(message(open.text(), id).find("ends where its surface does"), std::string::npos);
 }
