@@ -323,6 +323,27 @@ TEST(IgesConversion, RefusesWhatNeedsTheParametersOfTheSurface) {
   EXPECT_NE(message(open.text(), id).find("ends where its surface does"), std::string::npos);
 }
 
+// As a B-spline surface with a loop along its seam other programs lose its face.
+TEST(IgesConversion, RefusesWholeSpheres) {
+  IgesBuilder b;
+  const int to_xz = b.add(124, "1.,0.,0.,0.,0.,0.,-1.,0.,0.,1.,0.,0.");
+  const int origin = b.add(116, "0.,0.,0.,0"), z = b.add(123, "0.,0.,1."),
+            x = b.add(123, "1.,0.,0.");
+  const int sphere = b.add(196, fmt::format("{},2.,{},{}", origin, z, x), 0, 1);
+  const int seam = b.add(100, "0.,0.,0.,0.,-2.,0.,2.", to_xz);
+  const int poles = b.add(502, "2,0.,0.,-2.,0.,0.,2.", 0, 1);
+  const int list = b.add(504, fmt::format("1,{},{},1,{},2", seam, poles, poles), 0, 1);
+  const int loop = b.add(508, fmt::format("2,0,{},1,1,0,0,{},1,0,0", list, list), 0, 1);
+  b.add(510, fmt::format("{},1,1,{}", sphere, loop), 0, 1);
+  const auto before = testing::open_or_die(b.text(), "sphere.igs");
+  ASSERT_EQ(brep::other_surfaces(*before->model()).size(), 1U);
+  const std::string id = fmt::format("#{}", sphere);
+  const auto after = before->with_splines({&id, 1});
+  ASSERT_FALSE(after);
+  EXPECT_NE(after.error().message().find("whole spheres"), std::string::npos)
+      << after.error().message();
+}
+
 TEST(IgesConversion, InfoSaysWhatIsConvertible) {
   const Trimmed quarter = trimmed_quarter(192, 510);
   const auto source = testing::open_or_die(quarter.text, "quarter.igs");

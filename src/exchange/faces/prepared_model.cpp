@@ -138,26 +138,13 @@ bool has_polygon(const brep::Face& face) {
   });
 }
 
-/// Some face covers all of a sphere: its bounds are vertices, or its seam there and back.
-bool whole_sphere(const brep::Model& model, const std::string& id) {
-  return std::ranges::any_of(model.faces, [&](const brep::Face& face) {
-    if (face.support == brep::none || model.supports[face.support].id != id) return false;
-    const auto* form = std::get_if<brep::ElementarySurface>(&model.supports[face.support].form);
-    if (form == nullptr || form->kind != Kind::sphere) return false;
-    return std::ranges::all_of(face.bounds, [](const brep::Bound& bound) {
-      const auto& uses = bound.edges;
-      return uses.empty() || (uses.size() == 2 && uses[0].edge == uses[1].edge);
-    });
-  });
-}
-
 std::vector<SkippedFace> use_splines(brep::Model& model, const brep::Model& from,
                                      Conversion conversion) {
   std::vector<SkippedFace> left;
   const auto others = brep::other_surfaces(from);
   auto made = brep::exact_splines(from);
   for (std::size_t k = 0; k < others.size(); ++k) {
-    if (conversion == Conversion::all_but_whole_spheres && whole_sphere(from, others[k].id)) {
+    if (conversion == Conversion::all_but_whole_spheres && is_whole_sphere(from, others[k].id)) {
       left.push_back(
           {others[k].id,
            input_error("readers of the format know whole spheres as such alone", {}, "write STEP")
@@ -188,6 +175,18 @@ std::vector<SkippedFace> use_splines(brep::Model& model, const brep::Model& from
 }
 
 }  // namespace
+
+bool is_whole_sphere(const brep::Model& model, const std::string& id) {
+  return std::ranges::any_of(model.faces, [&](const brep::Face& face) {
+    if (face.support == brep::none || model.supports[face.support].id != id) return false;
+    const auto* form = std::get_if<brep::ElementarySurface>(&model.supports[face.support].form);
+    if (form == nullptr || form->kind != Kind::sphere) return false;
+    return std::ranges::all_of(face.bounds, [](const brep::Bound& bound) {
+      const auto& uses = bound.edges;
+      return uses.empty() || (uses.size() == 2 && uses[0].edge == uses[1].edge);
+    });
+  });
+}
 
 PreparedModel prepared(std::shared_ptr<const brep::Model> model, Conversion conversion) {
   const bool convert = conversion != Conversion::none;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "brep/tessellation/context_faces.hpp"
@@ -15,6 +16,10 @@ enum class Conversion {
                           ///< pole to pole
   all,
 };
+
+/// Whether a face covers all of this sphere: its bounds are vertices, or its seam there and back.
+/// \param id of the surface
+[[nodiscard]] bool is_whole_sphere(const brep::Model& model, const std::string& id);
 
 /// A model in the terms in which new files are written.
 struct PreparedModel {

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "exchange/faces/prepared_model.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "parts.hpp"
 #include "writer.hpp"
@@ -253,6 +254,9 @@ Expected<std::string> with_splines(const File& file, const brep::Model& model,
     const std::string& name = model.supports[faces->front()->support].id;
     const int number = integer(std::string_view(name).substr(1)).value_or(0);
     if (!converted.insert(number).second) continue;
+    if (detail::is_whole_sphere(model, name))
+      return file.error(number, "readers of the format know whole spheres as such alone",
+                        "keep it, or write STEP");
     auto surface = brep::exact_spline(model, name);
     if (!surface) return std::unexpected(std::move(surface.error()));
     made.push_back({number, *std::move(surface)});
