@@ -174,7 +174,7 @@ TEST(Sculpt, TheReportSaysWhatTheFileShows) {
   ASSERT_EQ(report.at("steps").size(), 3U);
   double time = 0;
   for (const Json& step : report.at("steps")) {
-    ASSERT_EQ(step.size(), 12U + step.contains("note"));
+    ASSERT_EQ(step.size(), 13U + step.contains("note"));
     EXPECT_GE(step.at("energy").get<double>(), 0);
     EXPECT_GE(step.at("residual").get<double>(), 0);
     EXPECT_LE(step.at("residual").get<double>(), 1);

@@ -37,6 +37,10 @@ struct MovingModel {
 /// The surface moved by an affine map. Errors: coordinates that are not finite then.
 [[nodiscard]] Expected<Surface> image_of(const Surface& surface, const Eigen::Affine3d& map);
 
+/// Puts surfaces, their edges and what they keep where their parts stand. Errors (input): a place
+/// at which no part stands.
+[[nodiscard]] Expected<void> add_places(const MorphSettings& settings, MovingModel& model);
+
 /// What surfaces keep exactly, by their ids.
 using MorphHolds = std::map<std::string, std::shared_ptr<const morph::SurfaceHolds>>;
 

@@ -9,8 +9,8 @@
 #include "knead/exchange/format.hpp"
 #include "placing.hpp"
 #include "refining.hpp"
-#include "stepping.hpp"
 #include "spline/onto_net.hpp"
+#include "stepping.hpp"
 
 namespace knead {
 
@@ -54,9 +54,9 @@ Expected<MorphReport> move_after_data(Act& act, MorphData data, MorphRequest req
     if (!holds) return std::unexpected(holds.error());
     if (*holds) request.holds[fresh ? (*source)->surfaces()[k].id : s.id] = *std::move(holds);
   }
-  const auto morphed =
-      follow_data(*source, std::move(data), request,
-                  [&act](int done, int of) { return tell_progress(act, done, of); });
+  const auto morphed = follow_data(*source, std::move(data), request, [&act](int done, int of) {
+    return tell_progress(act, done, of);
+  });
   if (!morphed) return std::unexpected(morphed.error());
   const auto file = open_source(morphed->bytes, (*source)->name());
   if (!file) return std::unexpected(file.error());
