@@ -113,7 +113,7 @@ describe('the download of a compressed file', () => {
     vi.stubGlobal('URL', { createObjectURL: (blob: Blob) => { blobs.push(blob); return 'blob:'; }, revokeObjectURL: () => undefined });
     const host = {
       client: { query: async () => ({ file: changed, edges: [] }) }, state: { tools: [], last: null, surfaces: [] },
-      notify: () => undefined, attempt: async (act: () => Promise<void>) => { await act(); return true as const; },
+      notify: () => undefined, settle: () => undefined, attempt: async (act: () => Promise<void>) => { await act(); return true as const; },
     };
     const documents = { name: 'hood.step.gz', file: { kind: 'step', name: 'hood.step.gz', bytes: gzip }, place: null, saved: () => undefined };
     await new Saving(host as never as Host, documents as never as Documents).step();
