@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "document_regions.hpp"
 #include "info_values.hpp"
 #include "knead/session/session_info.hpp"
@@ -10,7 +12,8 @@ void describe(EdgeInfo& e, Fields& fields) {
   fields.add("id", e.id);
   fields.add("faces", e.faces, {.help = "that meet there"});
   fields.add("deviation", e.deviation,
-             {.help = "of the surface from its original position, the largest along the edge",
+             {.help = "of the surface from its original position, the largest along the edge; 0 of "
+                      "one that moves with its faces",
               .unit = Unit::length});
 }
 
@@ -22,6 +25,18 @@ void describe(EdgesInfo& e, Fields& fields) {
   fields.add("edges", e.edges);
   fields.add("unknown", e.unknown, {.help = "why they cannot be followed"});
 }
+
+namespace {
+
+/// Whether an edge moves with its faces, so that it is where they are.
+bool moves_along(const Session& session, const SceneSurface& s, const TrimReport::Edge& edge) {
+  const auto& followed = session.state().followed;
+  return !may_open(s.constraints, edge.held.id) &&
+         (edge.follows ||
+          std::ranges::find(followed, edge.held.id, &FollowedEdge::id) != followed.end());
+}
+
+}  // namespace
 
 std::vector<EdgesInfo> edges_info(const Session& session) {
   std::vector<EdgesInfo> infos;
@@ -48,7 +63,8 @@ std::vector<EdgesInfo> edges_info(const Session& session) {
     }
     info.tolerance = trim_tolerance(*s.opened, *s.visible);
     for (const TrimReport::Edge& edge : report->edges) {
-      info.edges.push_back({edge.held.id, edge.neighbours, edge.deviation});
+      const double deviation = moves_along(session, s, edge) ? 0 : edge.deviation;
+      info.edges.push_back({edge.held.id, edge.neighbours, deviation});
     }
   }
   return infos;

@@ -36,7 +36,7 @@ struct EdgesInfo {
 void describe(EdgesInfo& e, Fields& fields);
 
 /// The edges of the faces on every surface of a file that has moved: how far the surface is along
-/// each from where it was, as by `trim_report`.
+/// each from where it was, as by `trim_report`; 0 along edges that move with their faces.
 [[nodiscard]] std::vector<EdgesInfo> edges_info(const Session& session);
 
 struct ReadingInfo {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "knead/brep/edge_measures.hpp"
+#include "session/info_values.hpp"
 #include "session/queries/morph.hpp"
 #include "session/running.hpp"
 #include "support/error_codes.hpp"
@@ -124,6 +125,19 @@ TEST(MorphCommand, SurfacesThatAreLockedStay) {
   const auto status = run_on(locked, R"({"do":"morph","space":"0; 0; 0.01*max(x-1,0)^2"})");
   EXPECT_EQ(locked.largest_displacement(0), 0);
   EXPECT_TRUE(status || status.error().kind == ErrorKind::numerical) << status.error().message();
+}
+
+TEST(MorphCommand, EdgesHaveMovedWithTheirFaces) {
+  Session session = opened(two_sheets());
+  ASSERT_TRUE(run_on(session, bulge));
+  std::size_t count = 0;
+  for (const EdgesInfo& surface : edges_info(session)) {
+    for (const EdgeInfo& edge : surface.edges) {
+      EXPECT_EQ(edge.deviation, 0) << edge.id << ": it is where its faces are";
+      ++count;
+    }
+  }
+  EXPECT_EQ(count, 8U);
 }
 
 TEST(MorphCommand, ErrorsNameTheField) {

@@ -237,7 +237,7 @@ describe('the lab', () => {
     await apply().click();
     await settled(page);
     expect((await commands(page)).at(-1)).toMatchObject({ do: 'refine', knots_u: [(await knots()).find((x) => !before.includes(x))] });
-    await expect.poll(() => page.locator('.panel[data-panel=Surfaces] .item').textContent()).toContain('25 × 24');
+    await expect.poll(() => page.locator('.panel[data-panel=Surfaces] .item').textContent()).toContain('25×24');
     await expect.poll(message).toMatch(/^Direction u/);
     await page.keyboard.press('Control+z');
     await expect.poll(async () => (await knots()).length).toBe(28); // the panel follows the surface
