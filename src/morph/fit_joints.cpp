@@ -34,7 +34,13 @@ Sample between(const FitEdge& edge, std::span<const Surface> surfaces, const Sam
       std::lerp(a.parameter, b.parameter, share), (1 - share) * a.point + share * b.point, {}};
   for (std::size_t k = 0; k < a.feet.size(); ++k)
     result.feet.emplace_back((1 - share) * a.feet[k] + share * b.feet[k]);
-  if (!a.across.empty() || !b.across.empty()) look_across(surfaces, b.point - a.point, result);
+  if (a.across.empty() && b.across.empty()) return result;
+  // Surfaces may stand elsewhere than the samples' points were found.
+  const auto place = [&](const Sample& sample) {
+    return evaluate_point<2>(surfaces[0], parameters_at_foot(surfaces[0], sample.feet[0]));
+  };
+  const auto from = place(a), to = place(b);
+  if (from && to) look_across(surfaces, *to - *from, result);
   return result;
 }
 

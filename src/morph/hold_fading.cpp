@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/parallel_for.hpp"
+#include "hold/held_cells.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::morph {
@@ -66,20 +67,7 @@ class HeldCells {
  public:
   HeldCells(const Surface& s, const std::vector<bool>& held) : surface_(s) {
     for (std::size_t d = 0; d < 2; ++d) spans_[d] = s.knots(static_cast<int>(d)).spans();
-    const int n = s.net()[1];
-    const auto holds = [&](int a, int b) {
-      for (int i = a - s.knots(0).degree(); i <= a; ++i) {
-        for (int j = b - s.knots(1).degree(); j <= b; ++j) {
-          if (!held[static_cast<std::size_t>(i * n + j)]) return false;
-        }
-      }
-      return true;
-    };
-    for (const int a : spans_[0]) {
-      for (const int b : spans_[1]) {
-        if (holds(a, b)) cells_.insert({a, b});
-      }
-    }
+    for (const Cell& cell : held_cells(s, held)) cells_.insert(cell);
   }
 
   [[nodiscard]] bool contain(const std::array<double, 2>& at) const {
@@ -146,7 +134,7 @@ Expected<void> add_kept_places(const FitProblem& problem, const std::vector<Held
 }
 
 /// Of each surface; none where nothing is kept.
-Expected<std::vector<HeldCells>> held_cells(const FitProblem& problem) {
+Expected<std::vector<HeldCells>> cells_of(const FitProblem& problem) {
   std::vector<HeldCells> result;
   for (std::size_t s = 0; s < problem.given.size(); ++s) {
     const Surface& shape = problem.nets.surfaces[s];
@@ -238,7 +226,7 @@ bool is_held(const FitEdge& edge, const std::vector<bool>& fixed) {
 
 Expected<void> fade_at_holds(FitProblem& problem) {
   if (!keeps_something(problem)) return {};
-  const auto cells = held_cells(problem);
+  const auto cells = cells_of(problem);
   if (!cells) return std::unexpected(cells.error());
   std::vector<Hold> holds;
   if (auto added = add_kept_places(problem, *cells, holds); !added) return added;

@@ -65,7 +65,7 @@ struct FitSettings {
   /// `tolerance` is what is sought. Else rounds and λ end where the residuals are of that size.
   std::optional<double> noise = {};
   std::optional<double> energy = {};   ///< λ > 0; none: chosen
-  std::optional<double> parting = {};  ///< largest at edges, file units; none: 1e-6 of the size
+  std::optional<double> parting = {};  ///< largest at edges, file units; none: 7e-7 of the size
   /// Largest at edges that can be borne, file units, if more than `parting`: edges above it are
   /// closed at the cost of residuals; none: `parting`.
   std::optional<double> allowed_parting = {};

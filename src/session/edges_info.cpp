@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <span>
 
 #include "document_regions.hpp"
 #include "info_values.hpp"
 #include "knead/session/session_info.hpp"
+#include "scene/parted_edges.hpp"
 #include "scene/trims.hpp"
 
 namespace knead {
@@ -12,8 +14,8 @@ void describe(EdgeInfo& e, Fields& fields) {
   fields.add("id", e.id);
   fields.add("faces", e.faces, {.help = "that meet there"});
   fields.add("deviation", e.deviation,
-             {.help = "of the surface from its original position, the largest along the edge; 0 of "
-                      "one that moves with its faces",
+             {.help = "of its faces from each other, or from the edge, if that is more than a file "
+                      "allows; else 0",
               .unit = Unit::length});
 }
 
@@ -28,23 +30,25 @@ void describe(EdgesInfo& e, Fields& fields) {
 
 namespace {
 
-/// Whether an edge moves with its faces, so that it is where they are.
-bool moves_along(const Session& session, const SceneSurface& s, const TrimReport::Edge& edge) {
-  const auto& followed = session.state().followed;
-  return !may_open(s.constraints, edge.held.id) &&
-         (edge.follows ||
-          std::ranges::find(followed, edge.held.id, &FollowedEdge::id) != followed.end());
+/// By how much the faces at an edge are parted, or the edge from them, if by more than they may be.
+double parting_of(std::span<const PartedEdge> parted, const std::string& edge) {
+  const auto found = std::ranges::find(parted, edge, &PartedEdge::id);
+  return found == parted.end() ? 0 : found->distance;
 }
 
 }  // namespace
 
 std::vector<EdgesInfo> edges_info(const Session& session) {
   std::vector<EdgesInfo> infos;
+  const brep::Model* model = session.document().model();
+  if (model == nullptr || model->edges.empty()) return infos;
+  const auto parted = session.parted_edges();
   DocumentRegions regions(session.document());
   for (std::size_t k = 0; k < session.state().surfaces.size(); ++k) {
     SceneSurface s = session.state().surfaces[k];
     if (session.moved_control_points(static_cast<int>(k)) == 0) continue;
     Expected<void> known;
+    if (!parted) known = std::unexpected(parted.error());
     if (!s.visible) {
       if (auto region = regions.of(s.id)) {
         s.visible = std::make_shared<const VisibleRegion>(std::move(*region));
@@ -63,8 +67,8 @@ std::vector<EdgesInfo> edges_info(const Session& session) {
     }
     info.tolerance = trim_tolerance(*s.opened, *s.visible);
     for (const TrimReport::Edge& edge : report->edges) {
-      const double deviation = moves_along(session, s, edge) ? 0 : edge.deviation;
-      info.edges.push_back({edge.held.id, edge.neighbours, deviation});
+      const std::string& id = edge.held.id;
+      info.edges.push_back({id, edge.neighbours, parting_of(*parted, id)});
     }
   }
   return infos;

@@ -35,8 +35,8 @@ struct EdgesInfo {
 };
 void describe(EdgesInfo& e, Fields& fields);
 
-/// The edges of the faces on every surface of a file that has moved: how far the surface is along
-/// each from where it was, as by `trim_report`; 0 along edges that move with their faces.
+/// The edges of the faces on every surface of a file that has moved, and by how much each is parted
+/// (`parted_edges`).
 [[nodiscard]] std::vector<EdgesInfo> edges_info(const Session& session);
 
 struct ReadingInfo {

@@ -1,5 +1,6 @@
 // The command lattice where faces have common edges: their points follow the block.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,6 +63,32 @@ TEST(LatticeOfFaces, MovesPointsOfFacesWithCommonEdges) {
   EXPECT_TRUE(session.save());
   ASSERT_TRUE(run_on(session, R"({"do":"undo"},{"do":"undo"})"));
   EXPECT_EQ(session.largest_displacement(0), 0);
+}
+
+TEST(LatticeOfFaces, MovesNetsOfSurfacesWithoutFaces) {
+  Session session(Document::fresh("made", "mm"));
+  ASSERT_TRUE(run_on(session, R"({"do":"new","net":[6,6],"degree":2},
+      {"do":"new","net":[7,7],"degree":2})"));
+  const auto& made = session.state().surfaces;
+  const auto status = run_on(session, fmt::format(R"({{"do":"select","surfaces":["{}","{}"]}},
+      {{"do":"lattice","net":[4,4,4],"which":[21,22],"by":[0,0,10]}})",
+                                                  made[0].id, made[1].id));
+  ASSERT_TRUE(status) << status.error().message();
+  for (const std::size_t k : {0U, 1U}) {
+    const SceneSurface& s = session.state().surfaces[k];
+    EXPECT_EQ(s.current->net(), s.opened->net()) << "their sides have names alike, and do not meet";
+    EXPECT_EQ(s.current->knots(0).degree(), 2);
+  }
+}
+
+TEST(LatticeOfFaces, LeavesNothingToSpringBackTo) {
+  Session session = opened(two_sheets());
+  const std::string pull = R"({"do":"lattice","net":[4,4,4],"which":[21,22,25,26],"by":[0,0,)";
+  const auto status = run_on(session, both + R"(,{"do":"hold","rows":0},)" + pull + "0.2]}," +
+                                          pull + R"(-0.2],"again":true})");
+  ASSERT_TRUE(status) << status.error().message();
+  for (const SceneSurface& s : session.state().surfaces)
+    EXPECT_EQ(s.rest->control_points(), s.current->control_points());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // What a scene holds stays exactly where it is while all else follows data.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -99,6 +100,29 @@ TEST(MorphKeeps, AMaskStaysToo) {
   ASSERT_TRUE(status) << status.error().message();
   EXPECT_EQ(session.largest_displacement(0), 0);
   EXPECT_GT(session.largest_displacement(1), 0.01);
+}
+
+TEST(MorphKeeps, WhatRowsHoldStaysOnFinerNets) {
+  Session session = opened(two_sheets());
+  const std::string cubic = R"({"do":"select","surface":"#10"},{"do":"elevate","by":[2,2]},)";
+  const auto status =
+      run_on(session, cubic + refine + refine + refine + R"({"do":"hold","rows":5})" + rises);
+  ASSERT_TRUE(status) << status.error().message();
+  const Session before = opened(two_sheets());
+  for (const auto& [u, v] : grid(0, 0.25, 0, 1))
+    EXPECT_LE((place(session, 0, u, v) - place(before, 0, u, v)).norm(), rounding);
+}
+
+TEST(MorphKeeps, SurfacesThatAreLockedInANewDocument) {
+  Session session(Document::fresh("made", "mm"));
+  ASSERT_TRUE(run_on(session, R"({"do":"new","net":[6,6]},
+      {"do":"new","net":[6,6],"position":[500,0,0]})"));
+  const auto status = run_on(session, fmt::format(R"({{"do":"lock","surfaces":["{}"]}},
+      {{"do":"morph","space":"0; 0; 0.1*x"}})",
+                                                  session.state().surfaces[0].id));
+  ASSERT_TRUE(status) << status.error().message();
+  EXPECT_EQ(session.largest_displacement(0), 0);
+  EXPECT_GT(session.largest_displacement(1), 0);
 }
 
 TEST(MorphKeeps, DataThatKeepASymmetryKeepItOnFinerNets) {

@@ -61,7 +61,7 @@ describe('a Rhino file', () => {
   it('says before it is saved what it does not hold', () => {
     expect(lostInRhino('rhino', [], [])).toBe('');
     expect(lostInRhino(null, [], [])).toBe('');
-    expect(lostInRhino('step', [], [])).toBe('Trims, solids and the faces that are not sculpted are not written.');
+    expect(lostInRhino('step', [], [])).toBe('Trims, solids, and faces on planes, cylinders and the like are not written.');
     expect(lostInRhino('rhino', ['a', 'b', 'c', 'd'], [])).toMatch(/^“a”, “b”, “c”, “…”: the edges stay/);
     expect(lostInRhino('rhino', [], ['hull'])).toMatch(/^“hull”: the polysurface keeps its old face/);
   });

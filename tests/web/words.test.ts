@@ -54,6 +54,8 @@ describe('what the engine refuses', () => {
   it('names options of the program as fields of a panel', () => {
     const said = adviceOn(errorOf('input', 'none of 3 points is within 1 of a face', 'are they in the unit of the model? --unit, --align, --reach'));
     expect(said.remedy).toBe('Are they in the unit of the model? “Unit”, “Align”, “Reach”');
+    const refused = adviceOn(errorOf('numerical', 'it would be parted', 'allow more control points with --refine, a larger --tolerance, or --keep its faces'));
+    expect(refused.remedy).toBe('Allow more control points with “Refine ×”, a larger “Tolerance”, or fix its faces');
   });
 
   it('a fold names the held edge beside it, which may follow instead', () => {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "data_moving.hpp"
+#include "hold/held_cells.hpp"
 #include "knead/brep/visible_region.hpp"
 #include "knead/spline/extremum.hpp"
 #include "scene/mask.hpp"
@@ -121,6 +122,19 @@ Expected<ConstraintList> conditions_on(SceneSurface s, const std::vector<FrozenR
   return list;
 }
 
+/// Where nothing moves since control points are held by their numbers or a mask: on finer nets
+/// other ones would be.
+Expected<void> add_held_cells(const SceneSurface& s, std::vector<FrozenRegion>& to) {
+  SceneSurface numbered = s;
+  numbered.constraints.clear();
+  const auto list = conditions_on(numbered, {}, *s.current);
+  if (!list) return std::unexpected(list.error());
+  const KnotVector &u = s.current->knots(0), &v = s.current->knots(1);
+  for (const auto& [a, b] : held_cells(*s.current, list->held))
+    to.push_back({{u[a], u[a + 1]}, {v[b], v[b + 1]}});
+  return {};
+}
+
 /// The regions that are frozen, as they are on the present net: on a finer one they would be
 /// smaller. They are taken from the constraints.
 Expected<std::vector<FrozenRegion>> take_frozen(SceneSurface& s) {
@@ -138,6 +152,7 @@ Expected<std::vector<FrozenRegion>> take_frozen(SceneSurface& s) {
   std::erase_if(s.constraints, [](const KeptConstraint& kept) {
     return std::holds_alternative<Freeze>(kept.constraint);
   });
+  if (auto added = add_held_cells(s, result); !added) return std::unexpected(added.error());
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "data_moving.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -37,14 +39,31 @@ Expected<void> follow(Act& act, SceneSurface& s, const std::shared_ptr<const Sur
 
 }  // namespace
 
+void note_excess(Act& act, const MorphReport& report, std::string_view command) {
+  for (const MorphExcess& excess : report.above) {
+    act.state.notes.push_back(fmt::format(
+        "{}: {} {:.3g} of {}{} is above the {:.3g} that was wanted, at ({:.6g}, {:.6g}, {:.6g})",
+        command, excess.measure, excess.found, excess.edge.empty() ? "" : excess.edge + " on ",
+        excess.surface, excess.wanted, excess.place[0], excess.place[1], excess.place[2]));
+  }
+}
+
 Expected<MorphReport> move_after_data(Act& act, MorphData data, MorphRequest request) {
   const auto source = saved_source(act.document, act.state);
   if (!source) return std::unexpected(source.error());
   const bool fresh = act.document.is_fresh();  // then the file's ids are not those of the scene
   const auto& surfaces = std::as_const(act.state).surfaces;
+  const auto& in_file = (*source)->surfaces();
+  for (auto* ids : {&request.settings.faces, &request.settings.keep}) {
+    for (std::string& id : *ids) {
+      const auto k = std::ranges::find(surfaces, id, &SceneSurface::id);
+      if (fresh && k != surfaces.end()) id = in_file[k - surfaces.begin()].id;
+    }
+  }
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     SceneSurface s = surfaces[k];
-    if (s.locked) request.settings.keep.push_back(s.id);
+    const std::string& id = fresh ? in_file[k].id : s.id;
+    if (s.locked) request.settings.keep.push_back(id);
     if (holds_edge_by_name(s) && !s.visible) {
       auto region = act.regions.of(s.id);
       if (!region) return std::unexpected(region.error());
@@ -52,7 +71,7 @@ Expected<MorphReport> move_after_data(Act& act, MorphData data, MorphRequest req
     }
     auto holds = data_holds(s);
     if (!holds) return std::unexpected(holds.error());
-    if (*holds) request.holds[fresh ? (*source)->surfaces()[k].id : s.id] = *std::move(holds);
+    if (*holds) request.holds[id] = *std::move(holds);
   }
   const auto morphed = follow_data(*source, std::move(data), request, [&act](int done, int of) {
     return tell_progress(act, done, of);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "act.hpp"
 #include "session/queries/morph_fields.hpp"
 
@@ -11,6 +13,9 @@ namespace knead {
 /// written file. Locked surfaces stay. Errors: those of `follow_data`; an edge that would be left
 /// open.
 [[nodiscard]] Expected<MorphReport> move_after_data(Act& act, MorphData data, MorphRequest request);
+
+/// Notes what of a report is above what was wanted.
+void note_excess(Act& act, const MorphReport& report, std::string_view command);
 
 /// A shape on the net of another one, with the same bits of knots and weights: shapes are compared
 /// by them. Errors: those of `onto_net`.

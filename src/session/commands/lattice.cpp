@@ -72,19 +72,31 @@ Expected<Points> pressed(const Act& act, const LatticeCommand& c, const Lattice&
   return std::move(active.control_points);
 }
 
+/// Whether a surface stands in the model where its part is drawn, once.
+bool stands_as_drawn(const Document& document, const std::string& surface) {
+  const brep::Model* model = document.model();
+  const brep::Part* part = model && model->assembly ? model->assembly->part_of(surface) : nullptr;
+  return !part || part->places.empty() ||
+         (part->places.size() == 1 && part->places.front().to_model.matrix().isIdentity(0));
+}
+
 /// Whether surfaces that are selected come together at an edge of their faces, and none of these
 /// edges is held in place or may open: then their points have to be moved alike, not their nets.
+/// Data are in the coordinates of the model, and the block in those of a part: where these differ,
+/// nets are moved.
 Expected<bool> joined_at_edges(Act& act) {
   std::map<std::string, int> sides;
   for (const int k : act.state.selection()) {
     const SceneSurface& s = std::as_const(act.state).surfaces[static_cast<std::size_t>(k)];
+    if (!stands_as_drawn(act.document, s.id)) return false;
     const auto region = act.regions.of(s.id);
     if (!region) return std::unexpected(region.error());
     const auto orders = trim_orders(s.constraints, *region);
     for (std::size_t e = 0; e < orders.size(); ++e) {
       const std::string& id = region->edges[e].id;
       if (orders[e] >= 0 || may_open(s.constraints, id)) return false;
-      ++sides[id];
+      // Sides of a surface without faces are called alike on all of them, and meet none.
+      if (!region->edges[e].neighbours.empty()) ++sides[id];
     }
   }
   return std::ranges::any_of(sides, [](const auto& edge) { return edge.second > 1; });
@@ -107,10 +119,13 @@ Expected<void> move_points(Act& act, const Lattice& lattice, const Points& after
     if (!shape) return std::unexpected(shape.error());
     if (auto status = put<2>(s, std::make_shared<const Surface>(*std::move(shape))); !status)
       return status;
+    s.rest = s.current;
+    s.velocity.resize(0, 3);
   }
   if (act.state.permission == RefinePermission::never) request.settings.refinement = 1;
   const auto report = move_after_data(act, std::move(data), std::move(request));
   if (!report) return std::unexpected(report.error());
+  note_excess(act, *report, "lattice");
   return {};
 }
 

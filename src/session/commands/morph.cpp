@@ -77,12 +77,7 @@ Expected<void> execute(const MorphCommand& c, Act& act) {
   const auto report = move_after_data(act, *std::move(data), c.request);
   if (!report) return std::unexpected(report.error());
   act.state.notes.push_back(summary(*report));
-  for (const MorphExcess& excess : report->above) {
-    act.state.notes.push_back(fmt::format(
-        "morph: {} {:.3g} of {}{} is above the {:.3g} that was wanted, at ({:.6g}, {:.6g}, {:.6g})",
-        excess.measure, excess.found, excess.edge.empty() ? "" : excess.edge + " on ",
-        excess.surface, excess.wanted, excess.place[0], excess.place[1], excess.place[2]));
-  }
+  note_excess(act, *report, "morph");
   return {};
 }
 

@@ -2,8 +2,9 @@ import { clay } from '../engine/clay';
 import { type Command, KneadError, type SurfaceInfo } from '../engine/session_types';
 import type { Host } from './host';
 
-/** Whether something was said of what holds a surface, or it has moved. */
-export const hasSettings = ({ hold, pins, constraints, moved }: SurfaceInfo): boolean => hold > 0 || pins > 0 || constraints.length > 0 || moved > 0;
+/** Whether something was said of what holds a surface, or one without faces has moved: that was not by data that moved all faces. */
+export const hasSettings = ({ hold, pins, constraints, moved, faces }: SurfaceInfo): boolean =>
+  hold > 0 || pins > 0 || constraints.length > 0 || (moved > 0 && faces === 0);
 
 /**
  * Selects a surface, and makes one as it came clay that is held at its edges. What faces lie on is held along their edges, so

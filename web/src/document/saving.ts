@@ -23,7 +23,7 @@ interface Saved {
 export function lostInRhino(kind: 'step' | 'rhino' | null, within: readonly string[], beside: readonly string[]): string {
   const some = (names: readonly string[]) => `“${names.slice(0, 3).join('”, “')}${names.length > 3 ? '”, “…' : ''}”`;
   return [
-    kind === 'step' ? 'Trims, solids and the faces that are not sculpted are not written.' : '',
+    kind === 'step' ? 'Trims, solids, and faces on planes, cylinders and the like are not written.' : '',
     within.length > 0 ? `${some(within)}: the edges stay where they were in the file. RebuildEdges in Rhino brings them back to the surface.` : '',
     beside.length > 0 ? `${some(beside)}: the polysurface keeps its old face. The new surface is written beside it, on the same layer.` : '',
   ].filter(Boolean).join(' ');

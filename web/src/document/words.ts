@@ -102,11 +102,13 @@ function actionsFor(fixes: readonly Fix[]): Advice['actions'] {
 }
 
 /** Options of the program that are fields of a panel. */
-const options = ['unit', 'align', 'reach', 'noise', 'place'];
+const options: Record<string, string> = {
+  unit: '“Unit”', align: '“Align”', reach: '“Reach”', noise: '“Noise”', place: '“Place”', tolerance: '“Tolerance”', refine: '“Refine ×”', keep: 'fix',
+};
 
 /** With the signs of a page instead of those of a terminal. */
 function typeset(text: string): string {
-  const quoted = options.reduce((all, name) => all.replaceAll(`--${name}`, `“${sentence(name)}”`), text).split('`').map((part, k) => (k % 2 === 0 ? part : `“${part}”`)).join('');
+  const quoted = Object.entries(options).reduce((all, [name, label]) => all.replaceAll(`--${name}`, label), text).split('`').map((part, k) => (k % 2 === 0 ? part : `“${part}”`)).join('');
   return quoted.replaceAll('>=', '≥').replaceAll('<=', '≤').replaceAll('time_step', 'time step').replaceAll('lambda', 'λ');
 }
 
