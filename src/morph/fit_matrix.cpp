@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/interruption.hpp"
-#include "hold/constraint_list_space.hpp"
 #include "knead/energy/stiffness.hpp"
 #include "solve/dissection.hpp"
 
@@ -92,12 +91,12 @@ SparseMatrix FitMatrix::free_part(SparseMatrix a) const {
 // For all λ at once. Coordinates of a control point stay together where data alone couple them: the
 // order of the control points is as good for them, and found in a ninth of the entries.
 void FitMatrix::find_order() {
+  const SparseMatrix both = m_ + k_;
   if (across_.empty() || space_) {
-    const SparseMatrix both = m_ + k_;
     order_ = minimum_degree(free_part(across_.empty() ? both : coupled(both, across_))).order;
     return;
   }
-  const Eigen::VectorXi order = minimum_degree(m_ + k_).order;
+  const Eigen::VectorXi order = minimum_degree(both).order;
   order_.resize(3 * order.size());
   for (Eigen::Index k = 0; k < order.size(); ++k) {
     for (int c = 0; c < 3; ++c) order_[3 * k + c] = 3 * order[k] + c;

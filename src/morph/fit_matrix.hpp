@@ -21,7 +21,7 @@ class FitMatrix {
   FitMatrix() = default;
   /// \param across what M has too much, by blocks of coordinates: then these are coupled; or empty.
   /// \param kept   conditions on the unknowns, with zero right sides
-  /// Errors: those of `constraint_space`.
+  /// Errors: those of `ConstraintSpace::create`.
   [[nodiscard]] static Expected<FitMatrix> create(SparseMatrix m, SparseMatrix k,
                                                   std::vector<SparseMatrix> across,
                                                   const ConstraintList& kept);

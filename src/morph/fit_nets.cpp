@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "brep/boundary_curve.hpp"
 #include "brep/check/bare_faces.hpp"
 #include "knead/brep/model.hpp"
 
@@ -36,8 +37,7 @@ class Joined {
 
 /// Whether all control points of the row at an end are one point.
 bool is_pole(const detail::NetAcross& net, int row) {
-  const Points& p = net.surface().control_points();
-  const double near = same_point * (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
+  const double near = same_point * brep::net_diagonal(net.surface().control_points());
   for (int j = 1; j < net.columns(); ++j) {
     if ((net.point(row, j) - net.point(row, 0)).norm() > near) return false;
   }
@@ -89,8 +89,7 @@ void join_ends(const Surface& surface, const VisibleRegion& region, int first, J
 /// has none: where derivatives of S along it vanish so do those of D ∘ S, whatever D is. Else
 /// tangent planes there would be by chance, and faces that meet there come apart.
 void join_still_sides(const Surface& surface, int first, Joined& joined) {
-  const Points& p = surface.control_points();
-  const double near = same_point * (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
+  const double near = same_point * brep::net_diagonal(surface.control_points());
   for (int d = 0; d < 2; ++d) {
     const detail::NetAcross net(surface, d);
     const bool clamped = net.knots().clamped();
@@ -139,8 +138,7 @@ Expected<void> FitNets::hold(std::span<const FitSurface> given) {
     Expected<ConstraintList> own = ConstraintList(surfaces[s].size());
     if (given[s].holds) own = given[s].holds->conditions(surfaces[s]);
     if (!own) return std::unexpected(own.error());
-    const Points& p = surfaces[s].control_points();
-    const double size = (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
+    const double size = brep::net_diagonal(surfaces[s].control_points());
     const auto poles = keep_poles(surfaces[s], same_point * size, flat_ring, *own);
     if (!poles) return std::unexpected(poles.error());
     const auto of = [&](int k) { return unknown[static_cast<std::size_t>(first[s] + k)]; };

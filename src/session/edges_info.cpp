@@ -59,17 +59,13 @@ std::vector<EdgesInfo> edges_info(const Session& session) {
     if (s.visible && s.visible->edges.empty()) continue;
     EdgesInfo& info = infos.emplace_back();
     info.surface = s.id;
-    const auto report =
-        known ? trim_report(s) : Expected<TrimReport>(std::unexpected(known.error()));
-    if (!report) {
-      info.unknown = report.error().message();
+    if (!known) {
+      info.unknown = known.error().message();
       continue;
     }
     info.tolerance = trim_tolerance(*s.opened, *s.visible);
-    for (const TrimReport::Edge& edge : report->edges) {
-      const std::string& id = edge.held.id;
-      info.edges.push_back({id, edge.neighbours, parting_of(*parted, id)});
-    }
+    for (const TrimEdge& edge : s.visible->edges)
+      info.edges.push_back({edge.id, edge.neighbours, parting_of(*parted, edge.id)});
   }
   return infos;
 }

@@ -23,6 +23,13 @@ Expected<Surface> on_basis_of(const Surface& shape, const Surface& like) {
   return Surface::create(like.knots(), finer->control_points(), {weights.begin(), weights.end()});
 }
 
+Expected<void> put_at_rest(SceneSurface& s, std::shared_ptr<const Surface> current) {
+  if (auto status = put<2>(s, std::move(current)); !status) return status;
+  s.rest = s.current;
+  s.velocity.resize(0, 3);
+  return {};
+}
+
 namespace {
 
 /// Puts a surface where it was fitted, on the net that this took: the new rest shape.
@@ -31,10 +38,7 @@ Expected<void> follow(Act& act, SceneSurface& s, const std::shared_ptr<const Sur
     const auto onto = [&](const Surface& shape) { return on_basis_of(shape, *fitted); };
     if (auto changed = change_net(act, s, onto); !changed) return changed;
   }
-  if (auto status = put<2>(s, fitted); !status) return status;
-  s.rest = s.current;
-  s.velocity.resize(0, 3);
-  return {};
+  return put_at_rest(s, fitted);
 }
 
 }  // namespace

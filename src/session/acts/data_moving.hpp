@@ -17,6 +17,9 @@ namespace knead {
 /// Notes what of a report is above what was wanted.
 void note_excess(Act& act, const MorphReport& report, std::string_view command);
 
+/// Puts a surface where it is to rest from now on. Errors: those of `put`.
+[[nodiscard]] Expected<void> put_at_rest(SceneSurface& s, std::shared_ptr<const Surface> current);
+
 /// A shape on the net of another one, with the same bits of knots and weights: shapes are compared
 /// by them. Errors: those of `onto_net`.
 [[nodiscard]] Expected<Surface> on_basis_of(const Surface& shape, const Surface& like);

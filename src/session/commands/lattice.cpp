@@ -117,10 +117,8 @@ Expected<void> move_points(Act& act, const Lattice& lattice, const Points& after
     request.settings.faces.push_back(s.id);
     auto shape = on_basis_of(*before[k], *s.current);
     if (!shape) return std::unexpected(shape.error());
-    if (auto status = put<2>(s, std::make_shared<const Surface>(*std::move(shape))); !status)
+    if (auto status = put_at_rest(s, std::make_shared<const Surface>(*std::move(shape))); !status)
       return status;
-    s.rest = s.current;
-    s.velocity.resize(0, 3);
   }
   if (act.state.permission == RefinePermission::never) request.settings.refinement = 1;
   const auto report = move_after_data(act, std::move(data), std::move(request));
@@ -139,10 +137,9 @@ Expected<void> move_nets(Act& act, const Lattice& lattice, const Points& after,
     auto moved = before[k]->with_control_points(*points);
     if (!moved) return std::unexpected(moved.error());
     SceneSurface& s = act.state.surfaces[static_cast<std::size_t>(selection[k])];
-    auto current = std::make_shared<const Surface>(std::move(*moved));
-    if (auto status = put<2>(s, current); !status) return status;
-    s.rest = std::move(current);  // the block carries the energy, not they
-    s.velocity.resize(0, 3);
+    // The block carries the energy, not they.
+    if (auto status = put_at_rest(s, std::make_shared<const Surface>(std::move(*moved))); !status)
+      return status;
   }
   return {};
 }
